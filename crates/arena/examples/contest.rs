@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::contest::{Contest, ContestRobot, Contestant, LocateOutcome, Schooling};
+use tolman_arena::contest::{Condition, Contest, ContestRobot, Contestant, Located, Schooling};
 use tolman_arena::family::Family;
 
 fn main() -> Result<(), tolman_arena::BoxError> {
@@ -32,6 +32,7 @@ fn main() -> Result<(), tolman_arena::BoxError> {
                     robot,
                     maze: &maze,
                     name: family.name,
+                    condition: Condition::AsMade,
                     starts: 1,
                     seed,
                 };
@@ -40,7 +41,7 @@ fn main() -> Result<(), tolman_arena::BoxError> {
                 let homes: Vec<String> = (record.homes.iter())
                     .map(|home| format!("{:?} {}", home.over_shortest, home.gave_up))
                     .collect();
-                let found: Vec<&LocateOutcome> = record.found.iter().collect();
+                let found: Vec<&Located> = record.found.iter().collect();
                 let learned = record.learned.map(|l| {
                     let j = l.judgement;
                     format!(

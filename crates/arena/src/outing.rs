@@ -6,6 +6,7 @@ use tolman_robot::{
     Body, Guess, Landmark, MapView, Position, Ring, Robot, Scan, SensesLandmarks, Standing, System,
     Task,
 };
+use tolman_sim::DoorState;
 use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer, Pioneer2dx};
 use tolman_sim::trace::Recordable;
 use tolman_systems::cpm::RingAsEpuck;
@@ -52,11 +53,32 @@ pub trait Outing: InRun {
     /// Returns the places that the system came to, in order, as it understands them now; empty if its places keep their names.
     fn visits(&self) -> Vec<Option<u32>>;
 
+    /// Returns how likely the system takes its map to be right, 0 … 1; `None` if it does not weigh that.
+    fn certainty(&self) -> Option<f64> {
+        None
+    }
+
     /// Lifts the robot, puts it down at `pose` and tells the system, and returns whether that goes on.
     ///
     /// # Errors
     /// If the robot cannot stand there.
     fn put_down(&mut self, pose: Pose) -> Result<Standing, BoxError>;
+
+    /// Lifts the robot and puts it down at `pose`, and does not tell the system.
+    ///
+    /// # Errors
+    /// If the robot cannot stand there.
+    fn lift(&mut self, _pose: Pose) -> Result<(), BoxError> {
+        Err("its robot is not lifted".into())
+    }
+
+    /// Opens or shuts a door of the world.
+    ///
+    /// # Errors
+    /// If there is no such door.
+    fn set_door(&mut self, name: &str, _state: DoorState) -> Result<(), BoxError> {
+        Err(format!("nobody opens or shuts its door {name}").into())
+    }
 
     /// Returns where the places of the map truly lie, as far as that is known, for pictures. O(map).
     fn sites(&self) -> BTreeMap<u32, Point>;
@@ -402,9 +424,22 @@ where
         self.system.visits()
     }
 
+    fn certainty(&self) -> Option<f64> {
+        self.system.certainty()
+    }
+
     fn put_down(&mut self, pose: Pose) -> Result<Standing, BoxError> {
-        self.robot.robot_mut().simulated_mut().place(pose)?;
+        self.lift(pose)?;
         Ok(self.system.put_down())
+    }
+
+    fn lift(&mut self, pose: Pose) -> Result<(), BoxError> {
+        Ok(self.robot.robot_mut().simulated_mut().place(pose)?)
+    }
+
+    fn set_door(&mut self, name: &str, state: DoorState) -> Result<(), BoxError> {
+        let robot = self.robot.robot_mut().simulated_mut();
+        Ok(robot.set_door(name, state)?)
     }
 
     fn sites(&self) -> BTreeMap<u32, Point> {

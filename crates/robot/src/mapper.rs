@@ -39,6 +39,11 @@ pub trait Mapper {
     fn visits(&self) -> Vec<Option<u32>> {
         Vec::new()
     }
+
+    /// Returns how likely it takes its map to be that of what it has seen, 0 … 1; `None` if it does not weigh that.
+    fn certainty(&self) -> Option<f64> {
+        None
+    }
 }
 
 impl<M: Mapper + ?Sized> Mapper for &mut M {
@@ -59,6 +64,10 @@ impl<M: Mapper + ?Sized> Mapper for &mut M {
 
     fn visits(&self) -> Vec<Option<u32>> {
         (**self).visits()
+    }
+
+    fn certainty(&self) -> Option<f64> {
+        (**self).certainty()
     }
 }
 

@@ -11,11 +11,15 @@ use tolman_systems::cpm::{
     CommonPatterns, Cpm, CpmConfig, Lesson, Mode, RingAsEpuck, Walker, WalkerConfig, soinn, wander,
 };
 use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
-use tolman_systems::gngslam::{OnlineSlam, OnlineSlamConfig};
+use tolman_systems::gngslam::{OfflineSlam, OfflineSlamConfig, OnlineSlam, OnlineSlamConfig};
 use tolman_systems::micromouse::SIDE;
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
-use tolman_systems::mslst::{Mslst, MslstConfig};
+use tolman_systems::mslst::better::BetterConfig;
+use tolman_systems::mslst::{BetterMslst, Mslst, MslstConfig};
 
+use super::condition::Condition;
+use super::pathfinder::Pathfinder;
+use super::play::Contest;
 use super::true_graph::PlaceRule;
 use crate::cast::Agent;
 use crate::course::Course;
@@ -23,7 +27,9 @@ use crate::cpm::{self, epuck, epuck_course, patience, ring_measures, walker_conf
 use crate::diktiometry::{Office, OfficeConfig, PlaceCue, SurveyorConfig, mapper, office_robot};
 use crate::episode::layers;
 use crate::micromouse::brief;
-use crate::pioneer::{CAMERA_PIONEER, CORRIDOR_WIDTH, LASER_PIONEER, body, calibrated};
+use crate::pioneer::{
+    CAMERA_PIONEER, CORRIDOR_WIDTH, ENCODER_SD, LASER_PIONEER, body, calibrated, with_sensor_noise,
+};
 use crate::{BoxError, Depicted, HasSimulated, Outing, Sent};
 
 /// Who is sent into a world.
@@ -31,6 +37,8 @@ use crate::{BoxError, Depicted, HasSimulated, Outing, Sent};
 pub enum Contestant {
     /// [`Mslst`], which learns for as long as it may drive.
     Mslst,
+    /// [`BetterMslst`], which reckons with encoders.
+    MslstBetter,
     /// [`Cpm`] online, as the paper has it.
     Cpm,
     /// [`Cpm`] with dead reckoning and several hypotheses.
@@ -39,6 +47,8 @@ pub enum Contestant {
     Diktiometry,
     /// [`Diktiometer`] with a journal of all its moves that also merges places by what they look like.
     DiktiometryBetter,
+    /// [`OfflineSlam`], which gathers records for as long as it may drive, and then learns a map of all of them.
+    GngSlam,
     /// [`OnlineSlam`], whose places are points of the floor.
     GngSlamBetter,
     /// [`MazeMouse`], which is told the grid, its start and the goal.
@@ -94,14 +104,19 @@ const WIDE: f64 = 1.5;
 const SCANS_A_CELL: u32 = 10;
 const ACTIONS_A_CELL: u32 = 6;
 
+/// GNG-SLAM takes so many records for each cell: the most of what it may drive.
+const RECORDS_A_CELL: usize = 5;
+
 impl Contestant {
     /// All of them, systems first.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::Mslst,
+        Self::MslstBetter,
         Self::Cpm,
         Self::CpmBetter,
         Self::Diktiometry,
         Self::DiktiometryBetter,
+        Self::GngSlam,
         Self::GngSlamBetter,
         Self::Micromouse,
         Self::Baseline(Agent::Random),
@@ -116,10 +131,12 @@ impl Contestant {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Mslst => "MSLST",
+            Self::MslstBetter => "MSLST Better",
             Self::Cpm => "CPM",
             Self::CpmBetter => "CPM Better",
             Self::Diktiometry => "Diktiometry",
             Self::DiktiometryBetter => "Diktiometry Better",
+            Self::GngSlam => "GNG-SLAM",
             Self::GngSlamBetter => "GNG-SLAM Better",
             Self::Micromouse => "Micromouse",
             Self::Baseline(agent) => agent.name(),
@@ -140,8 +157,28 @@ impl Contestant {
         match (self, robot) {
             (Self::Cpm | Self::CpmBetter, ContestRobot::Own) => "e-puck",
             (Self::Diktiometry | Self::DiktiometryBetter, ContestRobot::Own) => CAMERA_PIONEER,
-            (Self::GngSlamBetter, ContestRobot::Own) => Pioneer2dx::NAME,
+            (Self::GngSlam | Self::GngSlamBetter, ContestRobot::Own) => Pioneer2dx::NAME,
             _ => LASER_PIONEER,
+        }
+    }
+
+    /// Returns whether its robot knows which way is north.
+    pub(super) const fn has_compass(self, robot: ContestRobot) -> bool {
+        !matches!(
+            (self, robot),
+            (
+                Self::Cpm | Self::CpmBetter | Self::GngSlam | Self::GngSlamBetter,
+                ContestRobot::Own
+            )
+        )
+    }
+
+    /// Returns how many cells straight on its robot sees through an opening, at most.
+    pub(super) const fn sees_cells(self, robot: ContestRobot) -> u32 {
+        match (self, robot) {
+            (Self::GngSlam | Self::GngSlamBetter, _) => 3,
+            (Self::Diktiometry | Self::DiktiometryBetter, ContestRobot::Own) => 5,
+            _ => 1,
         }
     }
 
@@ -154,8 +191,9 @@ impl Contestant {
         }
     }
 
-    /// Returns whether it says, when it is done, that its map is that of the whole world. MSLST has then used up its actions,
-    /// and the micromouse has proven a shortest run.
+    /// Returns whether it says, when it is done, that its map is that of the whole world. MSLST has then used up its actions, MSLST Better
+    /// has been everywhere, GNG-SLAM has its records and the micromouse has proven a shortest run: none of them says that its places are
+    /// those of the drawing.
     #[must_use]
     pub const fn claims(self) -> bool {
         matches!(
@@ -164,8 +202,8 @@ impl Contestant {
         )
     }
 
-    /// Returns why it cannot work in a drawing, in a sentence without a full stop, as its features alone say; `None` where it
-    /// can. Who knows that abstains, and is not sent. O(cells).
+    /// Returns why it cannot work in a drawing, in a sentence without a full stop, as its features and the robot's sensors alone say;
+    /// `None` where it can. Who knows that abstains, and is not sent. O(cells).
     #[must_use]
     pub fn abstains(self, maze: &Maze, robot: ContestRobot) -> Option<String> {
         let room = maze.reachable().find(|cell| maze.is_room(*cell));
@@ -174,6 +212,9 @@ impl Contestant {
             (Self::Cpm | Self::CpmBetter, _, Some(cell)) => Some(format!(
                 "it follows corridors, and there is an open square of 2 × 2 cells at {cell}"
             )),
+            (Self::GngSlam, ContestRobot::Pioneer, _) => Some(
+                "it tells places by what a camera sees, and the laser Pioneer has none".to_owned(),
+            ),
             (Self::Micromouse, ..) if grid.width().max(grid.height()) as usize > SIDE => {
                 Some(format!("it knows mazes of at most {SIDE} × {SIDE} cells"))
             }
@@ -181,39 +222,43 @@ impl Contestant {
         }
     }
 
-    /// Puts it at the start of a drawing, in corridors as its robot is made for. The seed is that of all chance.
+    /// Puts it at the start of the contest's drawing, in corridors as its robot is made for.
     ///
     /// # Errors
     /// If it is a baseline, which is sent by other means, or robot and drawing do not go together.
     pub(super) fn enter(
         self,
-        maze: &Maze,
-        name: &str,
-        robot: ContestRobot,
+        contest: &Contest<'_>,
         schooling: &Schooling,
-        seed: u64,
     ) -> Result<Entered, BoxError> {
+        let Contest {
+            maze,
+            name,
+            robot,
+            seed,
+            condition,
+            ..
+        } = *contest;
         match (self, robot) {
             (Self::Cpm | Self::CpmBetter, ContestRobot::Own) => {
-                let course = epuck_course(name, maze.clone().into())?;
+                let course = contest.with_door(epuck_course(name, maze.clone().into())?)?;
                 let (start, width) = (course.start()?, course.corridor_width);
-                let body = course.robot_at(start, Epuck::new(epuck())?, seed)?;
+                let robot = Epuck::new(condition.epuck(epuck()))?;
+                let body = course.robot_at(start, robot, seed)?;
                 let walker = walker_config(&epuck(), width)?;
                 let patterns = schooling.of_epuck()?;
                 Ok(self.sent_by_patterns(course, body, walker, patterns, maze, seed))
             }
             (Self::Cpm | Self::CpmBetter, ContestRobot::Pioneer) => {
-                let course = pioneer_course(name, maze)?;
-                let body = ring_as_epuck(&course, seed)?;
+                let course = contest.with_door(pioneer_course(name, maze)?)?;
+                let body = ring_as_epuck(&course, condition, seed)?;
                 let measures = ring_measures(&calibrated(), course.corridor_width);
                 let (walker, patterns) = (measures.walker_config(), schooling.of_pioneer()?);
                 Ok(self.sent_by_patterns(course, body, walker, patterns, maze, seed))
             }
-            (Self::Diktiometry | Self::DiktiometryBetter, _) => {
-                self.sent_through_office(maze, name, robot, seed)
-            }
+            (Self::Diktiometry | Self::DiktiometryBetter, _) => self.sent_through_office(contest),
             (Self::Mslst, _) => {
-                let course = pioneer_course(name, maze)?;
+                let course = contest.with_door(pioneer_course(name, maze)?)?;
                 let stack = layers(&course, &calibrated())?;
                 let cells = maze.reachable().count() as u32;
                 let config = MslstConfig {
@@ -222,11 +267,29 @@ impl Contestant {
                     ..MslstConfig::large(50.0)
                 };
                 let actor = Actor::seeded(Mslst::new(config), stack, seed);
-                let body = laser_pioneer(&course, seed)?;
+                let body = laser_pioneer(&course, condition, seed)?;
+                Ok(sent(course, body, actor))
+            }
+            (Self::MslstBetter, _) => {
+                let course = contest.with_door(pioneer_course(name, maze)?)?;
+                let robot = match robot {
+                    ContestRobot::Own => with_sensor_noise(&calibrated(), ENCODER_SD),
+                    ContestRobot::Pioneer => calibrated(),
+                };
+                let config = BetterConfig {
+                    diameter: 2.0 * robot.radius,
+                    corridor_width: course.corridor_width,
+                    ..BetterConfig::pioneer()
+                };
+                let stack = layers(&course, &robot)?.straightening();
+                let brain = BetterMslst::new(config, robot.ring);
+                let actor = Actor::seeded(brain, stack, seed);
+                let robot = LaserPioneer::new(condition.laser_pioneer(robot, seed))?;
+                let body = course.robot_at(course.start()?, robot, seed)?;
                 Ok(sent(course, body, actor))
             }
             (Self::Micromouse, _) => {
-                let course = pioneer_course(name, maze)?;
+                let course = contest.with_door(pioneer_course(name, maze)?)?;
                 let robot = calibrated();
                 let config = MazeMouseConfig {
                     pitch: course.corridor_width,
@@ -235,18 +298,28 @@ impl Contestant {
                     translate_per_step: robot.translate_per_step,
                 };
                 let mouse = MazeMouse::certify(brief(maze)?, config)?;
-                let body = laser_pioneer(&course, seed)?;
+                let body = laser_pioneer(&course, condition, seed)?;
                 Ok(sent(course, body, mouse))
             }
+            (Self::GngSlam, _) => {
+                let course = contest.with_door(Course::new(name, maze.clone(), WIDE)?)?;
+                let robot = condition.pioneer_2dx(Pioneer2dxConfig::paper(), seed);
+                let robot = Pioneer2dx::new(robot)?;
+                let body = course.robot_at(course.start()?, robot, seed)?;
+                let records = RECORDS_A_CELL * maze.reachable().count();
+                let config = OfflineSlamConfig::paper().with_records(records.max(2));
+                Ok(sent(course, body, OfflineSlam::new(config, seed)))
+            }
             (Self::GngSlamBetter, ContestRobot::Own) => {
-                let course = Course::new(name, maze.clone(), WIDE)?;
-                let robot = Pioneer2dx::new(Pioneer2dxConfig::paper())?;
+                let course = contest.with_door(Course::new(name, maze.clone(), WIDE)?)?;
+                let robot = condition.pioneer_2dx(Pioneer2dxConfig::paper(), seed);
+                let robot = Pioneer2dx::new(robot)?;
                 let body = course.robot_at(course.start()?, robot, seed)?;
                 let config = OnlineSlamConfig::pioneer_2dx();
                 Ok(sent(course, body, OnlineSlam::new(config, seed)))
             }
             (Self::GngSlamBetter, ContestRobot::Pioneer) => {
-                let course = Course::new(name, maze.clone(), WIDE)?;
+                let course = contest.with_door(Course::new(name, maze.clone(), WIDE)?)?;
                 let robot = LaserPioneerConfig {
                     ring: Ring::full(90, 4.0),
                     ..calibrated()
@@ -255,7 +328,7 @@ impl Contestant {
                 // As far and as much a time step as the Pioneer 2-DX.
                 let rates = (0.04 / robot.translate_per_step, 0.1);
                 config.drive = config.drive.with_rates(rates.0, rates.1);
-                let body = LaserPioneer::new(robot)?;
+                let body = LaserPioneer::new(condition.laser_pioneer(robot, seed))?;
                 let body = course.robot_at(course.start()?, body, seed)?;
                 Ok(sent(course, body, OnlineSlam::new(config, seed)))
             }
@@ -291,13 +364,15 @@ impl Contestant {
         sent(course, robot, system)
     }
 
-    fn sent_through_office(
-        self,
-        maze: &Maze,
-        name: &str,
-        robot: ContestRobot,
-        seed: u64,
-    ) -> Result<Entered, BoxError> {
+    fn sent_through_office(self, contest: &Contest<'_>) -> Result<Entered, BoxError> {
+        let Contest {
+            maze,
+            name,
+            robot,
+            seed,
+            condition,
+            ..
+        } = *contest;
         let furniture = OfficeConfig {
             colours: match robot {
                 ContestRobot::Own => COLOURS,
@@ -306,7 +381,8 @@ impl Contestant {
             seed,
             ..OfficeConfig::bare()
         };
-        let office = Office::new(maze, &furniture)?.named(name);
+        let mut office = Office::new(maze, &furniture)?.named(name);
+        office.course = contest.with_door(office.course)?;
         let (start, _) = maze.start().ok_or("the drawing marks no start")?;
         let at = super::whereabouts::Squares {
             grid: maze.grid(),
@@ -317,6 +393,7 @@ impl Contestant {
             ContestRobot::Own => SurveyorConfig::paper(),
             ContestRobot::Pioneer => SurveyorConfig::mslst(),
         };
+        let made = condition.surveyor(config.clone(), seed);
         let routines = config.routines(furniture.corridor_width);
         let mut mapping = mapper(&office, &config);
         if self == Self::DiktiometryBetter {
@@ -329,20 +406,21 @@ impl Contestant {
         let pose = tolman_geom::Pose::new(at, tolman_geom::Heading::NORTH);
         Ok(match (robot, config.sight) {
             (ContestRobot::Pioneer, PlaceCue::Laser { columns }) => {
-                let body = LaserPioneer::new(config.laser_robot())?;
+                let body = LaserPioneer::new(made.laser_robot())?;
                 let body = course.robot_at(pose, body, seed)?;
                 sent_at(course, body, eyed(paper, LaserEye { columns }, seed), pitch)
             }
             _ => {
-                let body = office_robot(&office, &config, pose, seed)?;
+                let body = office_robot(&office, &made, pose, seed)?;
                 sent_at(course, body, eyed(paper, config.sight, seed), pitch)
             }
         })
     }
 }
 
-fn eyed<E>(config: DiktiometerConfig, eye: E, seed: u64) -> Diktiometer<E> {
-    Diktiometer::new(config, eye, seed)
+fn eyed<E: Clone>(config: DiktiometerConfig, eye: E, seed: u64) -> Pathfinder<E> {
+    let learner = Diktiometer::new(config, eye.clone(), seed);
+    Pathfinder::new(learner, eye, seed)
 }
 
 /// What CPM can drive, whatever its errors are.
@@ -385,17 +463,25 @@ pub(super) fn pioneer_course(name: &str, maze: &Maze) -> Result<Course, BoxError
     Ok(Course::for_body(name, &file, &body())?)
 }
 
-fn laser_pioneer(course: &Course, seed: u64) -> Result<crate::Simulated<LaserPioneer>, BoxError> {
-    let robot = LaserPioneer::new(calibrated())?;
+fn laser_pioneer(
+    course: &Course,
+    condition: Condition,
+    seed: u64,
+) -> Result<crate::Simulated<LaserPioneer>, BoxError> {
+    let robot = LaserPioneer::new(condition.laser_pioneer(calibrated(), seed))?;
     Ok(course.robot_at(course.start()?, robot, seed)?)
 }
 
 fn ring_as_epuck(
     course: &Course,
+    condition: Condition,
     seed: u64,
 ) -> Result<RingAsEpuck<crate::Simulated<LaserPioneer>>, BoxError> {
     let measures = ring_measures(&calibrated(), course.corridor_width);
-    Ok(RingAsEpuck::new(laser_pioneer(course, seed)?, measures)?)
+    Ok(RingAsEpuck::new(
+        laser_pioneer(course, condition, seed)?,
+        measures,
+    )?)
 }
 
 impl Schooling {
@@ -418,7 +504,7 @@ impl Schooling {
         }
         let maze = tolman_maze::read(LEARNING_MAZE)?.maze;
         let course = Course::new("learning", maze, CORRIDOR_WIDTH)?;
-        let robot = ring_as_epuck(&course, SCHOOL_SEED)?;
+        let robot = ring_as_epuck(&course, Condition::AsMade, SCHOOL_SEED)?;
         let config = ring_measures(&calibrated(), CORRIDOR_WIDTH).walker_config();
         let mut walker = Walker::new(robot, config);
         let mut rng = ChaCha8Rng::seed_from_u64(SCHOOL_SEED);

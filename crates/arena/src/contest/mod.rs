@@ -3,17 +3,21 @@
 //! A [`Contest`] sends one [`Contestant`] into one drawing: it learns, is put down somewhere and finds out where, is put down
 //! somewhere else and goes to the goal. What it learned is judged by the drawing's [`TrueGraph`]; it never sees it.
 
+mod condition;
 mod contestant;
+mod ideal;
 mod judgement;
+mod pathfinder;
 mod play;
 mod true_graph;
 mod wanderers;
 mod whereabouts;
 
+pub use condition::Condition;
 pub use contestant::{ContestRobot, Contestant, Schooling};
 pub use judgement::{MapJudgement, judge};
 pub use play::{
-    Claim, Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Moment,
+    Claim, Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,
 };
 pub use true_graph::{PlaceRule, TrueGraph, TrueWay};
 pub use whereabouts::PlaceVisit;

@@ -1,18 +1,24 @@
+use alloc::borrow::Cow;
 use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::sync::Arc;
 
 use rand::{Rng, RngExt};
 use thiserror::Error;
-use tolman_control::heading_of;
+use tolman_control::{heading_of, unit_of};
 use tolman_geom::{Point, Pose};
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::{Goal, Landmark, Standing, Task};
+use tolman_sim::{Door, DoorState, Material, WorldError};
 use tolman_systems::stream;
 
+use super::condition::Condition;
 use super::contestant::{ContestRobot, Contestant, Entered, Schooling};
+use super::ideal::IdealObserver;
 use super::judgement::{MapJudgement, judge, stands_for};
 use super::true_graph::TrueGraph;
-use super::wanderers;
+use super::wanderers::Sender;
 use super::whereabouts::{PlaceVisit, Squares, believed};
+use crate::course::Course;
 use crate::run::TaskEnd;
 use crate::{BoxError, Outing};
 
@@ -27,6 +33,8 @@ pub struct Contest<'a> {
     pub maze: &'a Maze,
     /// What it is called.
     pub name: &'a str,
+    /// What is otherwise than as robot and world are made.
+    pub condition: Condition,
     /// How often it is put down to find out where it is, and as often to go to the goal.
     pub starts: u32,
     /// The seed of all chance.
@@ -80,7 +88,7 @@ pub struct ContestRecord {
     /// What it learned; `None` of who abstained, or learns no map.
     pub learned: Option<LearnRecord>,
     /// What it made of each place where it was to find out where it is.
-    pub found: Vec<LocateOutcome>,
+    pub found: Vec<Located>,
     /// How it went from each place where it was to go to the goal.
     pub homes: Vec<Home>,
 }
@@ -92,6 +100,8 @@ pub struct LearnRecord {
     pub end: TaskEnd,
     /// What the system makes of its own map.
     pub claim: Claim,
+    /// How likely it takes its map to be right, 0 … 1; `None` if it does not weigh that.
+    pub certainty: Option<f64>,
     /// How good its map is.
     pub judgement: MapJudgement,
     /// Metres driven over the length of all corridors.
@@ -123,14 +133,17 @@ impl Claim {
             TaskEnd::Done | TaskEnd::OutOfTime => Self::Undecided,
         }
     }
+}
 
-    /// Returns how likely the map is right by that, 0 to 1; a half where the system does not say.
+impl LearnRecord {
+    /// Returns how likely the map is right by the system's own verdict, 0 … 1: as likely as it takes it to be where it claims that; a half where
+    /// it does not say.
     #[must_use]
-    pub const fn likelihood(self) -> f64 {
-        match self {
-            Self::Right => 1.0,
-            Self::Wrong => 0.0,
-            Self::Undecided => 0.5,
+    pub fn likelihood(&self) -> f64 {
+        match self.claim {
+            Claim::Right => self.certainty.unwrap_or(1.0),
+            Claim::Wrong => 0.0,
+            Claim::Undecided => 0.5,
         }
     }
 }
@@ -149,6 +162,25 @@ pub enum LocateOutcome {
     },
 }
 
+/// What came of it when a robot was put down and asked where that is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Located {
+    /// What it says.
+    pub outcome: LocateOutcome,
+    /// How likely an observer that has the true drawing and mistakes nothing would be right about the cell after the same drive, 0 … 1: the
+    /// passive ceiling. `None` if it did not drive.
+    pub ceiling: Option<f64>,
+}
+
+impl Located {
+    pub(super) const fn undriven(why: String) -> Self {
+        Self {
+            outcome: LocateOutcome::Abstained { why },
+            ceiling: None,
+        }
+    }
+}
+
 /// How a robot went to the goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Home {
@@ -161,8 +193,15 @@ pub struct Home {
 }
 
 const START_STREAM: u64 = 31;
+const KIDNAPPING_STREAM: u64 = 34;
 
-impl Contest<'_> {
+/// What the door is called.
+const DOOR: &str = "door";
+
+/// A robot is kidnapped when it has driven such a share of the length of all corridors.
+const KIDNAPPED_AT: f64 = 0.5;
+
+impl<'a> Contest<'a> {
     /// A task ends when so many times the length of all corridors was driven, or of the shortest way to the goal.
     pub const LIMIT: f64 = 10.0;
 
@@ -182,18 +221,22 @@ impl Contest<'_> {
             });
         }
         if let Contestant::Baseline(agent) = self.contestant {
-            let homes = wanderers::homes(self, agent).map_err(|source| self.enter_error(source))?;
+            let enter_error = |source| self.enter_error(source);
+            let sender = Sender::new(self, agent).map_err(enter_error)?;
             return Ok(ContestRecord {
-                homes,
+                found: sender.found().map_err(enter_error)?,
+                homes: sender.homes().map_err(enter_error)?,
                 ..ContestRecord::default()
             });
         }
         let contestant = self.contestant;
-        let entered = contestant.enter(self.maze, self.name, self.robot, schooling, self.seed);
+        let entered = contestant.enter(self, schooling);
         let entered = entered.map_err(|source| self.enter_error(source))?;
         let mut bout = Bout::new(self, entered);
         watch(&*bout.outing, Moment::Begun);
-        let learned = bout.learn(&mut watch);
+        let learned = bout.learn(self.kidnapping(), &mut watch);
+        bout.shut_door()
+            .map_err(|source| self.enter_error(source))?;
         let (mut found, mut homes) = (Vec::new(), Vec::new());
         for [here, there] in self.put_downs() {
             let put = bout
@@ -219,13 +262,75 @@ impl Contest<'_> {
     #[must_use]
     pub fn put_downs(&self) -> Vec<[(Cell, Direction); 2]> {
         let mut rng = stream(self.seed, START_STREAM);
-        let maze = self.maze;
-        let cells = maze.reachable().filter(|cell| !maze.goals().contains(cell));
-        let out_of = |cell| maze.neighbours(cell).map(move |(way, _)| (cell, way));
-        let ways: Vec<(Cell, Direction)> = cells.flat_map(out_of).collect();
+        let ways = self.ways_out();
         let mut pick = || ways.get(position(ways.len(), &mut rng)).copied();
         let starts = (0..self.starts).filter_map(|_| Some([pick()?, pick()?]));
         starts.collect()
+    }
+
+    /// Returns the opening that is a door: see [`Condition::Doors`].
+    fn door(&self) -> Option<(Cell, Direction)> {
+        self.condition.door(self.maze, self.seed)
+    }
+
+    /// Returns the course with its door.
+    pub(super) fn with_door(&self, mut course: Course) -> Result<Course, WorldError> {
+        let Some((cell, way)) = self.door() else {
+            return Ok(course);
+        };
+        let next = self.maze.grid().neighbour(cell, way).unwrap_or(cell);
+        let [here, there] = [cell, next].map(|cell| course.cell_centre(cell));
+        let middle = here + 0.5 * (there - here);
+        let half = unit_of(way.left()) * (0.5 * course.corridor_width);
+        let door = Door {
+            name: DOOR.to_owned(),
+            start: middle - half,
+            end: middle + half,
+            material: Material::default(),
+            state: DoorState::Open,
+            schedule: Vec::new(),
+        };
+        let world = (*course.world).clone().with_door(door)?;
+        course.world = Arc::new(world);
+        Ok(course)
+    }
+
+    /// Returns the drawing as it is once the robot has learned.
+    pub(super) fn maze_afterwards(&self) -> Cow<'a, Maze> {
+        match self.door() {
+            None => Cow::Borrowed(self.maze),
+            Some((cell, way)) => {
+                let mut maze = self.maze.clone();
+                maze.set_wall(cell, way, true);
+                Cow::Owned(maze)
+            }
+        }
+    }
+
+    /// Returns where the robot is put amid learning without being told; `None` if it is not.
+    fn kidnapping(&self) -> Option<(Cell, Direction)> {
+        let is_kidnapped = self.condition == Condition::Kidnapping;
+        let mut rng = stream(self.seed, KIDNAPPING_STREAM);
+        let ways = self.ways_out();
+        let place = ways.get(position(ways.len(), &mut rng)).copied();
+        place.filter(|_| is_kidnapped)
+    }
+
+    /// The cells but goals, and the ways out of them.
+    fn ways_out(&self) -> Vec<(Cell, Direction)> {
+        let maze = self.maze;
+        let cells = maze.reachable().filter(|cell| !maze.goals().contains(cell));
+        let out_of = |cell| maze.neighbours(cell).map(move |(way, _)| (cell, way));
+        cells.flat_map(out_of).collect()
+    }
+
+    /// Returns the ceiling of whoever watches.
+    pub(super) fn observer(&self) -> IdealObserver<'a> {
+        IdealObserver {
+            maze: self.maze_afterwards(),
+            has_compass: self.contestant.has_compass(self.robot),
+            reach: self.contestant.sees_cells(self.robot),
+        }
     }
 
     fn enter_error(&self, source: BoxError) -> ContestError {
@@ -255,7 +360,10 @@ fn position(len: usize, rng: &mut impl Rng) -> usize {
 /// A contest under way.
 struct Bout<'a> {
     maze: &'a Maze,
+    /// As it is once the robot has learned.
+    afterwards: Cow<'a, Maze>,
     truth: TrueGraph,
+    observer: IdealObserver<'a>,
     claims: bool,
     squares: Squares,
     outing: Box<dyn Outing>,
@@ -273,6 +381,8 @@ struct Driven {
     bumps: u32,
     /// Metres until it first was at the goal that it was sent to.
     arrived: Option<f64>,
+    /// Metres in all.
+    metres: f64,
 }
 
 impl<'a> Bout<'a> {
@@ -282,7 +392,9 @@ impl<'a> Bout<'a> {
         let grid = maze.grid();
         Self {
             maze,
+            afterwards: contest.maze_afterwards(),
             truth: TrueGraph::of(maze, contest.contestant.places()),
+            observer: contest.observer(),
             claims: contest.contestant.claims(),
             squares: Squares { grid, pitch },
             outing,
@@ -296,12 +408,13 @@ impl<'a> Bout<'a> {
         last.map_or_else(Point::origin, |pose| pose.position)
     }
 
-    /// Lets it pursue a task until it is done, gives up, or has driven `most` metres. `see` is shown what it was before and
-    /// after each action.
+    /// Lets it pursue a task until it is done, gives up, or has driven `most` metres. After as many metres as `kidnapping` says it is put
+    /// elsewhere, and not told. `see` is shown what it was before and after each action.
     fn pursue(
         &mut self,
         task: Task,
         most: f64,
+        mut kidnapping: Option<(f64, Pose)>,
         mut see: impl FnMut(&dyn Outing, Point),
         watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Driven {
@@ -312,8 +425,13 @@ impl<'a> Bout<'a> {
         let is_sent = matches!(task, Task::Reach(_));
         let (mut driven, mut until, mut idle) = (0.0, from, 0_u32);
         let mut arrived = None;
+        // Where it was put, and the pose of its path that came next.
+        let mut put: Option<(Point, usize)> = None;
         let end = loop {
-            let before = self.here();
+            let before = match put {
+                Some((at, next)) if next > until => at,
+                _ => self.here(),
+            };
             let standing = self.outing.act(task);
             see(&*self.outing, before);
             watch(&*self.outing, Moment::Acted);
@@ -322,7 +440,8 @@ impl<'a> Bout<'a> {
             idle = if last > until { 0 } else { idle + 1 };
             for at in until..=last {
                 let step = path.get(at.max(from + 1) - 1..=at).map_or(0.0, length);
-                driven += if at > until { step } else { 0.0 };
+                let is_lifted = put.is_some_and(|(_, next)| next == at);
+                driven += if at > until && !is_lifted { step } else { 0.0 };
                 let is_there = is_sent && self.outing.course().is_destination(path[at].position);
                 arrived = arrived.or(is_there.then_some(driven));
             }
@@ -336,6 +455,11 @@ impl<'a> Bout<'a> {
                     break TaskEnd::GaveUp { why };
                 }
             }
+            if let Some((_, pose)) = kidnapping.take_if(|(after, _)| driven > *after)
+                && self.outing.lift(pose).is_ok()
+            {
+                put = Some((pose.position, last + 1));
+            }
             let is_over = driven > most || idle > IDLE || arrived.is_some();
             if is_over || self.outing.is_out_of_time() {
                 break TaskEnd::OutOfTime;
@@ -347,15 +471,28 @@ impl<'a> Bout<'a> {
             from,
             bumps,
             arrived,
+            metres: driven,
+        }
+    }
+
+    /// Shuts the door, if there is one.
+    fn shut_door(&mut self) -> Result<(), BoxError> {
+        match &self.afterwards {
+            Cow::Borrowed(_) => Ok(()),
+            Cow::Owned(_) => self.outing.set_door(DOOR, DoorState::Shut),
         }
     }
 
     /// Metres of all corridors.
     fn corridors(&self) -> f64 {
-        self.maze.opening_count_reached() as f64 * self.squares.pitch
+        self.maze.corridor_count() as f64 * self.squares.pitch
     }
 
-    fn learn(&mut self, watch: &mut impl FnMut(&dyn Outing, Moment)) -> LearnRecord {
+    fn learn(
+        &mut self,
+        kidnapping: Option<(Cell, Direction)>,
+        watch: &mut impl FnMut(&dyn Outing, Moment),
+    ) -> LearnRecord {
         let squares = self.squares;
         let most = Contest::LIMIT * self.corridors();
         // Where it was when it came to each of its places, and what it believed after each action.
@@ -376,7 +513,11 @@ impl<'a> Bout<'a> {
                 beliefs.extend(place.map(|place| PlaceVisit { place, cell }));
             }
         };
-        let driven = self.pursue(Task::Explore, most, see, watch);
+        let kidnapping = kidnapping.map(|(cell, way)| {
+            let pose = Pose::new(squares.middle(cell), heading_of(way));
+            (KIDNAPPED_AT * self.corridors(), pose)
+        });
+        let driven = self.pursue(Task::Explore, most, kidnapping, see, watch);
         let named = self.outing.visits();
         let visits: Vec<PlaceVisit> = match named.is_empty() {
             true => beliefs,
@@ -397,9 +538,10 @@ impl<'a> Bout<'a> {
         (self.stands_for, _) = stands_for(&map, &visits, squares);
         LearnRecord {
             claim: Claim::of(&driven.end, self.claims),
+            certainty: self.outing.certainty(),
             end: driven.end,
             judgement,
-            driven: length(path) / self.corridors().max(squares.pitch),
+            driven: driven.metres / self.corridors().max(squares.pitch),
             steps: (path.len() - 1) as u32,
             bumps: driven.bumps,
             places: map.places.len(),
@@ -417,28 +559,35 @@ impl<'a> Bout<'a> {
         &mut self,
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
-    ) -> Result<LocateOutcome, BoxError> {
+    ) -> Result<Located, BoxError> {
         if let Standing::GaveUp { why } = self.put_down(start)? {
-            return Ok(LocateOutcome::Abstained { why });
+            return Ok(Located::undriven(why));
         }
         let most = Contest::LIMIT * self.corridors();
-        let driven = self.pursue(Task::Localize, most, |_, _| {}, watch);
-        match driven.end {
-            TaskEnd::GaveUp { why } => return Ok(LocateOutcome::Abstained { why }),
-            TaskEnd::OutOfTime => {
-                let why = "it was still looking when its time was up".to_owned();
-                return Ok(LocateOutcome::Abstained { why });
-            }
-            TaskEnd::Done => {}
-        }
+        let driven = self.pursue(Task::Localize, most, None, |_, _| {}, watch);
+        let path = &self.outing.path()[driven.from..];
+        let ceiling = self.observer.after(self.squares, start, path);
+        let why = match driven.end {
+            TaskEnd::Done => None,
+            TaskEnd::GaveUp { why } => Some(why),
+            TaskEnd::OutOfTime => Some("it was still looking when its time was up".to_owned()),
+        };
+        Ok(Located {
+            outcome: why.map_or_else(|| self.found(), |why| LocateOutcome::Abstained { why }),
+            ceiling: Some(ceiling),
+        })
+    }
+
+    /// What it says of where it is, by the truth.
+    fn found(&self) -> LocateOutcome {
         let outing = &self.outing;
         let place = believed(&outing.belief(), || outing.map());
         let cell = place.and_then(|place| self.stands_for.get(&place));
         let off = cell.map(|cell| (self.squares.middle(*cell) - self.here()).norm());
-        Ok(match off {
+        match off {
             Some(off) if off < NEAR * self.squares.pitch => LocateOutcome::Right,
             _ => LocateOutcome::Wrong,
-        })
+        }
     }
 
     fn home(
@@ -446,7 +595,7 @@ impl<'a> Bout<'a> {
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Result<Home, BoxError> {
-        let shortest = self.maze.metres_to_goal(start.0, self.squares.pitch);
+        let shortest = self.afterwards.metres_to_goal(start.0, self.squares.pitch);
         if let Standing::GaveUp { why } = self.put_down(start)? {
             return Ok(Home {
                 over_shortest: None,
@@ -456,7 +605,7 @@ impl<'a> Bout<'a> {
         }
         let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
         let most = Contest::LIMIT * shortest;
-        let driven = self.pursue(goal, most, |_, _| {}, watch);
+        let driven = self.pursue(goal, most, None, |_, _| {}, watch);
         let arrived = driven.arrived;
         Ok(Home {
             over_shortest: arrived.filter(|way| *way <= most).map(|way| way / shortest),
@@ -473,7 +622,7 @@ impl<'a> Bout<'a> {
 const IDLE: u32 = 1000;
 
 /// A robot is at a place when it is nearer to it than this, in cells.
-const NEAR: f64 = 0.75;
+pub(super) const NEAR: f64 = 0.75;
 
 /// The length of a path, m.
 pub(super) fn length(path: &[Pose]) -> f64 {
@@ -488,14 +637,14 @@ pub(super) fn length(path: &[Pose]) -> f64 {
 /// What a contest measures of a drawing.
 pub(super) trait Measured {
     /// Openings between two cells that are reached.
-    fn opening_count_reached(&self) -> usize;
+    fn corridor_count(&self) -> usize;
 
     /// The length of the shortest way from a cell to the goal, m.
     fn metres_to_goal(&self, from: Cell, pitch: f64) -> f64;
 }
 
 impl Measured for Maze {
-    fn opening_count_reached(&self) -> usize {
+    fn corridor_count(&self) -> usize {
         let ways = self.reachable().map(|cell| self.degree(cell));
         ways.sum::<usize>() / 2
     }
@@ -536,6 +685,7 @@ mod tests {
             robot,
             maze: &maze,
             name: world,
+            condition: Condition::AsMade,
             starts: 1,
             seed: 3,
         };
@@ -566,12 +716,88 @@ mod tests {
     }
 
     #[test]
+    fn whoever_has_a_map_finds_itself_and_the_goal_from_anywhere() {
+        for contestant in [
+            Contestant::MslstBetter,
+            Contestant::CpmBetter,
+            Contestant::DiktiometryBetter,
+        ] {
+            let record = play(contestant, "star", ContestRobot::Own);
+            let found = &record.found[0];
+            assert_eq!(found.outcome, LocateOutcome::Right, "{contestant:?}");
+            assert!(found.ceiling.is_some_and(|chance| chance > 0.0));
+            let over = record.homes[0].over_shortest;
+            assert!(
+                over.is_some_and(|over| over < 5.0),
+                "{contestant:?} {over:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_paper_s_place_map_needs_a_camera_and_is_not_lifted() {
+        let record = play(Contestant::GngSlam, "star", ContestRobot::Pioneer);
+        assert!(record.abstained.unwrap().contains("camera"));
+        let record = play(Contestant::GngSlam, "star", ContestRobot::Own);
+        let learned = record.learned.unwrap();
+        assert_eq!(learned.end, TaskEnd::Done, "{learned:?}");
+        assert!(learned.places >= 2 && learned.driven < 1.2 * Contest::LIMIT);
+        let found = &record.found[0];
+        assert!(matches!(found.outcome, LocateOutcome::Abstained { .. }));
+        assert_eq!(found.ceiling, None);
+    }
+
+    #[test]
     fn an_oracle_comes_home_and_learns_nothing() {
         let oracle = Contestant::Baseline(Agent::Oracle);
         let record = play(oracle, "office", ContestRobot::Own);
         assert!(record.learned.is_none());
         let over = record.homes[0].over_shortest.unwrap();
         assert!(over < 2.0, "{over}");
+        assert!(record.found.is_empty());
+    }
+
+    #[test]
+    fn who_has_the_true_map_finds_out_where_it_is() {
+        let oracle = Contestant::Baseline(Agent::UnlocalizedOracle);
+        let record = play(oracle, "star", ContestRobot::Own);
+        assert_eq!(record.found[0].outcome, LocateOutcome::Right);
+    }
+
+    #[test]
+    fn under_each_condition_a_contest_ends_and_repeats() {
+        let schooling = Schooling::default();
+        let maze = drawn("blocks");
+        let played = |contestant, condition| {
+            let contest = Contest {
+                contestant,
+                robot: ContestRobot::Own,
+                maze: &maze,
+                name: "blocks",
+                condition,
+                starts: 1,
+                seed: 3,
+            };
+            contest.play(&schooling, |_, _| {}).unwrap()
+        };
+        for contestant in [Contestant::CpmBetter, Contestant::DiktiometryBetter] {
+            let as_made = format!("{:?}", played(contestant, Condition::AsMade));
+            for condition in Condition::ALL {
+                let record = played(contestant, condition);
+                let driven = record.learned.as_ref().unwrap().driven;
+                assert!(driven < 1.2 * Contest::LIMIT, "{condition:?}: {driven}");
+                let told = format!("{record:?}");
+                assert_eq!(told, format!("{:?}", played(contestant, condition)));
+                // An e-puck has no compass, and its wheels slip as made by a share drawn anew.
+                let is_untouched = contestant == Contestant::CpmBetter
+                    && matches!(
+                        condition,
+                        Condition::CompassOffset | Condition::FreshOdometry
+                    );
+                let is_same = is_untouched || condition == Condition::AsMade;
+                assert!(!is_same || told == as_made, "{condition:?}");
+            }
+        }
     }
 
     #[test]
@@ -582,6 +808,7 @@ mod tests {
             robot: ContestRobot::Own,
             maze: &maze,
             name: "",
+            condition: Condition::AsMade,
             starts: 20,
             seed: 5,
         };

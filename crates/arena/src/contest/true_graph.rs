@@ -172,21 +172,8 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
-    use crate::cpm::TrueFragments;
+    use crate::cpm::{LOOP, TrueFragments};
     use crate::family::Family;
-
-    /// A crossing with a loop, the start to its west and the goal to its east.
-    const LOOP: &str = "\
-start = 0 1 east
-
-o---o---o---o---o
-|   |           |
-o---o   o---o   o
-| S       G |   |
-o---o   o---o   o
-|   |           |
-o---o---o---o---o
-";
 
     fn cells(all: &[(u16, u16)]) -> Vec<Cell> {
         all.iter().map(|(x, y)| Cell::new(*x, *y)).collect()

@@ -1,43 +1,143 @@
+use tolman_geom::Point;
+use tolman_maze::{Cell, Direction};
+use tolman_robot::{Guess, Position};
+
 use super::contestant::pioneer_course;
-use super::play::{Contest, Home, Measured, length};
+use super::play::{Contest, Home, LocateOutcome, Located, Measured, NEAR, length};
+use super::whereabouts::Squares;
 use crate::BoxError;
 use crate::cast::{Agent, Cast};
+use crate::course::Course;
 use crate::episode::{self, Episode, Trial};
+use crate::mind::Mind;
 use crate::pioneer::calibrated;
 
 /// Time steps of a run at most for each metre that may be driven: whoever turns on the spot drives nowhere.
 const STEPS_A_METRE: f64 = 20.0;
 
-/// Lets a baseline go to the goal from where a system is put down, on the laser Pioneer.
-pub(super) fn homes(contest: &Contest<'_>, agent: Agent) -> Result<Vec<Home>, BoxError> {
-    let course = pioneer_course(contest.name, contest.maze)?;
-    let cast = Cast::default();
-    let mut homes = Vec::new();
-    for (number, [_, (cell, way)]) in (0_u64..).zip(contest.put_downs()) {
-        let shortest = contest.maze.metres_to_goal(cell, course.corridor_width);
-        let most = Contest::LIMIT * shortest;
-        let start = course.in_cell(cell, way);
-        let trial = Trial {
-            course: &course,
-            robot: calibrated(),
-            start,
+/// It knows where it is when so much of its belief lies about one cell.
+const SURE: f64 = 0.95;
+
+/// A baseline that is sent from where a system is put down, on the laser Pioneer.
+pub(super) struct Sender<'a> {
+    contest: &'a Contest<'a>,
+    agent: Agent,
+    course: Course,
+    cast: Cast,
+}
+
+impl<'a> Sender<'a> {
+    pub(super) fn new(contest: &'a Contest<'a>, agent: Agent) -> Result<Self, BoxError> {
+        Ok(Self {
+            contest,
+            agent,
+            course: pioneer_course(contest.name, &contest.maze_afterwards())?,
+            cast: Cast::default(),
+        })
+    }
+
+    /// A trial from a start that ends when the robot may have driven `most` metres.
+    fn trial(&self, number: u64, start: (Cell, Direction), most: f64) -> Trial<'_> {
+        let Contest {
+            condition, seed, ..
+        } = *self.contest;
+        Trial {
+            course: &self.course,
+            robot: condition.laser_pioneer(calibrated(), seed),
+            start: self.course.in_cell(start.0, start.1),
             step_limit: (libm::ceil(most * STEPS_A_METRE) as u32).max(1),
-            seed: contest.seed.wrapping_add(number),
-        };
-        let mut mind = cast.mind(agent, &course, &trial.robot)?;
+            seed: seed.wrapping_add(number),
+        }
+    }
+
+    fn mind(&self, trial: &Trial<'_>) -> Result<Mind, BoxError> {
+        Ok(self.cast.mind(self.agent, &self.course, &trial.robot)?)
+    }
+
+    /// Lets it go to the goal.
+    pub(super) fn homes(&self) -> Result<Vec<Home>, BoxError> {
+        let starts = (0_u64..).zip(self.contest.put_downs());
+        starts
+            .map(|(number, [_, start])| self.home(number, start))
+            .collect()
+    }
+
+    fn home(&self, number: u64, start: (Cell, Direction)) -> Result<Home, BoxError> {
+        let shortest = (self.course.maze).metres_to_goal(start.0, self.course.corridor_width);
+        let most = Contest::LIMIT * shortest;
+        let trial = self.trial(number, start, most);
         let Episode {
             reached,
             bumps,
             path,
             ..
-        } = episode::run(&trial, &mut mind, |_| {})?;
+        } = episode::run(&trial, &mut self.mind(&trial)?, |_| {})?;
         let way = length(&path);
         let arrived = reached && way <= most;
-        homes.push(Home {
+        Ok(Home {
             over_shortest: arrived.then_some(way / shortest),
             bumps,
             gave_up: String::new(),
-        });
+        })
     }
-    Ok(homes)
+
+    /// Lets the one that has the true map, and no idea where it is, find that out on its way to the goal; the others do not say.
+    ///
+    /// It is as sure as the systems have to be: when it has most of its belief about one cell.
+    pub(super) fn found(&self) -> Result<Vec<Located>, BoxError> {
+        if self.agent != Agent::UnlocalizedOracle {
+            return Ok(Vec::new());
+        }
+        let starts = (0_u64..).zip(self.contest.put_downs());
+        starts
+            .map(|(number, [start, _])| self.located(number, start))
+            .collect()
+    }
+
+    fn located(&self, number: u64, start: (Cell, Direction)) -> Result<Located, BoxError> {
+        let squares = Squares {
+            grid: self.course.maze.grid(),
+            pitch: self.course.corridor_width,
+        };
+        let most = Contest::LIMIT * self.course.maze.corridor_count() as f64 * squares.pitch;
+        let trial = self.trial(number, start, most);
+        // Whether it was right when it was sure first, and how many time steps it had made.
+        let mut first = None;
+        let mut steps = 0_usize;
+        let episode = episode::run(&trial, &mut self.mind(&trial)?, |step| {
+            steps += 1;
+            if first.is_none() && step.ends.is_some() {
+                let here = step.robot.truth().pose.position;
+                first = sure_of(&step.belief(), squares.pitch)
+                    .map(|at| ((at - here).norm() < NEAR * squares.pitch, steps));
+            }
+        })?;
+        let driven = first.map_or(episode.path.len(), |(_, steps)| steps + 1);
+        let path = episode.path.get(..driven).unwrap_or(&episode.path);
+        Ok(Located {
+            outcome: match first {
+                Some((true, _)) => LocateOutcome::Right,
+                Some((false, _)) => LocateOutcome::Wrong,
+                None => LocateOutcome::Abstained {
+                    why: "it came to the goal before it knew".to_owned(),
+                },
+            },
+            ceiling: Some(self.contest.observer().after(squares, start, path)),
+        })
+    }
+}
+
+/// Where it likeliest is, if enough of the belief lies about there.
+fn sure_of(belief: &[Guess], pitch: f64) -> Option<Point> {
+    let point = |guess: &Guess| match guess.at {
+        Position::Point(point) => Some(point),
+        Position::Place(_) => None,
+    };
+    let best = point(belief.first()?)?;
+    let near = belief.iter().filter(|guess| {
+        let at = point(guess);
+        at.is_some_and(|at| (at - best).norm() < NEAR * pitch)
+    });
+    let mass: f64 = near.map(|guess| guess.weight).sum();
+    (mass > SURE).then_some(best)
 }

@@ -26,7 +26,7 @@ pub struct WayOut {
 }
 
 /// What the robot sees to stand in a cell.
-pub(super) fn landmark_at(maze: &Maze, cell: Cell) -> Option<Landmark> {
+pub(crate) fn landmark_at(maze: &Maze, cell: Cell) -> Option<Landmark> {
     if maze.start().is_some_and(|(start, _)| start == cell) {
         return Some(Landmark::Start);
     }
@@ -241,7 +241,7 @@ o---o---o---o---o---o
 ";
 
     /// One crossing: the start to its west, the goal to its east, and a loop from its north to its south.
-    const LOOP: &str = "\
+    pub(crate) const LOOP: &str = "\
 start = 0 1 east
 
 o---o---o---o---o

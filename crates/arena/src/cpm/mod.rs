@@ -36,6 +36,9 @@ pub use bends::BendLikeness;
 pub use course::{CORRIDOR_WIDTH, epuck_course, epuck_course_on};
 pub use distinctness::{Distinctness, WalkPair, distinctness};
 pub use exploration::Exploration;
+pub(crate) use fragments::landmark_at;
+#[cfg(test)]
+pub(crate) use fragments::tests::LOOP;
 pub use fragments::{TrueFragments, WayOut};
 pub use layout::{Fit, Layout, Lie, OpenPort};
 pub use map_right::is_whole_map_right;

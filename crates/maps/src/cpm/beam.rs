@@ -91,6 +91,12 @@ impl Beam {
             .map_or(&self.begin, |best| &best.mapper)
     }
 
+    /// How likely the likeliest map is among all that it keeps, 0 … 1.
+    pub(super) fn certainty(&self) -> f64 {
+        let odds = self.hypotheses.iter().map(|other| libm::exp(-other.cost));
+        1.0 / odds.sum::<f64>().max(1.0)
+    }
+
     pub(super) fn best_map_mut(&mut self) -> &mut CpMap {
         match self.hypotheses.first_mut() {
             Some(best) => &mut best.mapper.map,

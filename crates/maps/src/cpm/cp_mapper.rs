@@ -158,6 +158,16 @@ impl CpMapper {
         self.knowledge.mapper().at
     }
 
+    /// Returns how likely the map is among all that explain what was met, 0 … 1, by dead reckoning and what fragments look like; `None` of a
+    /// mapper that keeps one hypothesis.
+    #[must_use]
+    pub fn certainty(&self) -> Option<f64> {
+        match &self.knowledge {
+            Knowledge::Map(_) => None,
+            Knowledge::Beam(beam) => Some(beam.certainty()),
+        }
+    }
+
     /// How many fragments were walked to their end.
     #[must_use]
     pub const fn traversals(&self) -> u32 {

@@ -8,7 +8,7 @@ mod worlds;
 
 use std::sync::Mutex;
 
-use tolman_arena::contest::{ContestRobot, Moment, Schooling};
+use tolman_arena::contest::{Condition, Contest, ContestRobot, Moment, Schooling};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Record, Run, Table,
@@ -52,6 +52,9 @@ const TABLES: [(&str, ArenaTask, ContestRobot); 6] = [
 /// The table of cost against size.
 const SIZE_TABLE: &str = "size";
 
+/// The table of conditions.
+const CONDITIONS_TABLE: &str = "conditions";
+
 /// The experiment, ready to run.
 #[derive(Debug)]
 struct Arena {
@@ -85,6 +88,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         })
         .collect();
     tables.push(records::sizes(SIZE_TABLE).rows(rows::of_sizes(options)));
+    tables.push(records::conditions(CONDITIONS_TABLE).rows(rows::of_conditions(options)));
     let mut config = toml::Table::new();
     let named = worlds.iter().map(ArenaWorld::config);
     config.insert("worlds".to_owned(), named.collect::<Vec<_>>().into());
@@ -100,8 +104,10 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
 impl Procedure for Arena {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let row = RowName::read(job.row).ok_or_else(|| no_row(job))?;
-        if job.table == SIZE_TABLE {
-            return self.sized(&row, job.run);
+        match job.table {
+            SIZE_TABLE => return self.sized(&row, job.run),
+            CONDITIONS_TABLE => return self.under_condition(&row, job.run),
+            _ => {}
         }
         let mut tables = TABLES.into_iter();
         let table = tables.find(|(name, ..)| *name == job.table);
@@ -126,14 +132,21 @@ impl Procedure for Arena {
         let row = RowName::read(job.row).ok_or_else(|| no_row(job))?;
         let robot = TABLES.into_iter().find(|(name, ..)| *name == job.table);
         let robot = robot.map_or(ContestRobot::Own, |(_, _, robot)| robot);
-        let world = match job.table == SIZE_TABLE {
-            true => rows::sized_world(self.seed, &row, job.run)?,
-            false => self.world(&row, job.run)?,
+        let (world, condition) = match job.table {
+            SIZE_TABLE => (
+                rows::sized_world(self.seed, &row, job.run)?,
+                Condition::AsMade,
+            ),
+            CONDITIONS_TABLE => (self.world_of_condition(job.run)?, rows::condition_of(&row)?),
+            _ => (self.world(&row, job.run)?, Condition::AsMade),
         };
         let mut film: Option<Film> = None;
         let mut replay = None;
         let title = format!("{}, run {}", job.row, job.run);
-        let contest = world.contest(row.contestant, robot);
+        let contest = Contest {
+            condition,
+            ..world.contest(row.contestant, robot)
+        };
         contest.play(&self.schooling, |outing, moment| {
             match (moment, &mut film) {
                 (Moment::Over, film) => {

@@ -31,7 +31,7 @@ record! {
         undecided: Option<bool> => lower("undecided"),
         /// Whether the map is right, where there is one.
         map_right: Option<bool> => higher("right maps"),
-        /// Squared error of how likely the system took its map to be right: 1 if it was done, 0 if it gave up, a half if it did not say.
+        /// Squared error of how likely the system took its map to be right: what it says if it weighs that, else 1, if it was done; 0 if it gave up; a half if it did not say.
         brier: Option<f64> => lower("Brier"),
         /// Metres driven over the length of all corridors.
         driven: Option<f64> => lower("metres / corridors"),
@@ -67,8 +67,12 @@ record! {
         wrong: bool => lower("wrong"),
         /// Whether it did not say.
         abstained: bool => neither("abstained"),
-        /// On a map that is right: whether it said where it is, and was there.
+        /// On a map that is right, or the true one: whether it said where it is, and was there.
         right_on_right_map: Option<bool> => higher("right on right maps"),
+        /// How likely an observer with the true map that mistakes nothing would be right about the cell after the same drive.
+        ceiling: Option<f64> => neither("passive ceiling").percent().decimals(1),
+        /// The same on maps that are right.
+        ceiling_on_right_map: Option<f64> => neither("the same on right maps").percent().decimals(1),
         /// Why it did not say.
         why: String => neither("why not"),
     }
@@ -90,6 +94,51 @@ record! {
     }
 }
 
+record! {
+    /// What becomes of a system under a condition.
+    pub(super) struct ConditionRun {
+        /// Whether it said, before it drove, that it cannot work there.
+        abstained: bool => neither("abstained"),
+        /// Whether its map is right.
+        right: bool => higher("right"),
+        /// Share of the visits of its places that were to the cell which that place was most often.
+        purity: Option<f64> => higher("purity").share().decimals(3),
+        /// Share of the true ways that are on its map; 0 of who abstained.
+        link_recall: f64 => higher("link recall").share().decimals(3),
+        /// Of a wrong map: whether the system called it right.
+        false_right: Option<bool> => lower("false right"),
+        /// Whether it found out where it was put down.
+        located: bool => higher("located"),
+        /// Whether it took itself to be elsewhere.
+        located_wrong: bool => lower("located wrong"),
+        /// Whether it came to the goal.
+        success: bool => higher("success"),
+    }
+}
+
+impl ConditionRun {
+    pub(super) fn of(record: &ContestRecord) -> Self {
+        let learned = LearnRun::of(record);
+        let located = LocateRun::of(record);
+        Self {
+            abstained: learned.abstained,
+            right: learned.right,
+            purity: learned.purity,
+            link_recall: learned.link_recall,
+            false_right: learned.false_right,
+            located: located.right,
+            located_wrong: located.wrong,
+            success: HomeRun::of(record).success,
+        }
+    }
+}
+
+pub(super) fn conditions(name: &str) -> Table {
+    Table::of::<ConditionRun>(name, "The same where robots and worlds are not as they were made")
+        .metrics_from(ConditionRun::abstained)
+        .note("Each system on its paper's robot, in one small world of each family in turns. Wheels: each encoder counts wrongly, or each wheel of the e-puck rolls wrongly, by a constant of up to 1, 2 or 5 %. Compass: off by up to 5°, which no e-puck and no Pioneer 2-DX has. Odometry: off by up to 10 %, constant or drawn anew in each time step. Doors: an opening that no place depends on is shut once the robot has learned. Kidnapping: put elsewhere after half the length of the corridors, and not told. Drop-outs: 2 % of all readings do not come.")
+}
+
 impl LearnRun {
     pub(super) fn of(record: &ContestRecord) -> Self {
         let Some(learned) = &record.learned else {
@@ -102,7 +151,7 @@ impl LearnRun {
         let (judged, claim) = (&learned.judgement, learned.claim);
         let is_right = judged.is_right;
         let outcome = f64::from(u8::from(is_right));
-        let error = claim.likelihood() - outcome;
+        let error = learned.likelihood() - outcome;
         Self {
             abstained: false,
             right: is_right,
@@ -149,21 +198,28 @@ impl HomeRun {
 impl LocateRun {
     pub(super) fn of(record: &ContestRecord) -> Self {
         let learned = record.learned.as_ref();
-        let is_known = learned.is_some_and(|learned| learned.judgement.is_right);
-        let abstained = |why: &str| Self {
-            abstained: true,
-            right_on_right_map: is_known.then_some(false),
-            why: why.to_owned(),
-            ..Self::default()
+        let has_abstained = record.abstained.is_some();
+        // Who learns no map and says where it is has the true one.
+        let is_known = learned.map_or(!has_abstained, |learned| learned.judgement.is_right);
+        let (outcome, ceiling) = match record.found.first() {
+            Some(found) => (found.outcome.clone(), found.ceiling),
+            None => {
+                let why = record.abstained.clone().unwrap_or_default();
+                (LocateOutcome::Abstained { why }, None)
+            }
         };
-        match record.found.first() {
-            Some(LocateOutcome::Abstained { why }) => abstained(why),
-            None => abstained(record.abstained.as_deref().unwrap_or_default()),
-            Some(found) => Self {
-                right: *found == LocateOutcome::Right,
-                wrong: *found == LocateOutcome::Wrong,
-                right_on_right_map: is_known.then_some(*found == LocateOutcome::Right),
-                ..Self::default()
+        let ceiling = ceiling.map(|chance| 100.0 * chance);
+        let is_right = outcome == LocateOutcome::Right;
+        Self {
+            right: is_right,
+            wrong: outcome == LocateOutcome::Wrong,
+            right_on_right_map: is_known.then_some(is_right),
+            ceiling,
+            ceiling_on_right_map: ceiling.filter(|_| is_known),
+            abstained: matches!(outcome, LocateOutcome::Abstained { .. }),
+            why: match outcome {
+                LocateOutcome::Abstained { why } => why,
+                LocateOutcome::Right | LocateOutcome::Wrong => String::new(),
             },
         }
     }
@@ -232,6 +288,8 @@ pub(super) fn locate(name: &str) -> Table {
             "right_on_right_map_percent",
             LocateRun::right_on_right_map,
         ))
+        .metric(Metric::mean(LocateRun::ceiling).named("ceiling_percent"))
+        .metric(Metric::mean(LocateRun::ceiling_on_right_map).named("ceiling_on_right_map_percent"))
 }
 
 pub(super) fn sizes(name: &str) -> Table {

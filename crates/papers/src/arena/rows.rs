@@ -4,13 +4,14 @@ use std::sync::{Mutex, PoisonError};
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_arena::contest::{ContestRecord, ContestRobot, Contestant};
+use tolman_arena::cast::Agent;
+use tolman_arena::contest::{Condition, Contest, ContestRecord, ContestRobot, Contestant};
 use tolman_experiment::{BoxError, Fields, Options, Record, Row, run_seed};
 use tolman_maze::Braided;
 
-use super::records::SizeRun;
+use super::records::{ConditionRun, SizeRun};
 use super::worlds::{ArenaWorld, DrawnWorld};
-use super::{Arena, ArenaTask, ENTRY};
+use super::{Arena, ArenaTask, ENTRY, of_all};
 
 /// The world of the rows of all worlds together.
 pub(super) const ALL: &str = "all";
@@ -39,11 +40,13 @@ pub(super) fn row_name(contestant: Contestant, world: &str) -> String {
     format!("{}{BETWEEN}{world}", contestant.name())
 }
 
-/// Who has rows in a table: baselines learn no map, and do not say where they are.
+/// Who has rows in a table: baselines learn no map, and one of them says where it is.
 pub(super) fn contestants(task: ArenaTask) -> impl Iterator<Item = Contestant> {
     let all = Contestant::ALL.into_iter();
-    all.filter(move |contestant| {
-        task == ArenaTask::Home || !matches!(contestant, Contestant::Baseline(_))
+    all.filter(move |contestant| match contestant {
+        Contestant::Baseline(Agent::UnlocalizedOracle) => task != ArenaTask::Learn,
+        Contestant::Baseline(_) => task == ArenaTask::Home,
+        _ => true,
     })
 }
 
@@ -78,6 +81,11 @@ impl Arena {
         run: u32,
     ) -> Result<Arc<ContestRecord>, BoxError> {
         let (world, number) = self.place(row, run)?;
+        // They drive the laser Pioneer in all tables.
+        let robot = match row.contestant {
+            Contestant::Baseline(_) => ContestRobot::Pioneer,
+            _ => robot,
+        };
         let key = (robot, row.contestant.name(), world, number);
         let shared = {
             let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
@@ -95,12 +103,51 @@ impl Arena {
         Ok(record)
     }
 
+    /// Plays a run of the table of conditions: in a small world of one kind after the other.
+    pub(super) fn under_condition(&self, row: &RowName<'_>, run: u32) -> Result<Fields, BoxError> {
+        let drawn = self.world_of_condition(run)?;
+        let contest = Contest {
+            condition: condition_of(row)?,
+            ..drawn.contest(row.contestant, ContestRobot::Own)
+        };
+        let record = contest.play(&self.schooling, |_, _| {})?;
+        Ok(ConditionRun::of(&record).fields()?)
+    }
+
+    /// Returns the world that run `run` of all conditions is in.
+    pub(super) fn world_of_condition(&self, run: u32) -> Result<DrawnWorld, BoxError> {
+        let (world, number) = of_all(run, self.worlds.len() as u32);
+        // Even numbers are small ones.
+        self.worlds[world as usize].draw(self.seed, 2 * number)
+    }
+
     /// Plays a run of the table of sizes.
     pub(super) fn sized(&self, row: &RowName<'_>, run: u32) -> Result<Fields, BoxError> {
         let drawn = sized_world(self.seed, row, run)?;
         let contest = drawn.contest(row.contestant, ContestRobot::Own);
         let record = contest.play(&self.schooling, |_, _| {})?;
         Ok(SizeRun::of(&record, &drawn.maze).fields()?)
+    }
+}
+
+/// The rows of the table of conditions: each system under each.
+pub(super) fn of_conditions(options: &Options) -> Vec<Row> {
+    let runs = options.runs_of(&ENTRY);
+    let mut rows = Vec::new();
+    for contestant in contestants(ArenaTask::Learn) {
+        for condition in Condition::ALL {
+            let row = Row::new(row_name(contestant, &condition.name()));
+            rows.push(row.runs(condition_runs(contestant, runs)));
+        }
+    }
+    rows
+}
+
+/// A system that takes seconds in each world is tried under conditions where somebody asks for many runs.
+const fn condition_runs(contestant: Contestant, runs: u32) -> u32 {
+    match contestant {
+        Contestant::GngSlamBetter if runs < MANY => 0,
+        _ => runs,
     }
 }
 
@@ -133,6 +180,11 @@ pub(super) fn of_sizes(options: &Options) -> Vec<Row> {
         }
     }
     rows
+}
+
+/// The condition that a row names.
+pub(super) fn condition_of(row: &RowName<'_>) -> Result<Condition, BoxError> {
+    Condition::named(row.world).ok_or_else(|| "there is no such condition".into())
 }
 
 pub(super) fn size_name(side: u16) -> String {

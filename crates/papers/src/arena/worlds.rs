@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_arena::contest::{Contest, ContestRobot, Contestant};
+use tolman_arena::contest::{Condition, Contest, ContestRobot, Contestant};
 use tolman_arena::family::{Family, FamilySize};
 use tolman_experiment::files::files_in;
 use tolman_experiment::{BoxError, run_seed};
@@ -46,6 +46,7 @@ impl DrawnWorld {
             robot,
             maze: &self.maze,
             name: &self.name,
+            condition: Condition::AsMade,
             starts: self.starts,
             seed: self.seed,
         }

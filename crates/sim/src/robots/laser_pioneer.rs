@@ -2,7 +2,7 @@ use thiserror::Error;
 use tolman_geom::Heading;
 use tolman_robot::{Body, LaserSensing, Odometry, Ring, Scan, TurnTranslate};
 
-use super::names;
+use super::{WheelScale, names};
 use crate::noise::{Disturbances, Fault, Faults, FaultsError, Gaussian};
 use crate::sensors::{Laser, LaserError, Sensor};
 use crate::trace::Recordable;
@@ -28,6 +28,10 @@ pub struct LaserPioneerConfig {
     pub scan_noise: Gaussian,
     /// Noise of the compass, rad.
     pub compass_noise: Gaussian,
+    /// What the encoders count, as a share of the way that a wheel rolled: wrong by a constant. The wheels stand as far apart as the Pioneer
+    /// 2-DX's.
+    #[serde(default, skip_serializing_if = "WheelScale::is_exact")]
+    pub wheel_scale: WheelScale,
     /// Noise of the rolled distance, m.
     pub odometry_distance_noise: Gaussian,
     /// Noise of the rolled turn, rad.
@@ -102,6 +106,7 @@ impl LaserPioneerConfig {
             motor_noise: MotorNoise::default(),
             scan_noise: Gaussian::NONE,
             compass_noise: Gaussian::NONE,
+            wheel_scale: WheelScale::EXACT,
             odometry_distance_noise: Gaussian::NONE,
             odometry_turn_noise: Gaussian::NONE,
             faults: LaserPioneerFaults::default(),
@@ -126,6 +131,8 @@ impl LaserPioneerConfig {
             ("turn_per_step", self.turn_per_step),
             ("translate_per_step", self.translate_per_step),
             ("motor_noise.drift_sd", self.motor_noise.drift_sd),
+            ("wheel_scale.left", self.wheel_scale.left),
+            ("wheel_scale.right", self.wheel_scale.right),
         ];
         for (field, value) in sds.chain(rates) {
             if !(0.0..=1e3).contains(&value) {
@@ -284,10 +291,8 @@ impl Model for LaserPioneer {
         sensing.compass = Some(around.truth.pose.heading);
         self.compass.disturb(&mut sensing.compass, chance);
         // Wheels that a contact holds do not roll.
-        let (mut distance, mut turn) = (
-            Some(around.truth.motion.distance),
-            Some(around.truth.motion.turn),
-        );
+        let counted = self.config.wheel_scale.counted(around.truth.motion);
+        let (mut distance, mut turn) = (Some(counted.distance), Some(counted.turn));
         self.odometry_distance.disturb(&mut distance, chance);
         self.odometry_turn.disturb(&mut turn, chance);
         sensing.odometry = distance

@@ -60,6 +60,31 @@ impl WheelScale {
         left: 1.0,
         right: 1.0,
     };
+
+    pub(super) fn is_exact(&self) -> bool {
+        *self == Self::EXACT
+    }
+
+    /// Returns the motion that wheels count, by the nominal track, whose robot makes `motion`.
+    pub(super) fn counted(self, motion: Motion) -> Motion {
+        if self.is_exact() {
+            return motion;
+        }
+        let half_turn = 0.5 * motion.turn * TRACK;
+        let left = (motion.distance - half_turn) * self.left;
+        let right = (motion.distance + half_turn) * self.right;
+        let counted = Twist::of_wheels(left, right, TRACK);
+        Motion {
+            distance: counted.linear,
+            turn: counted.angular,
+        }
+    }
+}
+
+impl Default for WheelScale {
+    fn default() -> Self {
+        Self::EXACT
+    }
 }
 
 /// What is wrong with a robot beyond plain noise; each list happens in order, after the noise.

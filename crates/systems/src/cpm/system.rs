@@ -357,6 +357,10 @@ impl Mapper for Cpm {
         believed.map(guess).into_iter().collect()
     }
 
+    fn certainty(&self) -> Option<f64> {
+        self.explorer()?.mapper.certainty()
+    }
+
     fn visits(&self) -> Vec<Option<u32>> {
         let layer = self.layer.as_ref();
         layer.map_or_else(Vec::new, |layer| self.trail.places(layer.map()))

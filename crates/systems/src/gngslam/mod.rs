@@ -5,12 +5,14 @@
 //!
 //! 1. A [`Wanderer`] drives any robot that turns and translates and takes snapshots: straight on until something is near, then
 //!    elsewhere by chance (section 3.2). Where a leg ends it takes a [`PlaceRecord`](tolman_maps::place_map::PlaceRecord).
-//! 2. A [`PlacePilot`] drives to a node of the map that was learned of them.
-//! 3. [`OnlineSlam`] is what the paper's section 6 asks for: it learns while it drives, and corrects its pose by the places that it
+//! 2. [`OfflineSlam`] lets it, and learns a map of all records at once (section 3.4): the paper's system.
+//! 3. A [`PlacePilot`] drives to a node of the map that was learned of them.
+//! 4. [`OnlineSlam`] is what the paper's section 6 asks for: it learns while it drives, and corrects its pose by the places that it
 //!    has learned ([`tolman_maps::place_graph`]). A [`MapFile`] keeps them.
 
 mod frontier;
 mod map_file;
+mod offline;
 mod online;
 mod place_pilot;
 mod route;
@@ -18,6 +20,7 @@ mod sighting;
 mod wanderer;
 
 pub use map_file::{MapFile, MapFileError};
+pub use offline::{OfflineSlam, OfflineSlamConfig, OfflineSlamError, OfflineSlamFailure};
 pub use online::{ExplorationPolicy, OnlineSlam, OnlineSlamConfig, OnlineSlamError};
 pub use place_pilot::{PlacePilot, PlacePilotConfig, PlacePilotError};
 pub use sighting::LandmarkSighting;

@@ -9,6 +9,7 @@
 //! - [`Topology`] is Phase II: the graph of the states, an action at a time. Both leave an [`MslstMap`].
 //! - [`Navigator`] is Phase III: the brain that navigates by one.
 //! - [`Mslst`] is all three, one after the other.
+//! - [`better`] explores and navigates otherwise; [`BetterMslst`] is both, one after the other.
 //! - [`MapFile`] keeps a map.
 //!
 //! ```no_run
@@ -36,6 +37,7 @@
 //! ```
 
 pub mod better;
+mod better_mslst;
 mod brain;
 mod config;
 mod map;
@@ -46,6 +48,7 @@ mod scan_recorder;
 mod states;
 mod topology;
 
+pub use better_mslst::BetterMslst;
 pub use brain::Mslst;
 pub use config::MslstConfig;
 pub use map::{GrowthRecord, Learned, MslstMap};

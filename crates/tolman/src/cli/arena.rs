@@ -8,7 +8,8 @@ use clap::builder::PossibleValue;
 use rayon::prelude::*;
 use serde::Serialize;
 use tolman_arena::contest::{
-    ContestError, ContestRecord, ContestRobot, Contestant, LocateOutcome, Schooling,
+    Condition, Contest, ContestError, ContestRecord, ContestRobot, Contestant, LocateOutcome,
+    Located, Schooling,
 };
 use tolman_papers::arena::{ArenaWorld, DrawnWorld};
 
@@ -20,8 +21,12 @@ use super::{App, Failure, OrBadInput};
 Systems: mslst, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam-better, micromouse; random, avoid, wall-follow, oracle and
 unlocalized-oracle go home alone. `tolman maze generate --list` names the families. The same in tables: tolman experiment arena
 
+Conditions: as-made; wheels-1, wheels-2 and wheels-5 (each wheel off by a constant of up to so many percent), compass-offset, constant-odometry,
+fresh-odometry, doors, kidnapping, drop-outs.
+
 Example:
   tolman arena --system cpm-better --family office --worlds 4
+  tolman arena --system cpm-better --family ladder --condition wheels-5
   tolman arena mazes/forks.maze mazes/cpm-1.maze --system all
   tolman arena --system diktiometry-better --robot laser-pioneer --worlds 1")]
 pub(super) struct Arguments {
@@ -34,6 +39,9 @@ pub(super) struct Arguments {
     /// Which robot
     #[arg(long, value_name = "NAME", default_value = "own")]
     robot: Robot,
+    /// What is otherwise than as robots and worlds are made
+    #[arg(long, value_name = "NAME", default_value = "as-made")]
+    condition: String,
     /// Which family of worlds, or all
     #[arg(
         long,
@@ -104,6 +112,7 @@ pub(super) fn carry_out(
         Robot::LaserPioneer => ContestRobot::Pioneer,
     };
     let contestants = contestants(&arguments.system)?;
+    let condition = condition(&arguments.condition)?;
     let worlds = arguments.worlds(app)?;
     let jobs: Vec<(Contestant, &DrawnWorld)> = contestants
         .iter()
@@ -113,9 +122,11 @@ pub(super) fn carry_out(
     let held: Result<Vec<ContestRecord>, ContestError> = jobs
         .par_iter()
         .map(|(contestant, world)| {
-            world
-                .contest(*contestant, robot)
-                .play(&schooling, |_, _| {})
+            let contest = Contest {
+                condition,
+                ..world.contest(*contestant, robot)
+            };
+            contest.play(&schooling, |_, _| {})
         })
         .collect();
     let held = held.map_err(|error| Failure::from(anyhow::Error::from(error)))?;
@@ -141,6 +152,17 @@ fn contestants(name: &str) -> Result<Vec<Contestant>, Failure> {
         )
     });
     Ok(vec![named.or_bad_input()?])
+}
+
+fn condition(name: &str) -> Result<Condition, Failure> {
+    let named = Condition::named(name).ok_or_else(|| {
+        let names = Condition::ALL.map(|one| one.name().replace(' ', "-"));
+        anyhow!(
+            "there is no condition {name} in the arena; choose one of: {}",
+            names.join(", ")
+        )
+    });
+    named.or_bad_input()
 }
 
 impl Arguments {
@@ -174,7 +196,7 @@ fn line<'a>(
 ) -> Line<'a> {
     let learned = record.learned.as_ref();
     let judged = learned.map(|learned| learned.judgement);
-    let found = record.found.iter().map(|found| match found {
+    let found = record.found.iter().map(|found| match found.outcome {
         LocateOutcome::Right => "right",
         LocateOutcome::Wrong => "wrong",
         LocateOutcome::Abstained { .. } => "abstained",
@@ -229,10 +251,10 @@ fn table(
             .filter_map(judged)
             .map(|j| j.link_recall)
             .sum();
-        let found: Vec<&LocateOutcome> = records.iter().flat_map(|r| &r.found).collect();
+        let found: Vec<&Located> = records.iter().flat_map(|r| &r.found).collect();
         let located = found
             .iter()
-            .filter(|found| ***found == LocateOutcome::Right)
+            .filter(|found| found.outcome == LocateOutcome::Right)
             .count();
         let homes: Vec<_> = records.iter().flat_map(|r| &r.homes).collect();
         let came = homes
@@ -253,7 +275,7 @@ fn table(
             of(&|r| judged(r).is_some_and(|j| j.is_right)),
             of(&|r| judged(r).is_some_and(|j| j.is_right_of_visited)),
             recall,
-            if learns {
+            if learns || !found.is_empty() {
                 format!("{located}/{}", found.len())
             } else {
                 "–".to_owned()

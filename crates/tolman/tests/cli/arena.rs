@@ -31,7 +31,7 @@ fn files_are_worlds_too_and_every_world_is_a_line_of_json() {
         .lines()
         .map(|line| serde_json::from_str(line).unwrap())
         .collect();
-    assert_eq!(lines.len(), 12);
+    assert_eq!(lines.len(), 14);
     let cpm = lines
         .iter()
         .find(|line| line["system"] == "CPM Better")
@@ -44,9 +44,17 @@ fn files_are_worlds_too_and_every_world_is_a_line_of_json() {
 }
 
 #[test]
+fn a_condition_makes_it_harder() {
+    let arguments = ["arena", "--system", "cpm-better", "--family", "ladder"];
+    let table = tolman(&[&arguments[..], &["--condition", "wheels-5"]].concat()).done();
+    assert!(table.contains("CPM Better"), "{table}");
+}
+
+#[test]
 fn what_is_unknown_is_refused() {
     tolman(&["arena", "--system", "dog"]).refused(2, &["dog", "cpm-better"]);
     tolman(&["arena", "--family", "dog"]).refused(2, &["dog", "spiral"]);
+    tolman(&["arena", "--condition", "dog"]).refused(2, &["dog", "kidnapping"]);
     tolman(&["arena", "--robot", "dog"]).refused(2, &["dog", "laser-pioneer"]);
     tolman(&["arena", "nowhere.maze"]).refused(2, &["nowhere.maze"]);
 }

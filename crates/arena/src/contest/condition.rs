@@ -1,0 +1,265 @@
+use rand::{Rng, RngExt};
+use tolman_maze::{Cell, Direction, Maze};
+use tolman_sim::noise::Fault;
+use tolman_sim::robots::{EpuckConfig, LaserPioneerConfig, Pioneer2dxConfig, WheelScale};
+use tolman_systems::stream;
+
+use crate::diktiometry::SurveyorConfig;
+
+/// What is otherwise than as robots and worlds are made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Condition {
+    /// Nothing.
+    #[default]
+    AsMade,
+    /// Wheels out of calibration, each by a constant of at most so many percent.
+    Wheels(u8),
+    /// A compass that is off by a constant.
+    CompassOffset,
+    /// What the wheels roll errs by a constant share.
+    ConstantOdometry,
+    /// What the wheels roll errs by a share that is drawn anew in each time step.
+    FreshOdometry,
+    /// A door that stands open while the robot learns, and is shut afterwards.
+    Doors,
+    /// The robot is lifted amid learning and put down elsewhere, and nobody tells it.
+    Kidnapping,
+    /// Readings of all sensors that do not come.
+    DropOuts,
+}
+
+/// The largest constant error of a compass, rad.
+const COMPASS: f64 = 5.0 * core::f64::consts::PI / 180.0;
+
+/// The largest error of what wheels roll, as a share.
+const ODOMETRY: f64 = 0.1;
+
+/// How likely a reading does not come.
+const MISSING: f64 = 0.02;
+
+const WHEEL_STREAM: u64 = 32;
+const DOOR_STREAM: u64 = 33;
+
+impl Condition {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::AsMade,
+        Self::Wheels(1),
+        Self::Wheels(2),
+        Self::Wheels(5),
+        Self::CompassOffset,
+        Self::ConstantOdometry,
+        Self::FreshOdometry,
+        Self::Doors,
+        Self::Kidnapping,
+        Self::DropOuts,
+    ];
+
+    /// Returns its name in tables.
+    #[must_use]
+    pub fn name(self) -> String {
+        match self {
+            Self::AsMade => "as made".to_owned(),
+            Self::Wheels(percent) => format!("wheels {percent}"),
+            Self::CompassOffset => "compass offset".to_owned(),
+            Self::ConstantOdometry => "constant odometry".to_owned(),
+            Self::FreshOdometry => "fresh odometry".to_owned(),
+            Self::Doors => "doors".to_owned(),
+            Self::Kidnapping => "kidnapping".to_owned(),
+            Self::DropOuts => "drop-outs".to_owned(),
+        }
+    }
+
+    /// Returns the one of a name, as it stands in tables or is typed: `compass-offset` is compass offset.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let slug = |name: &str| name.to_lowercase().replace(' ', "-");
+        let mut all = Self::ALL.into_iter();
+        all.find(|condition| slug(&condition.name()) == slug(name))
+    }
+
+    /// Returns an e-puck under it.
+    pub(super) fn epuck(self, mut robot: EpuckConfig) -> EpuckConfig {
+        match self {
+            Self::Wheels(percent) => robot.wheels.push(constant(share(percent))),
+            Self::ConstantOdometry => robot.wheels = vec![constant(ODOMETRY)],
+            Self::FreshOdometry => robot.wheels = vec![Fault::Slip { share: ODOMETRY }],
+            Self::DropOuts => robot.proximity.push(MISSES),
+            Self::AsMade | Self::CompassOffset | Self::Doors | Self::Kidnapping => {}
+        }
+        robot
+    }
+
+    /// Returns a laser Pioneer under it.
+    pub(super) fn laser_pioneer(
+        self,
+        mut robot: LaserPioneerConfig,
+        seed: u64,
+    ) -> LaserPioneerConfig {
+        let faults = &mut robot.faults;
+        match self {
+            Self::Wheels(percent) => robot.wheel_scale = wheels(percent, seed),
+            Self::CompassOffset => faults.compass.push(Fault::Bounded {
+                share: 0.0,
+                offset: COMPASS,
+                steps: u32::MAX,
+            }),
+            Self::ConstantOdometry | Self::FreshOdometry => {
+                faults.odometry_distance.push(self.odometry());
+                faults.odometry_turn.push(self.odometry());
+            }
+            Self::DropOuts => {
+                faults.scan.push(MISSES);
+                faults.compass.push(MISSES);
+                faults.odometry_distance.push(MISSES);
+            }
+            Self::AsMade | Self::Doors | Self::Kidnapping => {}
+        }
+        robot
+    }
+
+    /// Returns a Pioneer 2-DX under it.
+    pub(super) fn pioneer_2dx(self, mut robot: Pioneer2dxConfig, seed: u64) -> Pioneer2dxConfig {
+        let faults = &mut robot.faults;
+        match self {
+            Self::Wheels(percent) => robot.wheel_scale = wheels(percent, seed),
+            Self::ConstantOdometry | Self::FreshOdometry => {
+                faults.left_wheel.push(self.odometry());
+                faults.right_wheel.push(self.odometry());
+            }
+            Self::DropOuts => {
+                faults.sonars.push(MISSES);
+                faults.picture.push(MISSES);
+                faults.left_wheel.push(MISSES);
+            }
+            Self::AsMade | Self::CompassOffset | Self::Doors | Self::Kidnapping => {}
+        }
+        robot
+    }
+
+    /// Returns the diktiometry's robot under it, whose odometry as made errs by as much for some time steps at a time.
+    pub(super) fn surveyor(self, robot: SurveyorConfig, seed: u64) -> SurveyorConfig {
+        let hold_steps = match self {
+            Self::ConstantOdometry => u32::MAX,
+            Self::FreshOdometry => 1,
+            _ => {
+                let pioneer = self.laser_pioneer(robot.pioneer, seed);
+                return SurveyorConfig { pioneer, ..robot };
+            }
+        };
+        SurveyorConfig {
+            hold_steps,
+            ..robot
+        }
+    }
+
+    /// Returns the opening, as a cell and the way out of it, that is a door: one whose loss cuts nothing off, by chance. `None` where there is
+    /// none, and where doors do not change.
+    pub(super) fn door(self, maze: &Maze, seed: u64) -> Option<(Cell, Direction)> {
+        if self != Self::Doors {
+            return None;
+        }
+        let count = maze.reachable().count();
+        let openings = maze.reachable().flat_map(|cell| {
+            let ways = [Direction::North, Direction::East].into_iter();
+            ways.map(move |way| (cell, way))
+        });
+        let is_needless = |(cell, way): &(Cell, Direction)| {
+            let mut shut = maze.clone();
+            shut.set_wall(*cell, *way, true);
+            maze.is_open(*cell, *way) && shut.reachable().count() == count
+        };
+        let doors: Vec<(Cell, Direction)> = openings.filter(is_needless).collect();
+        match doors.len() {
+            0 => None,
+            count => {
+                let which = stream(seed, DOOR_STREAM).random_range(0..count as u32);
+                doors.get(which as usize).copied()
+            }
+        }
+    }
+
+    fn odometry(self) -> Fault {
+        match self {
+            Self::ConstantOdometry => constant(ODOMETRY),
+            _ => Fault::Slip { share: ODOMETRY },
+        }
+    }
+}
+
+const MISSES: Fault = Fault::DropOut {
+    probability: MISSING,
+};
+
+const fn constant(share: f64) -> Fault {
+    Fault::Bounded {
+        share,
+        offset: 0.0,
+        steps: u32::MAX,
+    }
+}
+
+fn share(percent: u8) -> f64 {
+    f64::from(percent) / 100.0
+}
+
+fn wheels(percent: u8, seed: u64) -> WheelScale {
+    let rng = &mut stream(seed, WHEEL_STREAM);
+    let [left, right] = [0, 1].map(|_| 1.0 + share(percent) * off(rng));
+    WheelScale { left, right }
+}
+
+fn off(rng: &mut impl Rng) -> f64 {
+    rng.random_range(-1.0..=1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::family::Family;
+
+    #[test]
+    fn a_condition_is_found_as_it_is_typed() {
+        for condition in Condition::ALL {
+            assert_eq!(Condition::named(&condition.name()), Some(condition));
+        }
+        assert_eq!(Condition::named("wheels-5"), Some(Condition::Wheels(5)));
+        assert_eq!(Condition::named("rain"), None);
+    }
+
+    proptest! {
+        #[test]
+        fn a_shut_door_cuts_nothing_off(family in 0..Family::ARENA.len(), seed: u64) {
+            let family = Family::ARENA[family];
+            let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+            let maze = (family.draw)(family.sizes[0], rng).unwrap();
+            prop_assert_eq!(Condition::AsMade.door(&maze, seed), None);
+            match Condition::Doors.door(&maze, seed) {
+                Some((cell, way)) => {
+                    prop_assert!(maze.is_open(cell, way));
+                    let mut shut = maze.clone();
+                    shut.set_wall(cell, way, true);
+                    prop_assert!(shut.reachable().eq(maze.reachable()));
+                }
+                // There is no loop.
+                None => {
+                    let ways: usize = maze.reachable().map(|cell| maze.degree(cell)).sum();
+                    prop_assert_eq!(ways / 2 + 1, maze.reachable().count());
+                }
+            }
+        }
+
+        #[test]
+        fn each_wheel_is_off_by_so_much_at_most(percent in 0..10_u8, seed: u64) {
+            let scale = wheels(percent, seed);
+            for wheel in [scale.left, scale.right] {
+                prop_assert!((wheel - 1.0).abs() <= share(percent) + 1e-12);
+            }
+            prop_assert_eq!(scale, wheels(percent, seed));
+        }
+    }
+}

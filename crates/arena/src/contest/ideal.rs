@@ -1,0 +1,182 @@
+use alloc::borrow::Cow;
+use alloc::collections::BTreeMap;
+
+use tolman_geom::Pose;
+use tolman_maze::{Cell, Direction, Maze};
+use tolman_robot::Landmark;
+
+use super::whereabouts::Squares;
+use crate::cpm::landmark_at;
+
+/// An observer that has the drawing and mistakes nothing of what it sees: the ceiling of who watches the same drive.
+///
+/// In each cell it sees the walls and the landmark, and through each opening the walls of so many cells straight on: more than any robot.
+#[derive(Clone, Debug)]
+pub(super) struct IdealObserver<'a> {
+    pub(super) maze: Cow<'a, Maze>,
+    /// Whether it knows which way is north.
+    pub(super) has_compass: bool,
+    /// How many cells it sees through an opening.
+    pub(super) reach: u32,
+}
+
+/// What is seen in a cell, from a direction on, clockwise.
+#[derive(Debug, PartialEq)]
+struct CellView {
+    landmark: Option<Landmark>,
+    is_open: Vec<bool>,
+}
+
+/// Where the robot may have been put down, and where it then is.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    /// Quarters of a turn, clockwise, from what is so to what would be.
+    turned: usize,
+    at: Cell,
+}
+
+impl IdealObserver<'_> {
+    /// Returns that chance after a drive along `path` of a robot that was put down amid a cell, looking out of it.
+    pub(super) fn after(&self, squares: Squares, start: (Cell, Direction), path: &[Pose]) -> f64 {
+        let mut cells = vec![start.0];
+        cells.extend(path.iter().map(|pose| squares.cell_at(pose.position)));
+        cells.dedup();
+        self.chance(start.1, &cells)
+    }
+
+    /// Returns how likely its best guess of the last of these cells is right, 0 … 1, after a drive over all of them that began looking along
+    /// `way`. It holds all cells but goals, and all ways out of them, for equally likely starts. O(starts · cells).
+    pub(super) fn chance(&self, way: Direction, cells: &[Cell]) -> f64 {
+        let (Some(first), Some(last)) = (cells.first(), cells.last()) else {
+            return 0.0;
+        };
+        let mut left = self.starts(way);
+        self.see(&mut left, *first);
+        for pair in cells.windows(2) {
+            for direction in self.between(pair[0], pair[1]) {
+                for candidate in &mut left {
+                    let turned = turned(direction, candidate.turned);
+                    candidate.at = self
+                        .maze
+                        .beside(candidate.at, turned)
+                        .unwrap_or(candidate.at);
+                }
+            }
+            self.see(&mut left, pair[1]);
+        }
+        let mut ends = BTreeMap::<Cell, u32>::new();
+        for candidate in left {
+            *ends.entry(candidate.at).or_default() += 1;
+        }
+        let most = ends.values().copied().max().unwrap_or(0);
+        let best = ends.values().filter(|count| **count == most).count();
+        match ends.get(last) {
+            Some(count) if *count == most => 1.0 / best as f64,
+            _ => 0.0,
+        }
+    }
+
+    fn starts(&self, way: Direction) -> Vec<Candidate> {
+        let goals = self.maze.goals();
+        let cells = self.maze.reachable().filter(|cell| !goals.contains(cell));
+        let ways = cells.flat_map(|cell| {
+            let ways = self.maze.neighbours(cell);
+            ways.map(move |(out, _)| (cell, out))
+        });
+        let starts = ways.map(|(at, out)| Candidate {
+            turned: (out.index() + 4 - way.index()) % 4,
+            at,
+        });
+        starts
+            .filter(|start| start.turned == 0 || !self.has_compass)
+            .collect()
+    }
+
+    /// Keeps those candidates that would see what is seen in a cell.
+    fn see(&self, left: &mut Vec<Candidate>, cell: Cell) {
+        let seen = self.view(cell, 0);
+        left.retain(|candidate| self.view(candidate.at, candidate.turned) == seen);
+    }
+
+    fn view(&self, cell: Cell, turn: usize) -> CellView {
+        let mut is_open = Vec::new();
+        for direction in Direction::ALL {
+            let ahead = turned(direction, turn);
+            let mut at = cell;
+            is_open.push(self.maze.is_open(at, ahead));
+            for _ in 0..self.reach {
+                let Some(next) = self.maze.beside(at, ahead) else {
+                    break;
+                };
+                at = next;
+                let sides = [1, 0, 3].map(|side| self.maze.is_open(at, turned(ahead, side)));
+                is_open.extend(sides);
+            }
+        }
+        CellView {
+            landmark: landmark_at(&self.maze, cell),
+            is_open,
+        }
+    }
+
+    /// The shortest way from a cell to another one that was seen next: a robot may pass a cell between two looks.
+    fn between(&self, from: Cell, to: Cell) -> Vec<Direction> {
+        let steps = self.maze.steps_to(&[to]);
+        let left = |cell: Cell| steps[self.maze.grid().index(cell)];
+        let (mut at, mut way) = (from, Vec::new());
+        while at != to {
+            let mut ways = self.maze.neighbours(at);
+            let Some((direction, next)) = ways.find(|(_, next)| left(*next) < left(at)) else {
+                break;
+            };
+            way.push(direction);
+            at = next;
+        }
+        way
+    }
+}
+
+/// A direction turned by so many quarters, clockwise.
+fn turned(direction: Direction, quarters: usize) -> Direction {
+    Direction::ALL[(direction.index() + quarters) % 4]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cpm::LOOP;
+
+    fn chance(text: &str, has_compass: bool, way: Direction, cells: &[(u16, u16)]) -> f64 {
+        let maze = tolman_maze::read(text).unwrap().maze;
+        let observer = IdealObserver {
+            maze: Cow::Borrowed(&maze),
+            has_compass,
+            reach: 0,
+        };
+        let cells: Vec<Cell> = cells.iter().map(|(x, y)| Cell::new(*x, *y)).collect();
+        observer.chance(way, &cells)
+    }
+
+    #[test]
+    fn a_compass_tells_one_side_of_a_loop_from_another() {
+        let north = [(1, 2), (2, 2)];
+        let blind = chance(LOOP, false, Direction::East, &north[..1]);
+        let known = chance(LOOP, true, Direction::East, &north[..1]);
+        assert!(known > 0.99 && blind < known, "{blind} {known}");
+        // Whoever drives on to a bend the other side of which is another one knows no less.
+        assert!(chance(LOOP, false, Direction::East, &north) >= blind);
+    }
+
+    #[test]
+    fn a_landmark_tells_where_one_is() {
+        let drive = [(1, 2), (1, 1), (0, 1)];
+        assert!(chance(LOOP, false, Direction::South, &drive) > 0.99);
+    }
+
+    #[test]
+    fn a_cell_that_is_passed_between_two_looks_is_no_riddle() {
+        let whole = chance(LOOP, true, Direction::North, &[(3, 0), (3, 1), (3, 2)]);
+        let jumped = chance(LOOP, true, Direction::North, &[(3, 0), (3, 2)]);
+        assert!(jumped <= whole && jumped > 0.0);
+    }
+}

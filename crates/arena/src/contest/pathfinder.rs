@@ -1,0 +1,94 @@
+use core::error::Error;
+
+use tolman_maps::diktiometry::{ObservedMove, PlaceId};
+use tolman_robot::{
+    Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
+    System, Task, TurnTranslate,
+};
+use tolman_systems::diktiometry::{Diktiometer, Eye, Wayfinder};
+
+use crate::BoxError;
+
+/// The diktiometry as a whole: it learns a map, and once it is put down anywhere it finds its way on that.
+#[derive(Debug)]
+pub(super) struct Pathfinder<E> {
+    learner: Diktiometer<E>,
+    /// Since it was put down.
+    finder: Option<Wayfinder<E>>,
+    eye: E,
+    seed: u64,
+}
+
+impl<E> Pathfinder<E> {
+    pub(super) const fn new(learner: Diktiometer<E>, eye: E, seed: u64) -> Self {
+        Self {
+            learner,
+            finder: None,
+            eye,
+            seed,
+        }
+    }
+}
+
+impl<E> Mapper for Pathfinder<E> {
+    type Observation = ObservedMove;
+    type Error = BoxError;
+
+    fn observe(&mut self, seen: &ObservedMove) -> Result<(), BoxError> {
+        match &mut self.finder {
+            None => Ok(self.learner.observe(seen)?),
+            Some(finder) => Ok(finder.observe(seen)?),
+        }
+    }
+
+    fn map(&self) -> MapView {
+        self.learner.map()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        match &self.finder {
+            None => self.learner.belief(),
+            Some(finder) => finder.belief(),
+        }
+    }
+
+    fn visits(&self) -> Vec<Option<u32>> {
+        self.learner.visits()
+    }
+}
+
+impl<R, E> System<R> for Pathfinder<E>
+where
+    R: SensesLandmarks + Robot<Command = TurnTranslate, Error: Error + Send + Sync + 'static>,
+    R::Sensing: Ranges + Compass + Rolls,
+    E: Eye<R::Sensing> + Clone,
+{
+    type Failure = BoxError;
+
+    fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, BoxError> {
+        match &mut self.finder {
+            None => Ok(self.learner.act(robot, task)?),
+            Some(finder) => Ok(finder.act(robot, task)?),
+        }
+    }
+
+    fn put_down(&mut self) -> Standing {
+        let Some(observer) = self.learner.observer() else {
+            return Standing::gave_up("it has no map to find itself on");
+        };
+        let places = self.learner.map().places.into_iter();
+        let mut goals = places.filter(|place| place.landmark == Some(Landmark::Goal));
+        let goal = goals.next().map(|place| PlaceId(place.id));
+        let routines = self.learner.config().routines;
+        let (eye, map) = (self.eye.clone(), observer.clone());
+        self.finder = Some(Wayfinder::new(routines, eye, map, goal, self.seed));
+        Standing::UnderWay
+    }
+
+    fn words(&self) -> String {
+        match &self.finder {
+            None => System::<R>::words(&self.learner),
+            Some(finder) => System::<R>::words(finder),
+        }
+    }
+}

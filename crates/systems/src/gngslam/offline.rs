@@ -1,0 +1,203 @@
+//! The paper's system: records first, then a map of all of them.
+
+use rand_chacha::ChaCha8Rng;
+use thiserror::Error;
+use tolman_maps::place_map::{
+    FeatureChoice, FeatureError, FeatureTable, ImageForm, PlaceMap, PlaceMapConfig, PlaceMapError,
+    PlaceRecord,
+};
+use tolman_robot::{
+    Bumps, Guess, MapView, Mapper, Position, Robot, Rolls, Standing, System, TakesSnapshots, Task,
+    TurnTranslate,
+};
+
+use super::{Wanderer, WandererConfig, WandererError};
+use crate::stream;
+
+/// How an [`OfflineSlam`] gathers its records and learns.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct OfflineSlamConfig {
+    /// How it wanders.
+    pub wanderer: WandererConfig,
+    /// How many records it learns from, at least 2. Paper: 1006.
+    pub records: usize,
+    /// What places are told by.
+    pub features: FeatureChoice,
+    /// How the map learns.
+    pub map: PlaceMapConfig,
+}
+
+impl OfflineSlamConfig {
+    /// Returns the paper's values (sections 3.2 and 3.4, set 1 of Table 4.1, the middle of Table 3.1).
+    #[must_use]
+    pub fn paper() -> Self {
+        Self {
+            wanderer: WandererConfig::paper(),
+            records: 1006,
+            features: FeatureChoice::default(),
+            map: PlaceMapConfig::paper(),
+        }
+    }
+
+    /// Sets how many records it learns from.
+    #[must_use]
+    pub const fn with_records(mut self, records: usize) -> Self {
+        self.records = records;
+        self
+    }
+}
+
+/// Why the records make no map.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum OfflineSlamError {
+    /// They have no features.
+    #[error("the records lack what places are told by")]
+    Features(#[from] FeatureError),
+    /// They cannot be learned.
+    #[error("no map can be learned of the records")]
+    Map(#[from] PlaceMapError),
+}
+
+/// Why an [`OfflineSlam`] cannot go on.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum OfflineSlamFailure<R> {
+    /// No record came, or the robot failed.
+    #[error(transparent)]
+    Robot(#[from] WandererError<R>),
+    /// The records make no map.
+    #[error(transparent)]
+    Map(#[from] OfflineSlamError),
+}
+
+/// The paper's system: it wanders until it has its records (section 3.2), and then learns a map of all of them at once (section 3.4).
+///
+/// An action of [`Task::Explore`] is a leg and the record of where it ended. Places are told by where the odometry has the robot, so
+/// that one which was lifted cannot find itself; and the paper plans ways on its map but drives none, so that it goes nowhere: see
+/// [`PlacePilot`](super::PlacePilot) for that.
+#[derive(Clone, Debug)]
+pub struct OfflineSlam {
+    config: OfflineSlamConfig,
+    wanderer: Wanderer,
+    rng: ChaCha8Rng,
+    records: Vec<PlaceRecord>,
+    learned: Option<Learned>,
+}
+
+/// A map, and the node that each record is nearest to.
+#[derive(Clone, Debug)]
+struct Learned {
+    map: PlaceMap,
+    nodes: Vec<u32>,
+}
+
+/// Random stream of a run's seed for the map; that of the wanderer is 0.
+const MAP_STREAM: u64 = 1;
+
+impl OfflineSlam {
+    /// Returns a system without a map, whose robot has just been put down. `seed` is that of all chance.
+    #[must_use]
+    pub fn new(config: OfflineSlamConfig, seed: u64) -> Self {
+        Self {
+            wanderer: Wanderer::new(config.wanderer, seed),
+            rng: stream(seed, MAP_STREAM),
+            records: Vec::with_capacity(config.records),
+            learned: None,
+            config,
+        }
+    }
+
+    /// Returns the map; `None` before it has all its records.
+    #[must_use]
+    pub fn learned(&self) -> Option<&PlaceMap> {
+        self.learned.as_ref().map(|learned| &learned.map)
+    }
+
+    fn learn(&mut self) -> Result<(), OfflineSlamError> {
+        let records = &self.records;
+        let table = FeatureTable::of(records, &self.config.features, ImageForm::Pixels)?;
+        let map = PlaceMap::learn(&table, 0..records.len(), self.config.map, &mut self.rng)?;
+        let nearest = |record| Ok(map.nearest(record)?.0);
+        let nodes: Result<Vec<u32>, PlaceMapError> = records.iter().map(nearest).collect();
+        let nodes = nodes?;
+        self.learned = Some(Learned { map, nodes });
+        Ok(())
+    }
+}
+
+impl Mapper for OfflineSlam {
+    type Observation = PlaceRecord;
+    type Error = OfflineSlamError;
+
+    fn observe(&mut self, seen: &PlaceRecord) -> Result<(), OfflineSlamError> {
+        if self.learned.is_some() {
+            return Ok(());
+        }
+        self.records.push(seen.clone());
+        match self.records.len() < self.config.records {
+            true => Ok(()),
+            false => self.learn(),
+        }
+    }
+
+    fn map(&self) -> MapView {
+        self.learned().map(Mapper::map).unwrap_or_default()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        let here = self
+            .learned
+            .as_ref()
+            .and_then(|learned| learned.nodes.last());
+        let guess = |node: &u32| Guess {
+            at: Position::Place(*node),
+            weight: 1.0,
+        };
+        here.map(guess).into_iter().collect()
+    }
+
+    fn visits(&self) -> Vec<Option<u32>> {
+        match &self.learned {
+            None => vec![None; self.records.len()],
+            Some(learned) => learned.nodes.iter().copied().map(Some).collect(),
+        }
+    }
+}
+
+impl<R> System<R> for OfflineSlam
+where
+    R: Robot<Command = TurnTranslate>,
+    R::Sensing: TakesSnapshots + Rolls + Bumps,
+{
+    type Failure = OfflineSlamFailure<R::Error>;
+
+    fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
+        match task {
+            Task::Explore if self.learned.is_some() => Ok(Standing::Done),
+            Task::Explore => {
+                let record = self.wanderer.leg(robot)?;
+                self.observe(&record)?;
+                Ok(match self.learned {
+                    None => Standing::UnderWay,
+                    Some(_) => Standing::Done,
+                })
+            }
+            Task::Reach(_) => Ok(Standing::gave_up(
+                "it plans ways on its map and does not drive them",
+            )),
+            Task::Localize => Ok(match self.learned {
+                Some(_) => Standing::Done,
+                None => Standing::gave_up("it has no map to find itself on"),
+            }),
+        }
+    }
+
+    fn words(&self) -> String {
+        match &self.learned {
+            None => format!("{} records", self.records.len()),
+            Some(learned) => format!("{} nodes", learned.map.network().ids().count()),
+        }
+    }
+}

@@ -1,0 +1,137 @@
+use alloc::sync::Arc;
+
+use rand::Rng;
+use tolman_control::RingError;
+use tolman_maze::Direction;
+use tolman_robot::{Guess, MapView, Mapper, Ring, Standing, Task};
+
+use super::better::{BetterConfig, BetterExplorer, BetterMap, BetterNavigator};
+use crate::{Brain, Doing, RolledStep};
+
+/// The better MSLST as a whole: it explores, makes its map ready, and then navigates.
+///
+/// Let an [`Actor`](crate::Actor) drive it through layers that see scans straightened. [`Task::Explore`] ends when no gap is left. Whoever
+/// puts it down before ends the exploration: it navigates by what it has learned so far.
+#[derive(Clone, Debug)]
+pub struct BetterMslst {
+    config: BetterConfig,
+    ring: Ring,
+    phase: Phase,
+}
+
+#[derive(Clone, Debug)]
+enum Phase {
+    Exploration(Box<BetterExplorer>),
+    /// It has explored all, and stands where it did so.
+    Explored(Box<BetterExplorer>, Box<BetterNavigator>),
+    Navigation(Box<BetterNavigator>),
+}
+
+impl BetterMslst {
+    /// Returns one that knows nothing yet. `ring` is that of its robot's scans.
+    #[must_use]
+    pub fn new(config: BetterConfig, ring: Ring) -> Self {
+        Self {
+            config,
+            ring,
+            phase: Phase::Exploration(Box::new(BetterExplorer::new(config))),
+        }
+    }
+
+    /// The phase under way.
+    fn brain(&self) -> &dyn Brain<Observation = RolledStep, Error = core::convert::Infallible> {
+        match &self.phase {
+            Phase::Exploration(explorer) | Phase::Explored(explorer, _) => &**explorer,
+            Phase::Navigation(navigator) => &**navigator,
+        }
+    }
+
+    /// Makes the map of `explorer` ready. O(standpoints · tries · steps · beams).
+    fn navigator(&self, explorer: &BetterExplorer) -> Result<Box<BetterNavigator>, RingError> {
+        let map = BetterMap::of(explorer.learned().clone(), self.ring, &self.config)?;
+        Ok(Box::new(BetterNavigator::new(Arc::new(map))))
+    }
+
+    /// Ends the exploration of a robot that is lifted amid it.
+    fn lifted(&mut self) -> Result<(), RingError> {
+        if let Phase::Exploration(explorer) = &self.phase
+            && !explorer.learned().places().is_empty()
+        {
+            self.phase = Phase::Navigation(self.navigator(explorer)?);
+        }
+        Ok(())
+    }
+
+    /// Goes on to navigate where all is explored. The robot stays where `seen` was sensed.
+    fn advance(&mut self, seen: &RolledStep) -> Result<(), RingError> {
+        if let Phase::Exploration(explorer) = &self.phase
+            && explorer.standing(Task::Explore) == Standing::Done
+        {
+            let mut navigator = self.navigator(explorer)?;
+            let mut here = seen.clone();
+            here.step.doing = Doing::PutDown;
+            let Ok(()) = navigator.observe(&here);
+            self.phase = Phase::Explored(explorer.clone(), navigator);
+        }
+        Ok(())
+    }
+}
+
+impl Mapper for BetterMslst {
+    type Observation = RolledStep;
+    type Error = RingError;
+
+    fn observe(&mut self, seen: &RolledStep) -> Result<(), RingError> {
+        if seen.step.doing == Doing::PutDown {
+            self.lifted()?;
+        }
+        match &mut self.phase {
+            Phase::Exploration(explorer) => {
+                let Ok(()) = explorer.observe(seen);
+                match seen.step.doing {
+                    Doing::Ended(..) => self.advance(seen),
+                    Doing::PutDown | Doing::UnderWay(_) => Ok(()),
+                }
+            }
+            Phase::Explored(_, navigator) => {
+                let Ok(()) = navigator.observe(seen);
+                self.phase = Phase::Navigation(navigator.clone());
+                Ok(())
+            }
+            Phase::Navigation(navigator) => {
+                let Ok(()) = navigator.observe(seen);
+                Ok(())
+            }
+        }
+    }
+
+    fn map(&self) -> MapView {
+        self.brain().map()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        self.brain().belief()
+    }
+}
+
+impl Brain for BetterMslst {
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
+        match &mut self.phase {
+            Phase::Exploration(explorer) => explorer.choose(rng),
+            Phase::Explored(_, navigator) | Phase::Navigation(navigator) => navigator.choose(rng),
+        }
+    }
+
+    fn standing(&self, task: Task) -> Standing {
+        match (&self.phase, task) {
+            (Phase::Explored(_, navigator), Task::Reach(_) | Task::Localize) => {
+                navigator.standing(task)
+            }
+            _ => self.brain().standing(task),
+        }
+    }
+
+    fn words(&self) -> String {
+        self.brain().words()
+    }
+}
