@@ -90,10 +90,6 @@ pub fn run(
     let mut robot = Limited::new(robot, trial.step_limit);
     // An action may last as long as the run.
     let layers = layers(trial.course, &trial.robot)?;
-    let layers = match mind {
-        Mind::Rolling(_) => layers.straightening(),
-        Mind::Brain(_) | Mind::Oracle(_) => layers,
-    };
     let drive = Drive::new(layers, stream(trial.seed, LAYERS_STREAM)).longest_action(u32::MAX);
     let (mut failed_actions, mut failed_at_once) = (0, 0);
     let mut steps_of_action = 0;

@@ -82,4 +82,8 @@ impl Brain for Lingerer {
             _ => self.explorer.standing(task),
         }
     }
+
+    fn sees_straight(&self) -> bool {
+        self.explorer.sees_straight()
+    }
 }

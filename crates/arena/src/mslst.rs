@@ -5,7 +5,7 @@ use alloc::sync::Arc;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_control::{Drive, Stack};
+use tolman_control::Drive;
 use tolman_geom::Point;
 use tolman_robot::{Body, System, Task};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
@@ -66,12 +66,7 @@ pub fn learn_better(
         corridor_width: course.corridor_width,
         ..BetterConfig::pioneer()
     };
-    let wanderer = Wanderer::new(
-        course,
-        robot,
-        stack(course, robot)?.straightening(),
-        &mut stream(seed, BETTER_STREAM),
-    )?;
+    let wanderer = Wanderer::new(course, robot, &mut stream(seed, BETTER_STREAM))?;
     let limit = course.step_limit().saturating_mul(10 * times);
     let mut robot_in_run = Limited::new(wanderer.robot, limit);
     let brain = Lingerer::new(BetterExplorer::new(config), times);
@@ -134,12 +129,7 @@ pub fn scans(
     steps: u32,
     seed: u64,
 ) -> Result<Vec<Vec<f64>>, LearnError> {
-    let wanderer = Wanderer::new(
-        course,
-        robot,
-        stack(course, robot)?,
-        &mut stream(seed, SCANS_STREAM),
-    )?;
+    let wanderer = Wanderer::new(course, robot, &mut stream(seed, SCANS_STREAM))?;
     let mut robot = Limited::new(wanderer.robot, u32::MAX);
     let mut actor = Actor::new(ScanRecorder::new(steps), wanderer.drive, wanderer.rng);
     run::run(&mut robot, &mut actor, Task::Explore).map_err(|error| broken(&robot, error))?;
@@ -157,12 +147,7 @@ pub fn learn_graph(
     actions: u32,
     seed: u64,
 ) -> Result<Learned, LearnError> {
-    let wanderer = Wanderer::new(
-        course,
-        robot,
-        stack(course, robot)?,
-        &mut stream(seed, GRAPH_STREAM),
-    )?;
+    let wanderer = Wanderer::new(course, robot, &mut stream(seed, GRAPH_STREAM))?;
     let mut survey = GrowthRecord {
         positions: vec![wanderer.robot.truth().pose.position],
         made_by: vec![0],
@@ -188,10 +173,6 @@ pub fn learn_graph(
     Ok(Learned { map, survey })
 }
 
-fn stack(course: &Course, robot: &LaserPioneerConfig) -> Result<Stack, EpisodeError> {
-    Ok(layers(course, robot)?)
-}
-
 /// A robot somewhere on a course, and what it needs to wander.
 struct Wanderer {
     robot: CoursePioneer,
@@ -203,7 +184,6 @@ impl Wanderer {
     fn new(
         course: &Course,
         robot: &LaserPioneerConfig,
-        layers: Stack,
         seeds: &mut ChaCha8Rng,
     ) -> Result<Self, EpisodeError> {
         let body = Body::Circle {
@@ -214,7 +194,7 @@ impl Wanderer {
         let layers_rng = stream(seeds.next_u64(), 0);
         Ok(Self {
             robot: course.robot_at(start, LaserPioneer::new(robot.clone())?, simulation)?,
-            drive: Drive::new(layers, layers_rng),
+            drive: Drive::new(layers(course, robot)?, layers_rng),
             rng: stream(seeds.next_u64(), 0),
         })
     }

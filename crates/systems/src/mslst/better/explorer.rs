@@ -204,6 +204,10 @@ impl Brain for BetterExplorer {
         }
     }
 
+    fn sees_straight(&self) -> bool {
+        true
+    }
+
     fn words(&self) -> String {
         let places = self.map.places().len();
         match self.plan {

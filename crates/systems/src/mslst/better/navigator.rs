@@ -145,6 +145,10 @@ impl Brain for BetterNavigator {
         }
     }
 
+    fn sees_straight(&self) -> bool {
+        true
+    }
+
     fn words(&self) -> String {
         let sure = self
             .whereabouts
