@@ -94,7 +94,7 @@ fn a_corridor_walked_to_and_fro_has_each_place_once() {
 #[test]
 fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     let (map, _) = walked(5.0, &[0.0]);
-    let on = Standpoints::of(&map, ring(), 0.22);
+    let on = Standpoints::of(&map, ring());
     let mut belief = StandpointBelief::anywhere(&on);
     // The map begins where the robot did: its western end lies half a metre to the west.
     belief.saw(
@@ -139,7 +139,7 @@ proptest! {
         moves in prop::collection::vec((-0.6..0.6_f64, -0.2..0.2_f64, 0.3..4.7_f64), 1..8),
     ) {
         let (map, _) = walked(5.0, &[0.01]);
-        let on = Standpoints::of(&map, ring(), 0.22);
+        let on = Standpoints::of(&map, ring());
         let mut belief = StandpointBelief::anywhere(&on);
         for (x, y, seen) in moves {
             belief.moved(&on, map.grid(), Vector::new(x, y), Vector::new(0.06, 0.01));
