@@ -17,7 +17,7 @@ use crate::{Brain, Doing, RolledStep};
 #[derive(Clone, Debug)]
 pub struct BetterNavigator {
     map: Arc<BetterMap>,
-    whereabouts: StandpointBelief,
+    belief: StandpointBelief,
     reckoning: Reckoning,
     heading: Heading,
     /// What failed since the robot last moved.
@@ -33,7 +33,7 @@ impl BetterNavigator {
     #[must_use]
     pub fn new(map: Arc<BetterMap>) -> Self {
         Self {
-            whereabouts: StandpointBelief::anywhere(&map.standpoints),
+            belief: StandpointBelief::anywhere(&map.standpoints),
             map,
             reckoning: Reckoning::default(),
             heading: Heading::NORTH,
@@ -42,25 +42,19 @@ impl BetterNavigator {
         }
     }
 
-    /// Returns what it believes of where it is.
-    #[must_use]
-    pub const fn whereabouts(&self) -> &StandpointBelief {
-        &self.whereabouts
-    }
-
     fn look(&mut self, seen: &RolledStep) {
         let (moved, sd) = self.reckoning.take();
         let map = &*self.map;
         if moved != tolman_geom::Vector::zeros() {
-            self.whereabouts
+            self.belief
                 .moved(&map.standpoints, map.scans.grid(), moved, sd);
         }
         if let (Some(scan), Some(heading)) = (&seen.step.scan, seen.step.heading) {
             self.heading = heading;
-            self.whereabouts.saw(&map.standpoints, heading, scan);
+            self.belief.saw(&map.standpoints, heading, scan);
         }
         if seen.step.landmark != Some(Landmark::Goal) {
-            self.whereabouts.missed_the_goal(&map.standpoints);
+            self.belief.missed_the_goal(&map.standpoints);
         }
         self.next = self.cheapest();
     }
@@ -69,7 +63,7 @@ impl BetterNavigator {
     fn cheapest(&self) -> Option<Direction> {
         let axis = facing(self.heading);
         let mut costs = [0.0; 4];
-        for (number, mass) in (0..).zip(self.whereabouts.probabilities()) {
+        for (number, mass) in (0..).zip(self.belief.probabilities()) {
             if *mass > NO_SAY / self.map.standpoints.len() as f64 {
                 for action in Direction::ALL {
                     let cost = self.map.cost(number, axis, action).min(f64::from(HOPELESS));
@@ -108,7 +102,7 @@ impl Mapper for BetterNavigator {
 
     fn belief(&self) -> Vec<Guess> {
         let positions = self.map.standpoints.positions().iter();
-        let guesses = positions.zip(self.whereabouts.probabilities());
+        let guesses = positions.zip(self.belief.probabilities());
         let guesses = guesses.filter(|(_, mass)| **mass > NO_SAY);
         let mut guesses: Vec<Guess> = guesses
             .map(|(at, weight)| Guess {
@@ -134,7 +128,7 @@ impl Brain for BetterNavigator {
             Task::Reach(_) => Standing::gave_up("its map leads to the landmark of the goal alone"),
             Task::Localize => {
                 let sure = self
-                    .whereabouts
+                    .belief
                     .certainty(&self.map.standpoints, self.map.config.diameter);
                 if sure > 0.95 {
                     Standing::Done
@@ -151,7 +145,7 @@ impl Brain for BetterNavigator {
 
     fn words(&self) -> String {
         let sure = self
-            .whereabouts
+            .belief
             .certainty(&self.map.standpoints, self.map.config.diameter);
         format!("believes with {:.0} % to know where it is", 100.0 * sure)
     }
