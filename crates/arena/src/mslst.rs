@@ -9,7 +9,7 @@ use tolman_control::Drive;
 use tolman_geom::Point;
 use tolman_robot::{Body, System, Task};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
-use tolman_systems::mslst::better::{BetterConfig, BetterExplorer, BetterMap};
+use tolman_systems::mslst::better::{BetterConfig, BetterExplorer, BetterMap, BetterPart};
 use tolman_systems::mslst::{
     GrowthRecord, Learned, MslstConfig, ScanRecorder, States, StatesError, Topology,
 };
@@ -61,15 +61,49 @@ pub fn learn_better(
     times: u32,
     seed: u64,
 ) -> Result<BetterLearned, LearnError> {
+    learn_by(course, robot, &better_config(course, robot), times, seed)
+}
+
+/// Lets the better system learn a course without one of its parts, if `without` names one, until it has been everywhere.
+///
+/// # Errors
+/// As [`learn_better`].
+pub fn learn_better_without(
+    without: Option<BetterPart>,
+    course: &Course,
+    robot: &LaserPioneerConfig,
+    seed: u64,
+) -> Result<BetterLearned, LearnError> {
     let config = BetterConfig {
+        without,
+        ..better_config(course, robot)
+    };
+    learn_by(course, robot, &config, 1, seed)
+}
+
+fn better_config(course: &Course, robot: &LaserPioneerConfig) -> BetterConfig {
+    BetterConfig {
         diameter: 2.0 * robot.radius,
         corridor_width: course.corridor_width,
         ..BetterConfig::pioneer()
-    };
+    }
+}
+
+fn learn_by(
+    course: &Course,
+    robot: &LaserPioneerConfig,
+    config: &BetterConfig,
+    times: u32,
+    seed: u64,
+) -> Result<BetterLearned, LearnError> {
     let wanderer = Wanderer::new(course, robot, &mut stream(seed, BETTER_STREAM))?;
     let limit = course.step_limit().saturating_mul(10 * times);
     let mut robot_in_run = Limited::new(wanderer.robot, limit);
-    let brain = Lingerer::new(BetterExplorer::new(config), times);
+    let explorer = BetterExplorer::new(*config);
+    let brain = match config.has(BetterPart::Exploration) {
+        true => Lingerer::new(explorer, times),
+        false => Lingerer::wandering(explorer),
+    };
     let mut actor = Actor::new(brain, wanderer.drive, wanderer.rng);
     let mut positions = Vec::new();
     let mut true_places: Vec<Point> = Vec::new();
@@ -89,7 +123,7 @@ pub fn learn_better(
     let lingerer = actor.into_brain();
     let actions = lingerer.explored();
     let scans = lingerer.into_learned();
-    let map = BetterMap::of(scans, robot.ring, &config).map_err(EpisodeError::from)?;
+    let map = BetterMap::of(scans, robot.ring, config).map_err(EpisodeError::from)?;
     Ok(BetterLearned {
         map: Arc::new(map),
         ended,

@@ -98,7 +98,7 @@ mod navigator;
 mod reckoning;
 mod rehearsal;
 
-pub use config::{BetterConfig, Motors};
+pub use config::{BetterConfig, BetterPart, Motors};
 pub use explorer::BetterExplorer;
 pub use map::BetterMap;
 pub use navigator::BetterNavigator;

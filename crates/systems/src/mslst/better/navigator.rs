@@ -7,10 +7,10 @@ use tolman_maps::scan_map::StandpointBelief;
 use tolman_maze::Direction;
 use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, Task};
 
-use super::BetterMap;
 use super::map::HOPELESS;
 use super::reckoning::Reckoning;
 use super::rehearsal::facing;
+use super::{BetterMap, BetterPart};
 use crate::{Brain, Doing, RolledStep};
 
 /// Finds out where it is on its map, and does what leads to the goal soonest on average over all it believes.
@@ -53,7 +53,7 @@ impl BetterNavigator {
             self.heading = heading;
             self.belief.saw(&map.standpoints, heading, scan);
         }
-        if seen.step.landmark != Some(Landmark::Goal) {
+        if seen.step.landmark != Some(Landmark::Goal) && map.config.has(BetterPart::Absence) {
             self.belief.missed_the_goal(&map.standpoints);
         }
         self.next = self.cheapest();
@@ -62,9 +62,14 @@ impl BetterNavigator {
     /// The action that costs least on average over all it believes.
     fn cheapest(&self) -> Option<Direction> {
         let axis = facing(self.heading);
+        let only = match self.map.config.has(BetterPart::Average) {
+            true => None,
+            false => self.belief.likeliest(),
+        };
         let mut costs = [0.0; 4];
         for (number, mass) in (0..).zip(self.belief.probabilities()) {
-            if *mass > NO_SAY / self.map.standpoints.len() as f64 {
+            let has_say = *mass > NO_SAY / self.map.standpoints.len() as f64;
+            if has_say && only.is_none_or(|only| only == number) {
                 for action in Direction::ALL {
                     let cost = self.map.cost(number, axis, action).min(f64::from(HOPELESS));
                     costs[action.index()] += mass * cost;
@@ -140,7 +145,7 @@ impl Brain for BetterNavigator {
     }
 
     fn sees_straight(&self) -> bool {
-        true
+        self.map.config.has(BetterPart::Straightening)
     }
 
     fn words(&self) -> String {
