@@ -114,7 +114,8 @@ impl StandpointBelief {
             let misfit = misfit.unwrap_or(UNSHOWN);
             *mass *= libm::exp(-0.5 * INDEPENDENT_BEAMS * misfit.max(GOOD));
         }
-        self.surprises = if best.is_finite() && best > SURPRISE {
+        // Where the map shows nothing that could fit, it is as surprised.
+        self.surprises = if best > SURPRISE {
             self.surprises + 1
         } else {
             0
