@@ -146,7 +146,7 @@ impl CorridorDetector {
         let axis = view
             .heading
             .turned(f64::from(misaligned_beams) * view.scan.ring.spacing);
-        (longest >= self.run && runs_along_the_compass(axis)).then(|| Corridor {
+        (longest >= self.run && runs_along_the_compass(axis)).then_some(Corridor {
             misaligned_beams,
             narrowest: least,
         })

@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 use super::{CORRIDOR, Ended, folder, tolman_in};
 
 /// What the command draws on a terminal until a key has made it stop; `None`, told, where there is no `script`.
+#[expect(clippy::print_stderr, reason = "a test that is left out says so")]
 fn drawn(folder: &Path, arguments: &str) -> Option<Ended> {
     let tolman = env!("CARGO_BIN_EXE_tolman");
     let line = format!("stty cols 100 rows 40; timeout 60 {tolman} {arguments}");
