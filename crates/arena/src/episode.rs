@@ -98,7 +98,7 @@ pub fn run(
     run_lifted(trial, mind, None, watch)
 }
 
-/// Does as [`run`] does, with a robot that is lifted on the way.
+/// Does as [`run()`] does, with a robot that is lifted on the way.
 ///
 /// # Errors
 /// [`EpisodeError`] if the robot cannot be built, or not be put where it begins or where it is lifted to.
