@@ -12,7 +12,8 @@ use crate::course::Course;
 use crate::episode_error::broken;
 use crate::mind::Mind;
 use crate::oracle::Seer;
-use crate::run::{self, Limited, TaskEnd};
+use crate::pioneer::CoursePioneer;
+use crate::run::{self, InRun, Limited, TaskEnd};
 
 pub use crate::episode_error::EpisodeError;
 pub use step::{Chooser, Step};
@@ -30,6 +31,15 @@ pub struct Trial<'a> {
     pub step_limit: u32,
     /// The seed of the run: world, layers and mind draw from streams of their own.
     pub seed: u64,
+}
+
+/// A robot that is lifted in the middle of a run and put down elsewhere. Nobody tells its brain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lifted {
+    /// Time steps after which it is lifted, at the end of the action under way.
+    pub after: u32,
+    /// Where it is put down.
+    pub to: Pose,
 }
 
 /// What became of a run.
@@ -83,6 +93,19 @@ pub fn layers(course: &Course, robot: &LaserPioneerConfig) -> Result<Stack, Ring
 pub fn run(
     trial: &Trial<'_>,
     mind: &mut Mind,
+    watch: impl FnMut(&Step<'_>),
+) -> Result<Episode, EpisodeError> {
+    run_lifted(trial, mind, None, watch)
+}
+
+/// Does as [`run()`] does, with a robot that is lifted on the way.
+///
+/// # Errors
+/// [`EpisodeError`] if the robot cannot be built, or not be put where it begins or where it is lifted to.
+pub fn run_lifted(
+    trial: &Trial<'_>,
+    mind: &mut Mind,
+    mut lifted: Option<Lifted>,
     mut watch: impl FnMut(&Step<'_>),
 ) -> Result<Episode, EpisodeError> {
     let robot = LaserPioneer::new(trial.robot.clone())?;
@@ -90,10 +113,6 @@ pub fn run(
     let mut robot = Limited::new(robot, trial.step_limit);
     // An action may last as long as the run.
     let layers = layers(trial.course, &trial.robot)?;
-    let layers = match mind {
-        Mind::Rolling(_) => layers.straightening(),
-        Mind::Brain(_) | Mind::Oracle(_) => layers,
-    };
     let drive = Drive::new(layers, stream(trial.seed, LAYERS_STREAM)).longest_action(u32::MAX);
     let (mut failed_actions, mut failed_at_once) = (0, 0);
     let mut steps_of_action = 0;
@@ -106,10 +125,17 @@ pub fn run(
         }
         watch(step);
     };
+    let mut refused = None;
+    let mut lift = |robot: &mut Limited<CoursePioneer>| {
+        if let Some(Lifted { to, .. }) = lifted.take_if(|lifted| robot.steps() >= lifted.after) {
+            refused = robot.robot_mut().place(to).err();
+        }
+    };
     let ended = match mind {
         Mind::Brain(brain) => {
             let mut actor = Actor::new(&mut **brain, drive, stream(trial.seed, MIND_STREAM));
             run::until_done(&mut robot, |robot| {
+                lift(robot);
                 actor.act_seen(robot, ARRIVE, |brain, step| {
                     see(&Step::of(Chooser::Brain(&**brain), step));
                 })
@@ -118,6 +144,7 @@ pub fn run(
         Mind::Rolling(brain) => {
             let mut actor = Actor::new(&mut **brain, drive, stream(trial.seed, MIND_STREAM));
             run::until_done(&mut robot, |robot| {
+                lift(robot);
                 actor.act_seen(robot, ARRIVE, |brain, step| {
                     see(&Step::of(Chooser::Rolling(&**brain), step));
                 })
@@ -126,12 +153,16 @@ pub fn run(
         Mind::Oracle(oracle) => {
             let mut seer = Seer::new(oracle, drive);
             run::until_done(&mut robot, |robot| {
+                lift(robot);
                 let standing = seer.act(robot, |step| see(&Step::of(Chooser::Oracle, step)));
                 standing.map_err(ActorError::Robot)
             })
         }
     }
     .map_err(|error| broken(&robot, error))?;
+    if let Some(refused) = refused {
+        return Err(refused.into());
+    }
     Ok(Episode {
         reached: ended.end == TaskEnd::Done,
         actions: ended.actions,
@@ -141,4 +172,57 @@ pub fn run(
         bumps: robot.robot().bumps(),
         path: robot.robot().path().to_vec(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::{Heading, Point};
+    use tolman_maze::{Cell, Direction};
+
+    use super::*;
+    use crate::cast::{Agent, Cast};
+    use crate::pioneer::{body, calibrated};
+
+    const CORRIDOR: &str = "\
++---+---+---+---+---+---+
+| S                   G |
++---+---+---+---+---+---+
+";
+
+    fn episode(lifted: Option<Lifted>) -> Result<Episode, EpisodeError> {
+        let file = tolman_maze::read(CORRIDOR).unwrap();
+        let course = Course::for_body("corridor", &file, &body()).unwrap();
+        let trial = Trial {
+            course: &course,
+            robot: calibrated(),
+            start: course.in_cell(Cell::new(0, 0), Direction::East),
+            step_limit: 60,
+            seed: 1,
+        };
+        let mut mind = Cast::default().mind(Agent::Avoid, &course, &trial.robot)?;
+        run_lifted(&trial, &mut mind, lifted, |_| {})
+    }
+
+    #[test]
+    fn a_robot_is_lifted_once_and_after_its_time() {
+        let plain = episode(None).unwrap();
+        // The middle of the last cell but one.
+        let to = Pose::new(Point::new(4.5 * 0.95, 0.475), Heading::EAST);
+        let lifted = episode(Some(Lifted { after: 6, to })).unwrap();
+        assert_eq!(lifted.path[..=6], plain.path[..=6]);
+        let ways = lifted.path.windows(2);
+        let jumps = ways.filter(|two| (two[1].position - two[0].position).norm() > 0.6);
+        assert_eq!(jumps.count(), 1);
+        assert!(lifted.reached);
+    }
+
+    #[test]
+    fn a_robot_cannot_be_put_into_a_wall() {
+        let to = Pose::IDENTITY;
+        let refused = episode(Some(Lifted { after: 1, to }));
+        assert!(
+            matches!(refused, Err(EpisodeError::Start(_))),
+            "{refused:?}"
+        );
+    }
 }

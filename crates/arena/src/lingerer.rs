@@ -17,6 +17,8 @@ pub(crate) struct Lingerer {
     /// How many of those it made before it had been everywhere first.
     explored: Option<u32>,
     times: u32,
+    /// Whether it wanders from the beginning.
+    wanders: bool,
 }
 
 impl Lingerer {
@@ -28,6 +30,15 @@ impl Lingerer {
             actions: 0,
             explored: None,
             times,
+            wanders: false,
+        }
+    }
+
+    /// Returns one that wanders until `explorer` finds that it has been everywhere.
+    pub(crate) fn wandering(explorer: BetterExplorer) -> Self {
+        Self {
+            wanders: true,
+            ..Self::new(explorer, 1)
         }
     }
 
@@ -70,9 +81,10 @@ impl Mapper for Lingerer {
 
 impl Brain for Lingerer {
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
-        match self.explored {
-            Some(_) => self.wander.choose(rng),
-            None => self.explorer.choose(rng),
+        if self.wanders || self.explored.is_some() {
+            self.wander.choose(rng)
+        } else {
+            self.explorer.choose(rng)
         }
     }
 
@@ -81,5 +93,9 @@ impl Brain for Lingerer {
             Some(explored) if self.actions < explored * self.times => Standing::UnderWay,
             _ => self.explorer.standing(task),
         }
+    }
+
+    fn sees_straight(&self) -> bool {
+        self.explorer.sees_straight()
     }
 }

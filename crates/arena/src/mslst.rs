@@ -5,11 +5,11 @@ use alloc::sync::Arc;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_control::{Drive, Stack};
+use tolman_control::Drive;
 use tolman_geom::Point;
 use tolman_robot::{Body, System, Task};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
-use tolman_systems::mslst::better::{BetterConfig, BetterExplorer, BetterMap};
+use tolman_systems::mslst::better::{BetterConfig, BetterExplorer, BetterMap, BetterPart};
 use tolman_systems::mslst::{
     GrowthRecord, Learned, MslstConfig, ScanRecorder, States, StatesError, Topology,
 };
@@ -61,20 +61,49 @@ pub fn learn_better(
     times: u32,
     seed: u64,
 ) -> Result<BetterLearned, LearnError> {
+    learn_by(course, robot, &better_config(course, robot), times, seed)
+}
+
+/// Lets the better system learn a course without one of its parts, if `without` names one, until it has been everywhere.
+///
+/// # Errors
+/// As [`learn_better`].
+pub fn learn_better_without(
+    without: Option<BetterPart>,
+    course: &Course,
+    robot: &LaserPioneerConfig,
+    seed: u64,
+) -> Result<BetterLearned, LearnError> {
     let config = BetterConfig {
+        without,
+        ..better_config(course, robot)
+    };
+    learn_by(course, robot, &config, 1, seed)
+}
+
+fn better_config(course: &Course, robot: &LaserPioneerConfig) -> BetterConfig {
+    BetterConfig {
         diameter: 2.0 * robot.radius,
         corridor_width: course.corridor_width,
         ..BetterConfig::pioneer()
-    };
-    let wanderer = Wanderer::new(
-        course,
-        robot,
-        stack(course, robot)?.straightening(),
-        &mut stream(seed, BETTER_STREAM),
-    )?;
+    }
+}
+
+fn learn_by(
+    course: &Course,
+    robot: &LaserPioneerConfig,
+    config: &BetterConfig,
+    times: u32,
+    seed: u64,
+) -> Result<BetterLearned, LearnError> {
+    let wanderer = Wanderer::new(course, robot, &mut stream(seed, BETTER_STREAM))?;
     let limit = course.step_limit().saturating_mul(10 * times);
     let mut robot_in_run = Limited::new(wanderer.robot, limit);
-    let brain = Lingerer::new(BetterExplorer::new(config), times);
+    let explorer = BetterExplorer::new(*config);
+    let brain = match config.has(BetterPart::Exploration) {
+        true => Lingerer::new(explorer, times),
+        false => Lingerer::wandering(explorer),
+    };
     let mut actor = Actor::new(brain, wanderer.drive, wanderer.rng);
     let mut positions = Vec::new();
     let mut true_places: Vec<Point> = Vec::new();
@@ -94,7 +123,7 @@ pub fn learn_better(
     let lingerer = actor.into_brain();
     let actions = lingerer.explored();
     let scans = lingerer.into_learned();
-    let map = BetterMap::of(scans, robot.ring, &config).map_err(EpisodeError::from)?;
+    let map = BetterMap::of(scans, robot.ring, config).map_err(EpisodeError::from)?;
     Ok(BetterLearned {
         map: Arc::new(map),
         ended,
@@ -134,12 +163,7 @@ pub fn scans(
     steps: u32,
     seed: u64,
 ) -> Result<Vec<Vec<f64>>, LearnError> {
-    let wanderer = Wanderer::new(
-        course,
-        robot,
-        stack(course, robot)?,
-        &mut stream(seed, SCANS_STREAM),
-    )?;
+    let wanderer = Wanderer::new(course, robot, &mut stream(seed, SCANS_STREAM))?;
     let mut robot = Limited::new(wanderer.robot, u32::MAX);
     let mut actor = Actor::new(ScanRecorder::new(steps), wanderer.drive, wanderer.rng);
     run::run(&mut robot, &mut actor, Task::Explore).map_err(|error| broken(&robot, error))?;
@@ -157,12 +181,7 @@ pub fn learn_graph(
     actions: u32,
     seed: u64,
 ) -> Result<Learned, LearnError> {
-    let wanderer = Wanderer::new(
-        course,
-        robot,
-        stack(course, robot)?,
-        &mut stream(seed, GRAPH_STREAM),
-    )?;
+    let wanderer = Wanderer::new(course, robot, &mut stream(seed, GRAPH_STREAM))?;
     let mut survey = GrowthRecord {
         positions: vec![wanderer.robot.truth().pose.position],
         made_by: vec![0],
@@ -188,10 +207,6 @@ pub fn learn_graph(
     Ok(Learned { map, survey })
 }
 
-fn stack(course: &Course, robot: &LaserPioneerConfig) -> Result<Stack, EpisodeError> {
-    Ok(layers(course, robot)?)
-}
-
 /// A robot somewhere on a course, and what it needs to wander.
 struct Wanderer {
     robot: CoursePioneer,
@@ -203,7 +218,6 @@ impl Wanderer {
     fn new(
         course: &Course,
         robot: &LaserPioneerConfig,
-        layers: Stack,
         seeds: &mut ChaCha8Rng,
     ) -> Result<Self, EpisodeError> {
         let body = Body::Circle {
@@ -214,7 +228,7 @@ impl Wanderer {
         let layers_rng = stream(seeds.next_u64(), 0);
         Ok(Self {
             robot: course.robot_at(start, LaserPioneer::new(robot.clone())?, simulation)?,
-            drive: Drive::new(layers, layers_rng),
+            drive: Drive::new(layers(course, robot)?, layers_rng),
             rng: stream(seeds.next_u64(), 0),
         })
     }

@@ -130,25 +130,25 @@ impl CorridorDetector {
             return None;
         }
         let (front, back) = view.scan.ranges.split_at_checked(self.pairs)?;
-        let sum = |pair: usize| front[pair % self.pairs] + back[pair % self.pairs];
-        let mut narrowest = 0;
+        let sums = front.iter().zip(back).map(|(ahead, behind)| ahead + behind);
         let (mut run, mut longest) = (0, 0);
         // Twice round, so that a run may cross the seam between the last pair and the first.
-        for pair in 0..2 * self.pairs {
-            run = if sum(pair) < self.near { run + 1 } else { 0 };
+        for sum in sums.clone().chain(sums.clone()) {
+            run = if sum < self.near { run + 1 } else { 0 };
             longest = longest.max(run);
-            if pair < self.pairs && sum(pair) < sum(narrowest) {
-                narrowest = pair;
-            }
         }
+        let narrower = |least: (usize, f64), next: (usize, f64)| {
+            if next.1 < least.1 { next } else { least }
+        };
+        let (narrowest, least) = sums.enumerate().reduce(narrower)?;
         // Aligned, the narrowest pair is the one that looks left and right.
         let misaligned_beams = narrowest as i32 - (self.pairs / 2) as i32;
         let axis = view
             .heading
             .turned(f64::from(misaligned_beams) * view.scan.ring.spacing);
-        (longest >= self.run && runs_along_the_compass(axis)).then(|| Corridor {
+        (longest >= self.run && runs_along_the_compass(axis)).then_some(Corridor {
             misaligned_beams,
-            narrowest: sum(narrowest),
+            narrowest: least,
         })
     }
 }

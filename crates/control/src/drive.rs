@@ -87,6 +87,13 @@ impl<G: Rng> Drive<G> {
         self
     }
 
+    /// Returns this drive, whose layers see scans [straightened](crate::straightened): see [`Stack::straightening`].
+    #[must_use]
+    pub fn straightening(mut self) -> Self {
+        self.stack = self.stack.straightening();
+        self
+    }
+
     /// Returns the ring whose scans its layers read.
     #[must_use]
     pub const fn ring(&self) -> Ring {

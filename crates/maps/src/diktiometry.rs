@@ -72,9 +72,10 @@ mod track;
 mod updater;
 
 pub use config::{
-    ActionKind, Config, DiktiometryConfigError, GeometricIndexing, GeometricMerge, Identity,
-    Indexing, JournalLength, Matching, Opportunities, Percepts, PerceptualIndexing, Precedence,
-    Restructuring, SearchLimits, SignatureKind, Tracking, Transients, Use, ViewRotation,
+    ActionKind, Apart, CompassAxis, Config, DiktiometryConfigError, GeometricIndexing,
+    GeometricMerge, Identity, Indexing, JournalLength, Matching, Opportunities, Percepts,
+    PerceptualIndexing, Precedence, Restructuring, SearchLimits, SignatureKind, Tracking,
+    Transients, Use, ViewRotation, WorldKind,
 };
 pub use constancy::Constancy;
 pub use counts::Counts;
@@ -102,7 +103,7 @@ pub use report::{
 pub use signature::{Signature, SignatureError};
 pub use track::{Track, TrackEntry};
 
-use counts::{Expected, wilson_upper};
+use counts::Expected;
 use estimator::{Rank, trusted_odometry};
 use indexing::{Candidate, Expectation, ViewIndex, expected, moved, plies};
 use looks::Similarity;

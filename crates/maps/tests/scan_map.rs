@@ -94,7 +94,7 @@ fn a_corridor_walked_to_and_fro_has_each_place_once() {
 #[test]
 fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     let (map, _) = walked(5.0, &[0.0]);
-    let on = Standpoints::of(&map, ring(), 0.22);
+    let on = Standpoints::of(&map, ring());
     let mut belief = StandpointBelief::anywhere(&on);
     // The map begins where the robot did: its western end lies half a metre to the west.
     belief.saw(
@@ -121,6 +121,38 @@ fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     assert!(belief.certainty(&on, DIAMETER) > 0.95);
 }
 
+/// Wherever on its map it believes to be, where the map ends too.
+#[test]
+fn a_scan_that_fits_nowhere_makes_it_begin_anew() {
+    // It has seen the western end of a corridor whose other end is out of sight.
+    let mut map = ScanMap::new(ScanMapConfig::for_robot(DIAMETER));
+    let start = Point::new(0.5, 0.475);
+    map.observe(&Advance {
+        moved: Vector::zeros(),
+        sd: Vector::zeros(),
+        heading: Heading::EAST,
+        scan: &scan_of(9.0, start, Heading::EAST),
+        landmark: None,
+    });
+    let on = Standpoints::of(&map, ring());
+    let nowhere = scan_of(0.6, Point::new(0.3, 0.475), Heading::EAST);
+    for way in [0.0, 1.0] {
+        let mut belief = StandpointBelief::anywhere(&on);
+        belief.saw(&on, Heading::EAST, &scan_of(9.0, start, Heading::EAST));
+        let moved = Vector::new(way, 0.0);
+        belief.moved(&on, map.grid(), moved, Vector::new(0.02, 0.02));
+        for _ in 0..3 {
+            belief.saw(&on, Heading::EAST, &nowhere);
+        }
+        let likeliest = on.positions()[belief.likeliest().unwrap() as usize];
+        let least = belief.probabilities().iter().copied().fold(1.0, f64::min);
+        assert!(
+            least > 0.0,
+            "after {way} m it still believes in {likeliest}"
+        );
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
@@ -139,7 +171,7 @@ proptest! {
         moves in prop::collection::vec((-0.6..0.6_f64, -0.2..0.2_f64, 0.3..4.7_f64), 1..8),
     ) {
         let (map, _) = walked(5.0, &[0.01]);
-        let on = Standpoints::of(&map, ring(), 0.22);
+        let on = Standpoints::of(&map, ring());
         let mut belief = StandpointBelief::anywhere(&on);
         for (x, y, seen) in moves {
             belief.moved(&on, map.grid(), Vector::new(x, y), Vector::new(0.06, 0.01));

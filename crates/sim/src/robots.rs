@@ -13,7 +13,7 @@ pub use camera_pioneer::{
 pub use epuck::{Epuck, EpuckConfig, EpuckDisturbances, EpuckError};
 pub use laser_pioneer::{
     LaserPioneer, LaserPioneerConfig, LaserPioneerDisturbances, LaserPioneerFaults, MotorNoise,
-    RobotConfigError,
+    RobotConfigError, StuckBeam,
 };
 pub use pioneer_2dx::{
     Pioneer2dx, Pioneer2dxConfig, Pioneer2dxDisturbances, Pioneer2dxError, Pioneer2dxFaults,

@@ -66,9 +66,15 @@ impl<B: Brain> Actor<B> {
         Self::new(brain, drive, stream(seed, BRAIN_STREAM))
     }
 
-    /// Returns `brain`, whose actions `drive` carries out. The brain draws from `rng`.
+    /// Returns `brain`, whose actions `drive` carries out, its layers seeing [what the brain says](Brain::sees_straight). The
+    /// brain draws from `rng`.
     #[must_use]
-    pub const fn new(brain: B, drive: Drive<ChaCha8Rng>, rng: ChaCha8Rng) -> Self {
+    pub fn new(brain: B, drive: Drive<ChaCha8Rng>, rng: ChaCha8Rng) -> Self {
+        let drive = if brain.sees_straight() {
+            drive.straightening()
+        } else {
+            drive
+        };
         Self {
             brain,
             drive,

@@ -24,6 +24,12 @@ pub trait Brain: Mapper + Debug {
         }
     }
 
+    /// Returns whether its layers see scans [straightened](tolman_control::straightened), for lasers that err. If nothing is said,
+    /// they see them as they were sensed.
+    fn sees_straight(&self) -> bool {
+        false
+    }
+
     /// Returns in a few words what it made of its situation when it last chose, such as `lost`; empty if there is
     /// nothing to say.
     fn words(&self) -> String {
@@ -38,6 +44,10 @@ impl<B: Brain + ?Sized> Brain for &mut B {
 
     fn standing(&self, task: Task) -> Standing {
         (**self).standing(task)
+    }
+
+    fn sees_straight(&self) -> bool {
+        (**self).sees_straight()
     }
 
     fn words(&self) -> String {

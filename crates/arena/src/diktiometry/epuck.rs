@@ -52,7 +52,7 @@ impl EpuckSurveyConfig {
     #[must_use]
     pub fn mapper(&self, separation: f64) -> Config {
         // Ways may bend: whoever left to the north does not come back by going south.
-        let actions = vec![ActionKind { reverse: None }; Direction::ALL.len()];
+        let actions = vec![ActionKind::default(); Direction::ALL.len()];
         Config {
             place_radius: self.margin / 2.0,
             percepts: Percepts::Signatures(SignatureKind {

@@ -50,6 +50,9 @@ pub struct ErrorSummary {
     pub asymptote: f64,
     /// The mean error per move by odometry over all moves, m².
     pub odometry: f64,
+    /// Moves after which the mean over a [`WINDOW`] of moves is, and in every later window stays, [`NEAR`] the run's own
+    /// asymptote; all moves if it never is.
+    pub moves_to_own: usize,
     /// The mean error by the map over each successive [`WINDOW`] of moves, m².
     pub curve: Vec<f64>,
     /// The same by odometry.
@@ -79,11 +82,18 @@ impl ErrorSummary {
         let tail = ((errors.len() as f64 * TAIL) as usize).max(1);
         let last = &errors[errors.len() - tail..];
         let windows = errors.chunks_exact(WINDOW.min(errors.len()));
-        let curve = |value| windows.clone().map(|window| mean(window, value)).collect();
+        let curve = |value| -> Vec<f64> { windows.clone().map(|part| mean(part, value)).collect() };
+        let asymptote = mean(last, |error| error.map);
+        let odometry = mean(errors, |error| error.odometry);
+        let by_map = curve(|error| error.map);
+        let limit = asymptote + NEAR * odometry;
+        let late = by_map.iter().rposition(|error| *error > limit);
+        let windows_to_own = late.map_or(1, |window| window + 2);
         Some(Self {
-            asymptote: mean(last, |error| error.map),
-            odometry: mean(errors, |error| error.odometry),
-            curve: curve(|error| error.map),
+            asymptote,
+            odometry,
+            moves_to_own: (windows_to_own * WINDOW).min(errors.len()),
+            curve: by_map,
             odometry_curve: curve(|error| error.odometry),
             coverage: mean(last, |error| error.coverage),
         })
@@ -107,6 +117,8 @@ mod tests {
         let summary = ErrorSummary::of(&run).unwrap();
         assert!((summary.asymptote - 0.1).abs() < 1e-12);
         assert!((summary.odometry - 0.5).abs() < 1e-12);
+        // The third window, moves 50 to 75, is still too high.
+        assert_eq!(summary.moves_to_own, 100);
         assert!((summary.coverage - 1.0).abs() < 1e-12);
         assert_eq!(summary.curve.len(), 16);
         // Ten of the third window's moves are high.
@@ -115,5 +127,26 @@ mod tests {
         assert!((summary.curve[2] - third).abs() < 1e-12);
         assert!((summary.odometry_curve[2] - 0.5).abs() < 1e-12);
         assert!(ErrorSummary::of(&[]).is_none());
+    }
+
+    #[test]
+    fn a_relapse_counts_and_a_flat_run_is_there_at_once() {
+        let to_own = |errors: &[f64]| {
+            let errors: Vec<MoveError> = errors
+                .iter()
+                .map(|map| MoveError {
+                    map: *map,
+                    odometry: 0.5,
+                    coverage: 1.0,
+                })
+                .collect();
+            ErrorSummary::of(&errors).unwrap().moves_to_own
+        };
+        let mut errors = [0.1; 400];
+        assert_eq!(to_own(&errors), WINDOW);
+        errors[200..210].fill(2.0);
+        assert_eq!(to_own(&errors), 250);
+        errors[399] = 9.0;
+        assert_eq!(to_own(&errors), 400);
     }
 }

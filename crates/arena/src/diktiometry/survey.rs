@@ -6,13 +6,15 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_geom::{Point, PointBox, Vector};
-use tolman_maps::diktiometry::{Config, MoveOutcome, Observer, PlaceId, StepReport};
+use tolman_maps::diktiometry::{
+    Apart, Config, MoveOutcome, Observer, PlaceId, StepReport, WorldKind,
+};
 use tolman_maze::Direction;
 use tolman_sim::robots::CameraPioneerError;
 use tolman_sim::{Bounds, DoorError, DoorState, PlaceError, StepError};
 use tolman_systems::diktiometry::{
     Arrival, MapError, MappedMove, PlannedMove, Planner, RoutineConfigError, RoutineError,
-    RoverMap, aligned_signatures,
+    RoverMap, aligned_signatures, exit_signatures,
 };
 
 use super::{
@@ -60,8 +62,11 @@ impl SurveyConfig {
 #[must_use]
 pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     let separation = office.separation();
-    let mut config = Config::new(Config::compass_actions(), separation);
+    let mut config = Config::new(Config::corridor_actions(), separation);
     config.place_radius = robot.place_radius;
+    // Corridors follow the axes of the compass, and nobody moves a wall.
+    config.apart = Apart::Side;
+    config.world = WorldKind::Static;
     match robot.sight {
         PlaceCue::Camera { columns, .. } if office.config().colours > 1 => {
             // A doorway does not look like the corners beside it, and those are a pitch apart or more.
@@ -72,6 +77,7 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
         // Where all walls have one colour a camera tells nothing.
         PlaceCue::Camera { .. } => {}
         PlaceCue::Laser { columns } => config.percepts = aligned_signatures(1, columns as usize),
+        PlaceCue::Exits => config.percepts = exit_signatures(),
     }
     config
 }

@@ -2,7 +2,7 @@ use tolman_robot::{Body, CameraSensing, Ring};
 use tolman_sim::Contact;
 use tolman_sim::noise::{Fault, Gaussian};
 use tolman_sim::robots::{CameraPioneerConfig, LaserPioneerConfig, MotorNoise};
-use tolman_systems::diktiometry::{CameraEye, Eye, LaserEye, RoutineConfig, SenseError};
+use tolman_systems::diktiometry::{CameraEye, Eye, LaserEye, NoEye, RoutineConfig, SenseError};
 
 use crate::pioneer::{CAMERA_PIONEER, LASER_PIONEER, calibrated};
 
@@ -39,6 +39,8 @@ pub enum PlaceCue {
         /// Standard deviation of each of its measurements, as a share of full light.
         colour_sd: f64,
     },
+    /// Which ways lead on, where walls tell nothing.
+    Exits,
     /// The ranges of its laser, as shares of its reach.
     Laser {
         /// Number of columns that the beams are averaged to.
@@ -89,7 +91,7 @@ impl SurveyorConfig {
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self.sight {
-            PlaceCue::Camera { .. } => CAMERA_PIONEER,
+            PlaceCue::Camera { .. } | PlaceCue::Exits => CAMERA_PIONEER,
             PlaceCue::Laser { .. } => LASER_PIONEER,
         }
     }
@@ -123,7 +125,7 @@ impl SurveyorConfig {
         let (columns, colour_sd) = match self.sight {
             PlaceCue::Camera { columns, colour_sd } => (columns, colour_sd),
             // Nobody looks at it.
-            PlaceCue::Laser { .. } => (1, 0.0),
+            PlaceCue::Laser { .. } | PlaceCue::Exits => (1, 0.0),
         };
         CameraPioneerConfig {
             columns,
@@ -152,6 +154,7 @@ impl Eye<CameraSensing> for PlaceCue {
         match *self {
             Self::Camera { .. } => CameraEye.columns(sensing),
             Self::Laser { columns } => LaserEye { columns }.columns(sensing),
+            Self::Exits => NoEye.columns(sensing),
         }
     }
 }

@@ -3,6 +3,7 @@ use core::ops::Bound::{self, Excluded, Included, Unbounded};
 use core::ops::{RangeBounds, RangeInclusive};
 
 use thiserror::Error;
+use tolman_geom::{Interval, PointBox};
 
 use super::Action;
 
@@ -20,6 +21,15 @@ pub struct Config {
     /// Two places that look alike are never nearer than this, m, at least `separation`. Where views tell, this is what
     /// lets boxes be wider.
     pub alike_separation: f64,
+    /// In what sense they are so far apart.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub apart: Apart,
+    /// Places at both ends of an action that [leads](ActionKind::leads) straight lie within this of one line along its axis, m, ≥ 0.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub across: f64,
+    /// Whether the world may change.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub world: WorldKind,
     /// The robot ends a move within this of the place's point, m, ≥ 0.
     pub place_radius: f64,
     /// Bound of an error of scale that all odometry shares, as a share of the distance, 0 ≤ … < 1. It cancels round every
@@ -52,8 +62,61 @@ pub struct Config {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ActionKind {
-    /// The action that usually leads back. Only advice uses it; the map believes what it saw.
+    /// The action that usually leads back. Advice uses it; the map believes what it saw, unless the world is
+    /// [static](WorldKind::Static).
     pub reverse: Option<Action>,
+    /// The axis of the compass along which it leads straight; `None` if its ways may bend.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub leads: Option<CompassAxis>,
+}
+
+/// An axis of the compass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum CompassAxis {
+    /// From west to east.
+    EastWest,
+    /// From south to north.
+    NorthSouth,
+}
+
+/// In what sense two places are δ_sep apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Apart {
+    /// The distance between them is, as in the paper.
+    #[default]
+    Distance,
+    /// They are so far apart along one axis of the compass. True where corridors follow the axes; false in halls and slanted
+    /// corridors.
+    Side,
+}
+
+impl Apart {
+    /// The most by which two places may be apart whose displacement is in a box, m.
+    pub(super) fn most(self, offset: PointBox) -> f64 {
+        match self {
+            Self::Distance => offset.norm().high(),
+            Self::Side => {
+                let farthest = |side: Interval| side.high().max(-side.low());
+                farthest(offset.x).max(farthest(offset.y))
+            }
+        }
+    }
+}
+
+/// Whether the world may change.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum WorldKind {
+    /// Doors shut and corridors open: where an action led says little of where it leads.
+    #[default]
+    Changing,
+    /// An action leads from a place to one place, and its reverse from there back.
+    Static,
 }
 
 /// Whether a part is at work; off for ablations.
@@ -317,6 +380,9 @@ impl Config {
             actions,
             separation,
             alike_separation: separation,
+            apart: Apart::Distance,
+            across: 0.0,
+            world: WorldKind::Changing,
             place_radius: 0.0,
             shared_scale: 0.0,
             percepts: Percepts::None,
@@ -377,7 +443,7 @@ impl Config {
                 shuttle: Use::On,
                 close_loop: Use::On,
                 traversals: 2,
-                reach: 32,
+                reach: 128,
             },
             journal: JournalLength::Off,
         }
@@ -388,7 +454,27 @@ impl Config {
     #[must_use]
     pub fn compass_actions() -> Vec<ActionKind> {
         let reverses = [2, 3, 0, 1].map(|reverse| Some(Action(reverse)));
-        reverses.map(|reverse| ActionKind { reverse }).into()
+        let kind = |reverse| ActionKind {
+            reverse,
+            leads: None,
+        };
+        reverses.map(kind).into()
+    }
+
+    /// The same actions where each follows a straight corridor along an axis of the compass.
+    #[must_use]
+    pub fn corridor_actions() -> Vec<ActionKind> {
+        let axes = [CompassAxis::NorthSouth, CompassAxis::EastWest];
+        let mut actions = Self::compass_actions();
+        for (action, axis) in actions.iter_mut().zip(axes.into_iter().cycle()) {
+            action.leads = Some(axis);
+        }
+        actions
+    }
+
+    /// The axis along which an action leads straight, if it does.
+    pub(super) fn leads(&self, action: Action) -> Option<CompassAxis> {
+        self.actions.get(action.0 as usize)?.leads
     }
 
     /// The action that usually leads back, if one does.
@@ -428,6 +514,7 @@ impl Config {
         let [most_links, least_links] = limits.links;
         within("separation", self.separation, POSITIVE)?;
         within("alike_separation", self.alike_separation, self.separation..)?;
+        within("across", self.across, 0.0..)?;
         within("place_radius", self.place_radius, 0.0..)?;
         within("shared_scale", self.shared_scale, 0.0..1.0)?;
         within("frame_half_width", self.frame_half_width, 0.0..)?;

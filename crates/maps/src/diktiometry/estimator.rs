@@ -160,7 +160,7 @@ impl Observer {
             confidence: track.confidence,
         };
         let expected = match self.config.indexing.expectational {
-            Use::On => expected(&self.map, projection),
+            Use::On => expected(&self.map, projection, &self.config),
             Use::Off => Vec::new(),
         };
         choose(&situation, &expected, || self.geometric(track, projection))

@@ -13,7 +13,7 @@ pub(super) use expectational::expected;
 pub(super) use geometric::plies;
 pub(super) use perceptual::ViewIndex;
 
-use super::{Diktiometry, PlaceId};
+use super::{Apart, Diktiometry, PlaceId};
 
 /// A place that the robot may be at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,8 +49,8 @@ impl Candidate {
         self.offset.contains(Point::origin())
     }
 
-    /// Whether the robot can be at no other place than this, if no other is within `least_distance` of it.
-    pub(super) fn is_certain(&self, least_distance: f64) -> bool {
-        self.is_possible() && self.offset.norm().high() < least_distance
+    /// Whether the robot can be at no other place than this, if all others are `least_distance` `apart` from it.
+    pub(super) fn is_certain(&self, apart: Apart, least_distance: f64) -> bool {
+        self.is_possible() && apart.most(self.offset) < least_distance
     }
 }

@@ -1,5 +1,3 @@
-use super::wilson_upper;
-
 /// What the map itself has learned of how well looks tell places apart.
 ///
 /// Beyond the paper.
@@ -22,23 +20,31 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// The chance that a place looks like another, at most, if their neighbours do: 1 while nothing is known.
+    /// How many kinds of looks have to agree before the chance that all of them do by chance is below `error`; `None` if there are not
+    /// as many kinds. O(kinds).
     ///
-    /// For places whose looks have nothing to do with their neighbours' it is the upper end of Wilson's score interval at 99 %.
-    /// Where looks repeat, room for room, those that deceive have neighbours that deceive, and it is as often as that was met.
+    /// For places whose looks have nothing to do with their neighbours', how often two look alike, p, has a beta distribution by the pairs
+    /// that were seen (Jeffreys' prior), and the chance of k in a row is the mean of pᵏ. Where looks repeat, room for room, those that
+    /// deceive have neighbours that deceive, and it is at least the power of how often that was met.
     ///
     /// A true place may be many places of a map that is not yet folded, whose pairs are no evidence of their own: all
     /// pairs count for as many as the kinds of looks make.
-    pub(super) fn chance_of_alike(&self) -> f64 {
+    pub(super) fn enough(&self, error: f64) -> Option<usize> {
         let kinds = f64::from(self.kinds);
-        let trials = f64::from(self.different).min(0.5 * kinds * (kinds - 1.0));
-        if trials < 1.0 {
-            return 1.0;
+        let pairs = f64::from(self.different).min(0.5 * kinds * (kinds - 1.0));
+        if pairs < 1.0 {
+            return None;
         }
-        let rate = f64::from(self.deceiving) / f64::from(self.different);
+        let alike = pairs * f64::from(self.deceiving) / f64::from(self.different);
         // Met once, it is no rule.
         let repeats = f64::from(self.repeating) / (f64::from(self.followed) + 2.0);
-        wilson_upper(rate, trials).max(repeats)
+        let (mut by_chance, mut by_rule) = (1.0, 1.0);
+        (1..=self.kinds as usize).find(|agreeing| {
+            let before = (*agreeing - 1) as f64;
+            by_chance *= (alike + 0.5 + before) / (pairs + 1.0 + before);
+            by_rule *= repeats;
+            by_chance.max(by_rule) < error
+        })
     }
 
     /// Counts two places that geometry has told apart.
@@ -79,22 +85,23 @@ mod tests {
 
     #[test]
     fn little_is_believed_at_first_and_nothing_where_all_look_alike() {
-        let chance = |kinds, different, deceiving| {
+        let enough = |kinds, different, deceiving| {
             let looks = Looks {
                 kinds,
                 different,
                 deceiving,
                 ..Looks::default()
             };
-            looks.chance_of_alike()
+            looks.enough(1e-5)
         };
-        assert!((chance(0, 0, 0) - 1.0).abs() < 1e-12);
+        assert_eq!(enough(0, 0, 0), None);
         // Two places that were unfolded to many are one pair.
-        assert!(chance(2, 900, 0) > 0.8);
-        assert!((chance(1, 300, 300) - 1.0).abs() < 1e-12);
-        // 0 of n: z² / (n + z²).
-        assert!((chance(20, 400, 0) - 6.634_896_6 / 196.634_896_6).abs() < 1e-8);
-        assert!(chance(20, 400, 40) > 0.1);
+        assert_eq!(enough(2, 900, 0), None);
+        assert_eq!(enough(1, 300, 300), None);
+        // Mean of pᵏ where 15 pairs were all unlike: 1/32, times 3/34, 5/36, 7/38, 9/40.
+        assert_eq!(enough(6, 900, 0), Some(6));
+        assert_eq!(enough(20, 400, 0), Some(3));
+        assert_eq!(enough(20, 400, 40), Some(6));
     }
 
     #[test]
@@ -104,14 +111,15 @@ mod tests {
             different: 5000,
             ..Looks::default()
         };
-        assert!(looks.chance_of_alike() < 0.01);
+        let few = looks.enough(1e-5);
+        assert!(few < Some(4), "{few:?}");
         for _ in 0..20 {
             looks.count(Similarity::Alike, Some(Similarity::Unlike));
         }
-        assert!(looks.chance_of_alike() < 0.01);
+        assert!(looks.enough(1e-5) < Some(5));
         for _ in 0..20 {
             looks.count(Similarity::Alike, Some(Similarity::Alike));
         }
-        assert!(looks.chance_of_alike() > 0.4);
+        assert!(looks.enough(1e-5) > Some(10));
     }
 }

@@ -24,6 +24,10 @@ pub struct Opportunity {
     pub cost: f64,
 }
 
+/// What a new link is worth where the place may be another, which may have it already: less than a few walks round the loop that would
+/// tell.
+const IN_DOUBT: f64 = 0.03;
+
 /// The kinds of scripts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OpportunityKind {
@@ -101,11 +105,13 @@ impl Observer {
 
     fn go_to_unknown(&self) -> Option<Opportunity> {
         // Whoever explores from a place that may still turn out to be another may explore what is known already.
-        let resolved = |place| self.map.place(place).notes.is_empty();
-        let (mut script, place) =
-            self.script_to(|place| resolved(place) && !self.untried(place).is_empty())?;
+        let unknown = |place| !self.untried(place).is_empty();
+        let certain = |place| self.map.place(place).notes.is_empty() && unknown(place);
+        let sure = self.script_to(certain).map(|way| (way, 1.0));
+        let ((mut script, place), gain) =
+            sure.or_else(|| Some((self.script_to(unknown)?, IN_DOUBT)))?;
         script.push(*self.untried(place).first()?);
-        OpportunityKind::GoToUnknown.offer(place, script, 1.0)
+        OpportunityKind::GoToUnknown.offer(place, script, gain)
     }
 
     fn prime_pump(&self) -> Option<Opportunity> {
@@ -119,8 +125,8 @@ impl Observer {
         });
         let (width, link) =
             neighbours.max_by(|(a, one), (b, other)| a.total_cmp(b).then(other.to.cmp(&one.to)))?;
-        let gain = (0.5 * width / least).min(1.0);
         let script = vec![link.action];
+        let gain = (0.5 * width / least).min(1.0) / self.walks(&script);
         OpportunityKind::PrimePump.offer(link.to, script, gain)
     }
 
@@ -153,7 +159,20 @@ impl Observer {
         let (_, other) = others.min()?;
         let (script, _) = self.script_to(|place| place == other)?;
         // A place that is one with another saves a place and its links.
-        OpportunityKind::CloseLoop.offer(other, script, 1.0)
+        let gain = 1.0 / self.walks(&script);
+        OpportunityKind::CloseLoop.offer(other, script, gain)
+    }
+
+    /// How many walks along a script there would be: the first tells most, and what did not help often will not help, so that no
+    /// script is preferred for ever.
+    fn walks(&self, script: &[Action]) -> f64 {
+        let paths = &self.map.paths;
+        let links = script.iter().scan(self.place(), |at, action| {
+            let link = self.map.link(paths.likeliest(*at, *action)?);
+            *at = link.to;
+            Some(f64::from(link.traversed))
+        });
+        1.0 + links.sum::<f64>() / script.len().max(1) as f64
     }
 
     /// The actions from here to the nearest place that is a goal, and that place.
@@ -171,7 +190,7 @@ impl Observer {
         self.map.related(link.from, link.to).is_some_and(|there| {
             // Another measurement within the same bounds: there and back are off by the box's width at most.
             let back = there;
-            (there - back).norm().high() < self.config.least_alike_distance()
+            self.config.apart.most(there - back) < self.config.least_alike_distance()
         })
     }
 

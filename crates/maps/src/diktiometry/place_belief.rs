@@ -181,7 +181,7 @@ impl Observer {
             let open = self.map.place(place).is_open(step.action);
             return Vec::from([(place, if open { CHANGED_EXIT } else { 1.0 })]);
         }
-        let moved = self.between_places(step.odometry.position);
+        let moved = self.way(step);
         let fits = |to: PlaceId| {
             self.motion(place, to)
                 .is_none_or(|known| known.meets(moved))

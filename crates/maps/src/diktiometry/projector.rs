@@ -1,6 +1,6 @@
 use tolman_geom::{Interval, Point, PointBox};
 
-use super::{Action, FrameId, ObservedMove, Observer, PlaceId, Track};
+use super::{Action, CompassAxis, FrameId, ObservedMove, Observer, PlaceId, Track};
 
 /// Where a track would be after a move, before anything is recognized: the projector "predicts new states given old state
 /// estimates and control inputs".
@@ -22,7 +22,7 @@ pub(super) struct Projection {
 impl Observer {
     pub(super) fn project(&self, track: &Track, step: &ObservedMove) -> Projection {
         let (frame, position) = self.map.site(track.place);
-        let displacement = self.between_places(step.odometry.position);
+        let displacement = self.way(step);
         Projection {
             from: track.place,
             action: step.action,
@@ -31,6 +31,23 @@ impl Observer {
             position: position + displacement,
             astray: track.astray + displacement.norm().middle(),
         }
+    }
+
+    /// The displacement between the points of the places at a move's ends: what odometry says, and that a straight corridor leads
+    /// straight. A robot that seems to have left it was carried, and odometry alone counts.
+    pub(super) fn way(&self, step: &ObservedMove) -> PointBox {
+        let way = self.between_places(step.odometry.position);
+        let (Some(axis), Ok(line)) = (
+            self.config.leads(step.action),
+            Interval::about(0.0, self.config.across),
+        ) else {
+            return way;
+        };
+        let cut = match axis {
+            CompassAxis::EastWest => PointBox::new(way.x, line),
+            CompassAxis::NorthSouth => PointBox::new(line, way.y),
+        };
+        way.intersection(cut).unwrap_or(way)
     }
 
     /// The robot's displacement is the places' up to where in the places it stopped.

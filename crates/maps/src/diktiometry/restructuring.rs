@@ -5,6 +5,7 @@ mod local_path;
 mod look_agreement;
 mod merge;
 mod non_local_path;
+mod one_way;
 mod split;
 mod transients;
 
@@ -157,9 +158,10 @@ fn separates(map: &Diktiometry, distinction: &Distinction, pair: &geometric::Pai
 type Restructurer = fn(&Diktiometry, &geometric::Pair, &Config) -> Verdict;
 
 /// They are asked one after the other, as far as need be.
-const RESTRUCTURERS: [Restructurer; 5] = [
+const RESTRUCTURERS: [Restructurer; 6] = [
     geometric::merge,
     views_differ,
+    one_way::merge,
     local_path::merge,
     non_local_path::merge,
     look_agreement::merge,

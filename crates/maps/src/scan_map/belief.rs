@@ -62,6 +62,18 @@ impl StandpointBelief {
         numbered.reduce(likelier).map(|(number, _)| number)
     }
 
+    /// Returns how much of the belief lies within `radius` m of its likeliest standpoint, 0 … 1.
+    #[must_use]
+    pub fn certainty(&self, on: &Standpoints, radius: f64) -> f64 {
+        let Some(best) = self.likeliest() else {
+            return 0.0;
+        };
+        let centre: Point = on.positions()[best as usize];
+        let near = on.positions().iter().zip(&self.mass);
+        let near = near.filter(|(at, _)| (*at - centre).norm() <= radius);
+        near.map(|(_, mass)| mass).sum()
+    }
+
     /// Follows a robot that came `moved` along the compass's axes, m, give or take `sd`. O(standpoints believed in).
     pub fn moved(&mut self, on: &Standpoints, grid: &WallGrid, moved: Vector, sd: Vector) {
         let mut after = vec![0.0; self.mass.len()];
@@ -102,7 +114,8 @@ impl StandpointBelief {
             let misfit = misfit.unwrap_or(UNSHOWN);
             *mass *= libm::exp(-0.5 * INDEPENDENT_BEAMS * misfit.max(GOOD));
         }
-        self.surprises = if best.is_finite() && best > SURPRISE {
+        // Where the map shows nothing that could fit, it is as surprised.
+        self.surprises = if best > SURPRISE {
             self.surprises + 1
         } else {
             0
@@ -152,18 +165,4 @@ fn spread(sd: Vector) -> impl Iterator<Item = (Vector, f64)> {
     };
     offsets(sd.x)
         .flat_map(move |(x, a)| offsets(sd.y).map(move |(y, b)| (Vector::new(x, y), a * b)))
-}
-
-impl StandpointBelief {
-    /// Returns how much of the belief lies within `radius` m of its likeliest standpoint, 0 … 1.
-    #[must_use]
-    pub fn certainty(&self, on: &Standpoints, radius: f64) -> f64 {
-        let Some(best) = self.likeliest() else {
-            return 0.0;
-        };
-        let centre: Point = on.positions()[best as usize];
-        let near = on.positions().iter().zip(&self.mass);
-        let near = near.filter(|(at, _)| (*at - centre).norm() <= radius);
-        near.map(|(_, mass)| mass).sum()
-    }
 }

@@ -79,6 +79,16 @@ impl<'a> Clearings<'a> {
         gap.is_some()
     }
 
+    /// Returns which cells the robot can stand in and come to from any of the places, by slot. O(cells).
+    pub(super) fn reached(&self, places: impl IntoIterator<Item = Point>) -> Vec<bool> {
+        let starts = places.into_iter().map(index_of);
+        let starts: Vec<GridIndex> = starts
+            .filter(|index| self.grid.stands(*index, self.radius))
+            .collect();
+        let (_, cells) = self.flood(&starts, |_, _, _| false);
+        cells.into_iter().map(|cells| cells != UNREACHED).collect()
+    }
+
     /// Spreads from cells over where the robot can stand until `ends` says so; returns the cell where it ended, and the cells gone to
     /// each.
     fn flood(

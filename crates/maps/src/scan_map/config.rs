@@ -11,6 +11,8 @@ pub struct ScanMapConfig {
     pub reach_of_visit: f64,
     /// Scans that walls are drawn from lie at least so far apart, m.
     pub spacing_of_scans: f64,
+    /// How far from where it is expected a scan is fitted to the walls at most, m; 0 leaves it where it is expected.
+    pub farthest_fit: f64,
 }
 
 impl ScanMapConfig {
@@ -22,6 +24,7 @@ impl ScanMapConfig {
             spacing_of_places: diameter,
             reach_of_visit: 0.9 * diameter,
             spacing_of_scans: 0.4 * diameter,
+            farthest_fit: 0.7 * diameter,
         }
     }
 }

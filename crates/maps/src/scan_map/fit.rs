@@ -26,8 +26,7 @@ const COMPARED_WITHIN: f64 = 0.08;
 const STEP: f64 = 0.0125;
 /// Spacing of those tried first, m: less than what a beam's end may be off.
 const COARSE: f64 = 0.05;
-/// How far from where it is expected a scan is tried at most, m; and along an axis at least.
-const FARTHEST: f64 = 0.35;
+/// How far from where it is expected a scan is tried along an axis at least, m.
 const LEAST_WINDOW: f64 = 0.1;
 /// An axis on which the walls leave more than this open tells nothing, m (standard deviation).
 const TELLS: f64 = 0.05;
@@ -36,12 +35,13 @@ const SUREST: f64 = 0.005;
 /// Fewest beams that can be compared.
 const FEWEST: usize = 10;
 
-/// Fits a scan to the walls of `grid`, expected at a position known to `variance` (along each axis, m²). O(positions tried ·
-/// beams).
+/// Fits a scan to the walls of `grid`, expected at a position known to `variance` (along each axis, m²), no farther than `farthest` m
+/// from there. O(positions tried · beams).
 pub(super) fn fit(
     grid: &WallGrid,
     expected: Point,
     variance: Vector,
+    farthest: f64,
     heading: Heading,
     scan: &Scan,
 ) -> ScanFit {
@@ -53,11 +53,11 @@ pub(super) fn fit(
         variance,
         agreement: 1.0,
     };
-    if ends.len() < FEWEST {
+    if ends.len() < FEWEST || farthest < 2.0 * STEP {
         return as_expected;
     }
     let score = |shift: Vector| ends_score(grid, &ends, shift) - crossings(grid, &rays, shift);
-    let window = variance.map(|variance| (3.0 * libm::sqrt(variance)).clamp(2.0 * STEP, FARTHEST));
+    let window = variance.map(|variance| (3.0 * libm::sqrt(variance)).clamp(2.0 * STEP, farthest));
     let total = |shift: Vector| {
         let prior = 0.5 * (shift.x * shift.x / variance.x + shift.y * shift.y / variance.y);
         SHARE_OF_A_BEAM * score(shift) - prior

@@ -74,7 +74,14 @@ impl ScanMap {
     pub fn observe(&mut self, seen: &Advance<'_>) {
         let expected = self.position + seen.moved;
         let variance = self.variance + seen.sd.component_mul(&seen.sd);
-        let fitted = fit(&self.grid, expected, variance, seen.heading, seen.scan);
+        let fitted = fit(
+            &self.grid,
+            expected,
+            variance,
+            self.config.farthest_fit,
+            seen.heading,
+            seen.scan,
+        );
         self.position = fitted.at;
         self.agreement = fitted.agreement;
         // Once a scan is drawn, errors before it are the map's, not the robot's.

@@ -1,4 +1,3 @@
-use alloc::collections::VecDeque;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -40,9 +39,9 @@ impl Standpoints {
     /// From one to the next, m.
     pub const SPACING: f64 = EVERY as f64 * WallGrid::CELL;
 
-    /// Returns those of a map that lead to where its robot has been, for scans by `ring`. O(standpoints · beams).
+    /// Returns those of a map that lead to where its robot has been, for scans by `ring`. O(cells + standpoints · beams).
     #[must_use]
-    pub fn of(map: &ScanMap, ring: Ring, radius: f64) -> Self {
+    pub fn of(map: &ScanMap, ring: Ring) -> Self {
         let grid = map.grid();
         let [first, end] = grid.bounds();
         let columns = (end[0] - first[0]) / EVERY + 1;
@@ -57,7 +56,8 @@ impl Standpoints {
             senses_goal: Vec::new(),
             ranges: Vec::new(),
         };
-        let reached = reached(map, radius);
+        let places = map.places().iter().map(|place| place.position);
+        let reached = map.clearings().reached(places);
         let goal = bounds(map.goal());
         for row in (first[1]..end[1]).step_by(EVERY as usize) {
             for column in (first[0]..end[0]).step_by(EVERY as usize) {
@@ -206,29 +206,4 @@ fn bounds(points: &[Point]) -> Option<[Point; 2]> {
         [low.inf(point), high.sup(point)]
     });
     Some([low - margin, high + margin])
-}
-
-/// Which cells of the grid can be stood in and lead to where the robot has been, by slot.
-fn reached(map: &ScanMap, radius: f64) -> Vec<bool> {
-    let grid = map.grid();
-    let mut reached = vec![false; grid.len()];
-    let mut queue = VecDeque::new();
-    let mut enter = |index: GridIndex, queue: &mut VecDeque<GridIndex>| {
-        if let Some(slot) = grid.slot(index)
-            && !reached[slot]
-            && grid.stands(index, radius)
-        {
-            reached[slot] = true;
-            queue.push_back(index);
-        }
-    };
-    for place in map.places() {
-        enter(index_of(place.position), &mut queue);
-    }
-    while let Some([column, row]) = queue.pop_front() {
-        for next in [[1, 0], [0, 1], [-1, 0], [0, -1]] {
-            enter([column + next[0], row + next[1]], &mut queue);
-        }
-    }
-    reached
 }

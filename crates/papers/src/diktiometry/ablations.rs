@@ -1,7 +1,8 @@
 //! The mapper without each of its parts.
 
 use tolman_maps::diktiometry::{
-    Config, GeometricIndexing, GeometricMerge, Identity, PerceptualIndexing, Precedence, Use,
+    Apart, Config, GeometricIndexing, GeometricMerge, Identity, PerceptualIndexing, Precedence,
+    Use, WorldKind,
 };
 
 /// A change to the mapper.
@@ -57,11 +58,18 @@ pub const ABLATIONS: [(&str, Change); 20] = [
     ("static priorities", |config| {
         config.matching.order = Precedence::Static;
     }),
-    ("boxes that meet are the same", |config| {
-        config.matching.identity = Identity::Meets;
-        config.restructuring.geometric_merge = GeometricMerge::Estims;
-    }),
+    ("boxes that meet are the same", papers_rule),
 ];
+
+/// Takes a place for a known one if their boxes meet, and merges by estims, as the paper has it, which knows nothing of straight
+/// corridors.
+pub(super) fn papers_rule(config: &mut Config) {
+    config.actions = Config::compass_actions();
+    config.apart = Apart::Distance;
+    config.world = WorldKind::Changing;
+    config.matching.identity = Identity::Meets;
+    config.restructuring.geometric_merge = GeometricMerge::Estims;
+}
 
 #[cfg(test)]
 mod tests {

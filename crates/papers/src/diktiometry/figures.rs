@@ -11,7 +11,7 @@ use tolman_experiment::{BoxError, Record, Run};
 /// Width of a chart, user units.
 const WIDTH: f64 = 560.0;
 /// Tables of more rows get no curves: nobody could tell them apart.
-const MOST_CURVES: usize = 4;
+const MOST_CURVES: usize = 5;
 
 pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();

@@ -3,6 +3,7 @@
 mod ablations;
 pub mod drawing;
 mod figures;
+mod fresh;
 mod replay;
 mod settings;
 
@@ -17,6 +18,7 @@ use tolman_experiment::{
 use tolman_replay::Replay;
 
 pub use ablations::{ABLATIONS, Change};
+use fresh::{FRESH, FreshRow};
 use settings::{Rows, Setting, Subject, Trial};
 
 /// What the catalogue says of it.
@@ -33,23 +35,28 @@ pub(super) const ENTRY: Entry = Entry {
 #[derive(Debug)]
 struct Diktiometry {
     trials: Vec<Trial>,
+    fresh: Vec<FreshRow>,
 }
 
 /// Builds the offices. Maze files have no part in it.
 ///
 /// # Errors
 /// If an office cannot be built.
-fn open(_options: &Options) -> Result<Experiment, BoxError> {
+fn open(options: &Options) -> Result<Experiment, BoxError> {
     let trials = settings::all()?;
-    let tables = trials.iter().map(table).collect();
+    let fresh = fresh::rows();
+    let mut tables: Vec<Table> = trials.iter().map(table).collect();
+    tables.push(fresh::table(&fresh, options));
     let mut config = BTreeMap::<_, BTreeMap<_, _>>::new();
     for trial in &trials {
         let rows = trial.settings.iter();
         let rows = rows.map(|setting| (setting.row, setting.config()));
         config.insert(trial.name, rows.collect());
     }
-    let config = toml::Table::try_from(config)?;
-    let procedure = Diktiometry { trials };
+    let mut config = toml::Table::try_from(config)?;
+    let kinds: BTreeMap<_, _> = fresh.iter().map(|row| (row.row, row.config())).collect();
+    config.insert(FRESH.to_owned(), toml::Value::try_from(kinds)?);
+    let procedure = Diktiometry { trials, fresh };
     Ok(Experiment::new(ENTRY, tables, config, procedure))
 }
 
@@ -61,6 +68,8 @@ record! {
             lower("squared error a move, at last").unit("m²").at_least(0).decimals(4),
         /// The same by odometry alone.
         odometry: Option<f64> => lower("odometry's error").unit("m²").at_least(0),
+        /// Moves until the run is near its own asymptote.
+        moves_to_own_asymptote: Option<usize> => lower("moves to its own asymptote"),
         /// Squared error a move, each the mean of a window of moves.
         curve: Vec<f64> => lower("squared error a move").unit("m²").at_least(0),
         /// Share of the visits that were to the true place for which their place on the map stands.
@@ -111,18 +120,19 @@ fn table(trial: &Trial) -> Table {
         };
         table = table
             .metric(Metric::settling("moves_to_asymptote", settling).titled("moves to asymptote"))
+            .metric(Metric::mean(SurveyRun::moves_to_own_asymptote))
             .compared_with(reference, Correction::Holm);
     }
     let tail = format!(
         "A row's error at last is the mean over the last {:.0} % of the moves.",
         100.0 * TAIL
     );
+    let near = 100.0 * NEAR;
     let note = match trial.rows {
         Rows::OneWorld => format!(
             "{} {tail} The asymptote is the lowest of the table; a row is there when the mean over all its runs and {WINDOW} moves stays less than \
-             {:.0} % of odometry's error above it.",
+             {near:.0} % of odometry's error above it. To its own asymptote is the same of each run for itself, the first definition of this table.",
             trial.note,
-            100.0 * NEAR,
         ),
         Rows::OwnWorlds => format!("{} {tail}", trial.note),
     };
@@ -145,10 +155,18 @@ impl Diktiometry {
         let setting = settings.find(|setting| setting.row == job.row);
         setting.ok_or_else(|| format!("there is no row {:?}", job.row).into())
     }
+
+    fn fresh(&self, job: &Job<'_>) -> Result<&FreshRow, BoxError> {
+        let row = self.fresh.iter().find(|row| row.row == job.row);
+        row.ok_or_else(|| format!("there is no row {:?}", job.row).into())
+    }
 }
 
 impl Procedure for Diktiometry {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        if job.table == FRESH {
+            return self.fresh(job)?.run(job.seed);
+        }
         let setting = self.setting(job)?;
         let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;
         let mut plans = Vec::new();
@@ -178,6 +196,7 @@ impl Procedure for Diktiometry {
         let run = SurveyRun {
             ssd_asymptote: summary.asymptote,
             odometry: Some(summary.odometry),
+            moves_to_own_asymptote: Some(summary.moves_to_own),
             curve: summary.curve,
             purity: Some(score.purity),
             link_precision: Some(score.link_precision),
@@ -201,11 +220,15 @@ impl Procedure for Diktiometry {
     }
 
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
+        if job.table == FRESH {
+            let (office, config) = self.fresh(job)?.draw(job.seed)?;
+            return replay::of(&office, &config, job).map(Some);
+        }
         let setting = self.setting(job)?;
         match setting.subject {
             // The many rows of the ablation would fill the report and take as long as all else.
             Subject::Map if job.table == settings::ABLATION => Ok(None),
-            Subject::Map => replay::of(setting, job).map(Some),
+            Subject::Map => replay::of(&setting.office, &setting.config, job).map(Some),
             Subject::Odometry => Ok(None),
         }
     }

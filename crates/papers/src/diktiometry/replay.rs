@@ -1,14 +1,14 @@
 //! A run as it can be watched: the robot's way, and the map as it grows beside it.
 
 use alloc::collections::BTreeMap;
+use alloc::sync::Arc;
 
 use tolman_geom::{Point, PointBox};
 use tolman_maps::diktiometry::{LinkId, LinkStatus, PlaceId};
 use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneerConfig;
 
-use super::settings::Setting;
-use tolman_arena::diktiometry::{Survey, SurveyedMove};
+use tolman_arena::diktiometry::{Office, Survey, SurveyConfig, SurveyedMove};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
     Belief, BeliefAt, Fact, MapEdge, MapGrowth, MapNode, Notes, Replay, RobotTrack, Scenery, Shape,
@@ -22,10 +22,14 @@ const COARSE: usize = 12;
 /// shift most of the map a little, which nobody could see and every replay would have to carry.
 const STILL: f64 = 0.3;
 
-pub(super) fn of(setting: &Setting, job: &Job<'_>) -> Result<Replay, BoxError> {
-    let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;
+pub(super) fn of(
+    office: &Arc<Office>,
+    config: &SurveyConfig,
+    job: &Job<'_>,
+) -> Result<Replay, BoxError> {
+    let mut survey = Survey::new(office, config.clone(), job.seed)?;
     let mut watch = Watch::new(&survey);
-    for _ in 0..setting.config.moves {
+    for _ in 0..config.moves {
         let surveyed = survey.step()?;
         watch.see(&survey, &surveyed);
     }
@@ -40,7 +44,7 @@ pub(super) fn of(setting: &Setting, job: &Job<'_>) -> Result<Replay, BoxError> {
     track.beliefs = vec![watch.belief];
     track.series = vec![watch.places, watch.error];
     track.notes = vec![watch.matcher, watch.reason];
-    let scenery = Scenery::of_world(&setting.office.course.world);
+    let scenery = Scenery::of_world(&office.course.world);
     let step_s = COARSE as f64 * robot.step_us as f64 * 1e-6;
     let score = survey.score();
     Ok(Replay::new(
@@ -51,7 +55,7 @@ pub(super) fn of(setting: &Setting, job: &Job<'_>) -> Result<Replay, BoxError> {
     )
     .fact("table", job.table)
     .fact("seed", job.seed.to_string())
-    .fact("moves", setting.config.moves.to_string())
+    .fact("moves", config.moves.to_string())
     .fact(
         "places",
         format!("{} for {} true ones", score.places, score.visited),

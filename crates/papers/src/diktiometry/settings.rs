@@ -6,13 +6,14 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
-use super::ablations::{ABLATIONS, Change};
+use super::ablations::{ABLATIONS, Change, papers_rule};
 use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyConfig, SurveyorConfig, blocks};
 use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
+use tolman_maps::diktiometry::WorldKind;
 
 /// "Generally 30% of the time".
-const HEED: f64 = 0.3;
+pub(super) const HEED: f64 = 0.3;
 
 /// One table: a world and the rows that are tried in it.
 #[derive(Debug)]
@@ -89,13 +90,14 @@ fn office(side: u16, seed: u64, furniture: &OfficeConfig) -> Result<Arc<Office>,
     Ok(Arc::new(Office::new(&maze, furniture)?))
 }
 
-const WALLED_UP: f64 = 0.25;
+/// Share of the passages that are walled up.
+pub(super) const WALLED_UP: f64 = 0.25;
 
 /// Every place looks like every other.
-const BARE: OfficeConfig = OfficeConfig::bare();
+pub(super) const BARE: OfficeConfig = OfficeConfig::bare();
 
 /// Doorways, and walls of many colours.
-const FURNISHED: OfficeConfig = OfficeConfig {
+pub(super) const FURNISHED: OfficeConfig = OfficeConfig {
     doorway_share: 0.2,
     colours: 8,
     ..OfficeConfig::bare()
@@ -108,21 +110,21 @@ pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
     Ok(vec![
         Trial {
             name: "3b",
-            title: "A small world in which every place looks the same (figure 3b), 700 moves",
+            title: "A small world in which every place looks the same (figure 3b), 700 moves, one drawing",
             note: "5 × 5 cells.",
             rows: Rows::OneWorld,
             settings: compared(&small, 700),
         },
         Trial {
             name: "3c",
-            title: "A larger world, random walk and exploration scripts (figure 3c), 5000 moves",
+            title: "A larger world, random walk and exploration scripts (figure 3c), 5000 moves, one drawing",
             note: "7 × 7 cells, all places alike.",
             rows: Rows::OneWorld,
             settings: compared(&large, 5000),
         },
         Trial {
             name: "4",
-            title: "A complicated world (figure 4), 3000 moves",
+            title: "A complicated world (figure 4), 3000 moves, one drawing",
             note: "7 × 7 cells with doorways and walls of eight colours.",
             rows: Rows::OneWorld,
             settings: compared(&complicated, 3000),
@@ -156,16 +158,20 @@ pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
 
 fn compared(office: &Arc<Office>, moves: u32) -> Vec<Setting> {
     let config = SurveyConfig::paper(office, moves);
-    let passive = |row, subject| Setting {
+    let mut meeting = config.clone();
+    papers_rule(&mut meeting.mapper);
+    let passive = |row, config: &SurveyConfig, subject| Setting {
         row,
         office: Arc::clone(office),
         config: config.clone(),
         subject,
     };
     vec![
-        passive("passive", Subject::Map),
+        passive("passive", &config, Subject::Map),
         Setting::scripted("with scripts", office, config.clone()),
-        passive("odometry", Subject::Odometry),
+        passive("odometry", &config, Subject::Odometry),
+        passive("passive (paper's rule)", &meeting, Subject::Map),
+        Setting::scripted("with scripts (paper's rule)", office, meeting),
     ]
 }
 
@@ -198,6 +204,7 @@ fn changing(office: &Arc<Office>) -> Vec<Setting> {
     let setting = |row, door_period: u32, change: Change| {
         let mut config = SurveyConfig::paper(office, 3000);
         config.door_period = door_period;
+        config.mapper.world = WorldKind::Changing;
         change(&mut config.mapper);
         Setting::scripted(row, office, config)
     };

@@ -3,6 +3,8 @@
 //! A run of these tables is a maze with some starts, so that their spread is that between mazes.
 
 use alloc::collections::BTreeMap;
+use alloc::sync::Arc;
+use std::sync::{Mutex, PoisonError};
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -45,6 +47,8 @@ pub(super) struct Family {
     mazes: u32,
     limit: Option<u32>,
     entrants: Vec<Entrant>,
+    /// Mazes that one yardstick has planned in and the last has not run in yet, by number.
+    planned: Mutex<BTreeMap<u32, Arc<Venue>>>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -116,6 +120,7 @@ impl Family {
             mazes,
             limit,
             entrants,
+            planned: Mutex::default(),
         }
     }
 
@@ -183,7 +188,7 @@ impl Family {
         let mut entrants = self.entrants.iter();
         let entrant = entrants.find(|entrant| entrant.row() == job.row);
         let entrant = entrant.ok_or_else(|| format!("there is no brain {:?}", job.row))?;
-        let venue = self.venue(job)?;
+        let venue = self.venue_of(entrant, job)?;
         let ready = entrant.ready(&venue, job.seed)?;
         let (mut reached, mut actions, mut steps, mut arrived) = (0_u32, 0_u64, 0_u64, 0_u64);
         for start in 0..self.starts {
@@ -205,6 +210,23 @@ impl Family {
             steps_arrived: (reached > 0).then(|| mean(arrived, reached)),
         };
         Ok(run.fields()?)
+    }
+
+    /// The world of a run; of a yardstick that of the yardstick before, which has planned in it.
+    fn venue_of(&self, entrant: &Entrant, job: &Job<'_>) -> Result<Arc<Venue>, BoxError> {
+        if entrant.competes() {
+            return Ok(Arc::new(self.venue(job)?));
+        }
+        let mut planned = self.planned.lock().unwrap_or_else(PoisonError::into_inner);
+        let venue = match planned.remove(&job.run) {
+            Some(venue) => venue,
+            None => Arc::new(self.venue(job)?),
+        };
+        let last = self.entrants.last().map(|last| last.row());
+        if last != Some(entrant.row()) {
+            planned.insert(job.run, Arc::clone(&venue));
+        }
+        Ok(venue)
     }
 
     /// The world of a run.

@@ -5,12 +5,14 @@
 //! paper's 25 runs. One drawing says little of what the paper's would have shown: `families` plays all entrants over
 //! many.
 
+mod condition;
 mod contest;
 pub mod drawing;
 mod entrant;
 mod families;
 mod figures;
 mod map_size;
+mod robustness;
 mod states;
 
 use crate::venue::{self, Venue};
@@ -22,6 +24,7 @@ use tolman_replay::Replay;
 
 use contest::Contest;
 use families::Family;
+use robustness::{ABLATION, ROBUSTNESS, Robustness};
 
 /// How many maps are learned of each world and threshold.
 const MAPS: u32 = 50;
@@ -41,6 +44,7 @@ pub(super) const ENTRY: Entry = Entry {
 struct Mslst {
     contests: Vec<Contest>,
     families: Vec<Family>,
+    robustness: Robustness,
 }
 
 /// Reads the worlds and sets the tables up.
@@ -78,8 +82,10 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     }
     tables.extend(contests.iter().map(Contest::table));
     tables.extend(families.iter().map(Family::table));
+    let robustness = Robustness::new(options.runs_of(&ENTRY), options.limit);
     if papers {
         tables.push(map_size::table(options.runs_of(&ENTRY)));
+        tables.extend(robustness.tables());
     }
     let worlds = contests.iter();
     let worlds = worlds.map(|contest| (&*contest.venue.table, contest.config()));
@@ -90,7 +96,15 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
             toml::Value::try_from(family.config())?,
         );
     }
-    let mslst = Mslst { contests, families };
+    if papers {
+        let of_drawings = toml::Value::try_from(robustness.config())?;
+        config.insert(ROBUSTNESS.to_owned(), of_drawings);
+    }
+    let mslst = Mslst {
+        contests,
+        families,
+        robustness,
+    };
     Ok(Experiment::new(ENTRY, tables, config, mslst))
 }
 
@@ -109,6 +123,9 @@ impl Procedure for Mslst {
         }
         if job.table == map_size::MAP_SIZE {
             return map_size::run(job);
+        }
+        if [ROBUSTNESS, ABLATION].contains(&job.table) {
+            return self.robustness.run(job);
         }
         match self.contest(job.table) {
             Some(contest) => contest.run(job),

@@ -73,6 +73,19 @@ pub struct LaserPioneerFaults {
     pub odometry_distance: Vec<Fault>,
     /// Of the rolled turn, rad; a drop-out takes the whole odometry.
     pub odometry_turn: Vec<Fault>,
+    /// Beams that always say the same, after all faults of the scan.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stuck_beams: Vec<StuckBeam>,
+}
+
+/// A beam of a laser that says the same range whatever it meets.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StuckBeam {
+    /// Its number in the ring.
+    pub beam: u32,
+    /// What it says, m: 0 up to the ring's range.
+    pub range: f64,
 }
 
 /// What a crate of your own does to a robot's motors and sensors; each list happens in order, after the faults. No
@@ -149,6 +162,12 @@ impl LaserPioneerConfig {
         ];
         for (field, faults) in faults {
             Fault::check_all(field, faults)?;
+        }
+        for StuckBeam { beam, range } in &self.faults.stuck_beams {
+            if *beam >= self.ring.beams || !(0.0..=self.ring.max_range).contains(range) {
+                let (beam, range) = (*beam, *range);
+                return Err(RobotConfigError::StuckBeam { beam, range });
+            }
         }
         if self.step_us == 0 {
             return Err(RobotConfigError::Field {
@@ -288,6 +307,13 @@ impl Model for LaserPioneer {
         sensing.time_us = around.truth.time_us;
         self.laser.sense(around, chance, &mut sensing.scan);
         self.scan.disturb(&mut sensing.scan, chance);
+        if let Some(scan) = &mut sensing.scan {
+            for StuckBeam { beam, range } in &self.config.faults.stuck_beams {
+                if let Some(stuck) = scan.ranges.get_mut(*beam as usize) {
+                    *stuck = *range;
+                }
+            }
+        }
         sensing.compass = Some(around.truth.pose.heading);
         self.compass.disturb(&mut sensing.compass, chance);
         // Wheels that a contact holds do not roll.
@@ -336,6 +362,16 @@ pub enum RobotConfigError {
         field: &'static str,
         /// What it says.
         value: f64,
+    },
+    /// A beam is stuck that is none of the ring's, or at what it cannot say.
+    #[error(
+        "`faults.stuck_beams`: beam {beam} stuck at {range} m; name a beam of the ring and a range within its own"
+    )]
+    StuckBeam {
+        /// Which beam.
+        beam: u32,
+        /// What it says, m.
+        range: f64,
     },
     /// A fault has no sense.
     #[error(transparent)]

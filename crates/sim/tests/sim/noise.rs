@@ -5,7 +5,7 @@ use tolman_maze::{Cell, Grid, Maze};
 use tolman_robot::{LaserSensing, Robot, TurnTranslate};
 use tolman_sim::noise::{Fault, Faults, Gaussian};
 use tolman_sim::robots::{
-    LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, MotorNoise, RobotConfigError,
+    LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, MotorNoise, RobotConfigError, StuckBeam,
 };
 use tolman_sim::{Chance, Channel, CorridorSize, Simulation, Solo, Truth, World};
 
@@ -175,6 +175,27 @@ fn drive(config: LaserPioneerConfig, run: u64) -> Vec<(Truth, LaserSensing)> {
 fn the_same_seed_gives_the_same_bits_and_another_others() {
     assert_eq!(drive(noisy(), 5), drive(noisy(), 5));
     assert_ne!(drive(noisy(), 5), drive(noisy(), 6));
+}
+
+#[test]
+fn a_stuck_beam_says_the_same_whatever_the_others_meet() {
+    let stuck_at = |beam, range| {
+        let mut config = noisy();
+        config.faults.stuck_beams.push(StuckBeam { beam, range });
+        config
+    };
+    for ((_, stuck), (_, plain)) in drive(stuck_at(9, 0.4), 5).iter().zip(&drive(noisy(), 5)) {
+        let (Some(stuck), Some(plain)) = (&stuck.scan, &plain.scan) else {
+            panic!("a scan is missing");
+        };
+        let mut expected = plain.clone();
+        expected.ranges[9] = 0.4;
+        assert_eq!(*stuck, expected);
+    }
+    for (beam, range) in [(72, 0.4), (9, 1.3), (9, f64::NAN)] {
+        let refused = LaserPioneer::new(stuck_at(beam, range)).unwrap_err();
+        assert!(refused.to_string().contains("stuck_beams"), "{refused}");
+    }
 }
 
 #[test]

@@ -65,6 +65,19 @@ impl<S, E: Eye<S>> Eye<S> for &E {
     }
 }
 
+/// Returns the percepts of a mapper whose robot has [`NoEye`]: which of the four ways lead on.
+#[must_use]
+pub const fn exit_signatures() -> Percepts {
+    Percepts::Signatures(SignatureKind {
+        rows: 1,
+        columns: 4,
+        tolerance: 0.5,
+        share: 1.0,
+        rotation: ViewRotation::Aligned,
+        views: 2,
+    })
+}
+
 /// Returns the percepts of a mapper whose robot turns its signatures of `rows` × `columns` values
 /// by its compass: 3 rows for a [`CameraEye`], 1 for a [`LaserEye`].
 #[must_use]

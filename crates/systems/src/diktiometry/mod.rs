@@ -34,7 +34,7 @@ mod wayfinder;
 
 pub use diktiometer::{Diktiometer, DiktiometerConfig, DiktiometerError, RefusedMove};
 pub use errors::{RoutineError, SenseError};
-pub use eye::{CameraEye, Eye, LaserEye, NoEye, aligned_signatures};
+pub use eye::{CameraEye, Eye, LaserEye, NoEye, aligned_signatures, exit_signatures};
 pub use odometer::Odometer;
 pub use planner::{PlannedMove, Planner, Reason};
 pub use routine_config::{RoutineConfig, RoutineConfigError};

@@ -133,10 +133,16 @@ pub(super) fn first_place(config: &Config, seen: &Arrival) -> FirstPlace {
     }
 }
 
-/// Returns what the rover saw, if the map wants to know.
+/// Returns what the rover saw, if the map wants to know: a robot that does not look sees which ways lead on.
 fn percept(config: &Config, arrival: &Arrival) -> Option<Signature> {
-    let look = arrival.look.as_ref();
-    look.filter(|_| config.percepts != Percepts::None).cloned()
+    if config.percepts == Percepts::None {
+        return None;
+    }
+    let look = arrival.look.clone();
+    look.or_else(|| {
+        let open = arrival.exits.map(|open| f64::from(u8::from(open)));
+        Signature::new(1, open.into()).ok()
+    })
 }
 
 fn exits(arrival: &Arrival) -> Exits {

@@ -174,7 +174,7 @@ impl SystemEntry for DiktiometryEntry {
         let steps = setup.steps.unwrap_or(100_000);
         // Where it sensed the goal when it learned.
         let goal = file.goal();
-        let name = config.robot.name();
+        let name = setup.robot(&[config.robot.name()])?;
         if let Some(start) = setup.start {
             let rng = &mut stream(setup.seed, START_STREAM);
             let random = || Some(office.random_start(&robot.body(), rng));

@@ -11,6 +11,8 @@ mod experiment;
 mod gngslam;
 mod help;
 mod learn;
+#[cfg(unix)]
+mod live;
 mod maze;
 #[cfg(unix)]
 mod mms_host;

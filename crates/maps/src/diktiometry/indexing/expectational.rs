@@ -1,15 +1,44 @@
 use alloc::vec::Vec;
 
-use crate::diktiometry::{Candidate, Diktiometry, Expectation, Projection};
+use crate::diktiometry::{
+    Candidate, Config, Diktiometry, Expectation, PlaceId, Projection, WorldKind,
+};
 
 /// "Given a particular current place, the expectational candidates are those which are predicted by the last action taken
 /// from that place." One set. O(degree · log degree).
-pub(crate) fn expected(map: &Diktiometry, projection: &Projection) -> Vec<Candidate> {
+///
+/// Beyond the paper, in a static world the reverse of the action that led here leads back.
+pub(crate) fn expected(
+    map: &Diktiometry,
+    projection: &Projection,
+    config: &Config,
+) -> Vec<Candidate> {
     let links = map.paths.along(projection.from, projection.action);
-    let candidates = links.filter_map(|(_, link)| {
-        let there = map.place(link.to).frame;
+    let mut ends: Vec<PlaceId> = links.map(|(_, link)| link.to).collect();
+    for end in back(map, projection, config) {
+        if !ends.contains(&end) {
+            ends.push(end);
+        }
+    }
+    let candidates = ends.into_iter().filter_map(|end| {
+        let there = map.place(end).frame;
         let robot = projection.position - map.reference.known(projection.frame, there)?;
-        Some(Candidate::new(map, link.to, robot, Expectation::Expected))
+        Some(Candidate::new(map, end, robot, Expectation::Expected))
     });
     candidates.collect()
+}
+
+/// Where the robot came from by the reverse of the action.
+fn back(
+    map: &Diktiometry,
+    projection: &Projection,
+    config: &Config,
+) -> impl Iterator<Item = PlaceId> {
+    let reverse = match config.world {
+        WorldKind::Static => config.reverse(projection.action),
+        WorldKind::Changing => None,
+    };
+    let incoming = map.paths.incoming(projection.from);
+    let back = incoming.filter(move |(_, link)| Some(link.action) == reverse);
+    back.map(|(_, link)| link.from)
 }

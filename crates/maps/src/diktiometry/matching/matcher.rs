@@ -58,7 +58,7 @@ pub(super) fn find(
         Similarity::Alike => config.least_alike_distance(),
         Similarity::Unlike => config.least_distance(),
     };
-    let is_certain = candidate.is_certain(least_distance);
+    let is_certain = candidate.is_certain(config.apart, least_distance);
     match applicable(candidate, situation, look, is_certain) {
         Applicable::Matcher(matcher) => Some(Chosen {
             matcher,
@@ -106,7 +106,7 @@ fn applicable(
     let grown = place.envelope.hull(place.position);
     if config.matching.alpha == Use::On && grown.meets(candidate.robot) {
         let expected = candidate.expectation == Expectation::Expected;
-        let near = (grown - candidate.robot).norm().high() < config.least_distance();
+        let near = config.apart.most(grown - candidate.robot) < config.least_distance();
         if config.matching.identity == Identity::Meets || expected || near {
             return Applicable::Matcher(Matcher::Alpha);
         }
@@ -115,7 +115,7 @@ fn applicable(
     let near = candidate.offset.norm().low() <= config.separation.min(reach);
     if config.matching.beta == Use::On && near {
         // Near it, but nowhere near another.
-        let lone = candidate.offset.norm().high() < config.least_distance();
+        let lone = config.apart.most(candidate.offset) < config.least_distance();
         if config.matching.identity == Identity::Meets || lone {
             return Applicable::Matcher(Matcher::Beta);
         }

@@ -107,7 +107,7 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
         GeometricMerge::Off => Verdict::Abstain,
         _ if !pair.offset.contains(Point::origin()) => Verdict::Reject,
         GeometricMerge::Narrow => {
-            let most = pair.offset.norm().high();
+            let most = config.apart.most(pair.offset);
             Verdict::propose_if(most < least_distance(map, pair, config))
         }
         GeometricMerge::Estims => Verdict::propose_if(have_one_mode(map, pair, config)),

@@ -25,7 +25,8 @@ const ELSEWHERE: f64 = 1e-3;
 /// Where the same actions lead from one place, there is the same place. If the two are different, so are the places that the same
 /// actions lead to from them, and each pair of them looks alike by a chance of about p ([`Looks`](crate::diktiometry::Looks)).
 /// With k kinds of looks in agreement and n places that the one may be taken for, one that it is not does all that with a chance
-/// of about n · pᵏ at most: p is the mean over all pairs, and some looks are commoner than others. Where one action led from one place to
+/// of about n · pᵏ at most: p is the mean over all pairs, and some looks are commoner than others. There are as many places as kinds of
+/// looks, and two more, for all that is known: how many are on the map says nothing while it is not folded. Where one action led from one place to
 /// both, the one is taken for the other only if the action has led elsewhere.
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     if config.restructuring.look_merge == Use::Off {
@@ -131,12 +132,8 @@ pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usiz
 
 /// How many kinds of looks have to agree if there is room for so many places; none if there are not as many kinds.
 fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
-    let others = room.min(map.paths.standing() as f64);
-    // n · pᵏ < error for k > log(error / n) / log p.
-    let chance = map.looks.chance_of_alike();
-    let wanted = libm::log(config.restructuring.look_error / others) / libm::log(chance);
-    let kinds = f64::from(map.looks.kinds);
-    (chance < 1.0 && wanted < kinds).then(|| wanted as usize + 1)
+    let others = room.min(f64::from(map.looks.kinds) + 2.0);
+    map.looks.enough(config.restructuring.look_error / others)
 }
 
 /// How far looks agree along the same actions from two places.

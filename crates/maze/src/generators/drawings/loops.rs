@@ -44,12 +44,41 @@ pub fn ring(size: (u16, u16), rng: &mut impl Rng) -> Result<Maze, GenerateError>
 /// # Ok::<(), tolman_maze::GenerateError>(())
 /// ```
 pub fn ladder(size: (u16, u16), rng: &mut impl Rng) -> Result<Maze, GenerateError> {
-    let mut pen = Pen::new("ladder", size, (5, 3))?;
+    let pen = Pen::new("ladder", size, (5, 3))?;
     let most = ((size.0 - 1) / 2).min(size.1 - 1) - 1;
-    let side = chance::between(1, most.min(LONGEST), rng) + 1;
+    let corridor = chance::between(1, most.min(LONGEST), rng);
+    Ok(rungs(pen, corridor, rng))
+}
+
+/// Draws a ladder whose corridors have `corridor` cells each. O(cells).
+///
+/// # Errors
+/// [`GenerateError`] without a cell, or above 510.
+///
+/// ```
+/// use rand::SeedableRng;
+///
+/// let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(7);
+/// let ladder = tolman_maze::drawings::ladder_of(3, &mut rng)?;
+/// assert_eq!((ladder.grid().width(), ladder.grid().height()), (9, 5));
+/// assert_eq!(ladder.reachable().count(), 6 + 7 * 3);
+/// # Ok::<(), tolman_maze::GenerateError>(())
+/// ```
+pub fn ladder_of(corridor: u16, rng: &mut impl Rng) -> Result<Maze, GenerateError> {
+    let side = corridor.saturating_add(1);
+    let size = (
+        side.saturating_mul(2).saturating_add(1),
+        side.saturating_add(1),
+    );
+    Ok(rungs(Pen::new("ladder", size, (5, 3))?, corridor, rng))
+}
+
+/// Draws both loops.
+fn rungs(mut pen: Pen, corridor: u16, rng: &mut impl Rng) -> Maze {
+    let side = corridor + 1;
     pen.rectangle(Cell::new(0, 0), side, side);
     pen.rectangle(Cell::new(side, 0), side, side);
-    Ok(pen.finish_anywhere(rng))
+    pen.finish_anywhere(rng)
 }
 
 /// Draws an eight: two loops of any sides that share one crossing. Start and goal lie anywhere, far from each other. O(cells).

@@ -14,7 +14,7 @@ mod wings;
 
 pub use blocks::blocks;
 pub use comb::comb;
-pub use loops::{eight, ladder, ring};
+pub use loops::{eight, ladder, ladder_of, ring};
 pub use office::office;
 pub use pillars::pillars;
 pub use spiral::spiral;

@@ -19,6 +19,25 @@ pub struct BetterConfig {
     pub action_sd: f64,
     /// Ranges below which the layers refuse to go on, m.
     pub buffer: f64,
+    /// What it does without, to see what that is worth.
+    pub without: Option<BetterPart>,
+}
+
+/// A part of the better system that can be left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BetterPart {
+    /// Positions are corrected by the walls; without it they are what the wheels say.
+    Fit,
+    /// It goes where its map has gaps; without it, it wanders like Avoid until there are none.
+    Exploration,
+    /// It plans for a robot that misses; without it for one whose motors do as they are told.
+    Chances,
+    /// It does what is best on average over all it believes; without it what is best where it most likely is.
+    Average,
+    /// It takes the absence of the goal's landmark as evidence.
+    Absence,
+    /// Its layers see scans straightened.
+    Straightening,
 }
 
 impl BetterConfig {
@@ -34,7 +53,14 @@ impl BetterConfig {
             action_way: ROBOT_UNIT,
             action_sd: 0.2,
             buffer: 0.9 * ROBOT_UNIT,
+            without: None,
         }
+    }
+
+    /// Returns whether it has a part.
+    #[must_use]
+    pub fn has(&self, part: BetterPart) -> bool {
+        self.without != Some(part)
     }
 }
 
@@ -52,6 +78,15 @@ pub struct Motors {
 }
 
 impl Motors {
+    /// Returns the same motors if they did as they are told.
+    pub(super) const fn exact(self) -> Self {
+        Self {
+            turn_sd: 0.0,
+            way_sd: 0.0,
+            ..self
+        }
+    }
+
     /// Those of the paper's robot.
     pub const PIONEER: Self = Self {
         turn_per_command: 91.0 * core::f64::consts::PI / 180.0,

@@ -6,8 +6,8 @@ use tolman_maps::scan_map::{Advance, Clearings, ScanMap, ScanMapConfig, WayToGap
 use tolman_maze::Direction;
 use tolman_robot::{Guess, MapView, Mapper, Position, Scan, Standing, Task};
 
-use super::BetterConfig;
 use super::reckoning::Reckoning;
+use super::{BetterConfig, BetterPart};
 use crate::{Brain, Doing, RolledStep};
 
 /// Learns a [`ScanMap`], and goes where it has gaps until it has none.
@@ -40,8 +40,12 @@ impl BetterExplorer {
     /// Returns one that knows nothing yet.
     #[must_use]
     pub fn new(config: BetterConfig) -> Self {
+        let mut map = ScanMapConfig::for_robot(config.diameter);
+        if !config.has(BetterPart::Fit) {
+            map.farthest_fit = 0.0;
+        }
         Self {
-            map: ScanMap::new(ScanMapConfig::for_robot(config.diameter)),
+            map: ScanMap::new(map),
             config,
             reckoning: Reckoning::default(),
             failed: Vec::new(),
@@ -202,6 +206,10 @@ impl Brain for BetterExplorer {
                 Standing::gave_up("its map is not finished yet: let it explore first")
             }
         }
+    }
+
+    fn sees_straight(&self) -> bool {
+        self.config.has(BetterPart::Straightening)
     }
 
     fn words(&self) -> String {

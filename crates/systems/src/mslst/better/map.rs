@@ -1,5 +1,5 @@
 use tolman_control::RingError;
-use tolman_maps::scan_map::{ScanMap, ScanMapConfig, Standpoints};
+use tolman_maps::scan_map::{ScanMap, Standpoints};
 use tolman_maze::Direction;
 use tolman_planners::{Decisions, expected_costs};
 use tolman_robot::Ring;
@@ -31,8 +31,7 @@ impl BetterMap {
     /// # Errors
     /// If the layers cannot read the ring.
     pub fn of(scans: ScanMap, ring: Ring, config: &BetterConfig) -> Result<Self, RingError> {
-        let radius = ScanMapConfig::for_robot(config.diameter).radius;
-        let standpoints = Standpoints::of(&scans, ring, radius);
+        let standpoints = Standpoints::of(&scans, ring);
         let decisions = rehearse(&scans.clearings(), &standpoints, ring, config)?;
         let goals = (0..standpoints.len() as u32)
             .filter(|number| standpoints.is_goal(*number))
@@ -46,12 +45,6 @@ impl BetterMap {
             decisions,
             costs,
         })
-    }
-
-    /// Returns the places, their links and the walls.
-    #[must_use]
-    pub const fn scans(&self) -> &ScanMap {
-        &self.scans
     }
 
     /// Returns the time steps to the goal on average from a standpoint by an action, facing along an axis; infinite where it does

@@ -7,17 +7,17 @@ use tolman_maps::scan_map::StandpointBelief;
 use tolman_maze::Direction;
 use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, Task};
 
-use super::BetterMap;
 use super::map::HOPELESS;
 use super::reckoning::Reckoning;
 use super::rehearsal::facing;
+use super::{BetterMap, BetterPart};
 use crate::{Brain, Doing, RolledStep};
 
 /// Finds out where it is on its map, and does what leads to the goal soonest on average over all it believes.
 #[derive(Clone, Debug)]
 pub struct BetterNavigator {
     map: Arc<BetterMap>,
-    whereabouts: StandpointBelief,
+    belief: StandpointBelief,
     reckoning: Reckoning,
     heading: Heading,
     /// What failed since the robot last moved.
@@ -33,7 +33,7 @@ impl BetterNavigator {
     #[must_use]
     pub fn new(map: Arc<BetterMap>) -> Self {
         Self {
-            whereabouts: StandpointBelief::anywhere(&map.standpoints),
+            belief: StandpointBelief::anywhere(&map.standpoints),
             map,
             reckoning: Reckoning::default(),
             heading: Heading::NORTH,
@@ -42,25 +42,19 @@ impl BetterNavigator {
         }
     }
 
-    /// Returns what it believes of where it is.
-    #[must_use]
-    pub const fn whereabouts(&self) -> &StandpointBelief {
-        &self.whereabouts
-    }
-
     fn look(&mut self, seen: &RolledStep) {
         let (moved, sd) = self.reckoning.take();
         let map = &*self.map;
         if moved != tolman_geom::Vector::zeros() {
-            self.whereabouts
+            self.belief
                 .moved(&map.standpoints, map.scans.grid(), moved, sd);
         }
         if let (Some(scan), Some(heading)) = (&seen.step.scan, seen.step.heading) {
             self.heading = heading;
-            self.whereabouts.saw(&map.standpoints, heading, scan);
+            self.belief.saw(&map.standpoints, heading, scan);
         }
-        if seen.step.landmark != Some(Landmark::Goal) {
-            self.whereabouts.missed_the_goal(&map.standpoints);
+        if seen.step.landmark != Some(Landmark::Goal) && map.config.has(BetterPart::Absence) {
+            self.belief.missed_the_goal(&map.standpoints);
         }
         self.next = self.cheapest();
     }
@@ -68,9 +62,14 @@ impl BetterNavigator {
     /// The action that costs least on average over all it believes.
     fn cheapest(&self) -> Option<Direction> {
         let axis = facing(self.heading);
+        let only = match self.map.config.has(BetterPart::Average) {
+            true => None,
+            false => self.belief.likeliest(),
+        };
         let mut costs = [0.0; 4];
-        for (number, mass) in (0..).zip(self.whereabouts.probabilities()) {
-            if *mass > NO_SAY / self.map.standpoints.len() as f64 {
+        for (number, mass) in (0..).zip(self.belief.probabilities()) {
+            let has_say = *mass > NO_SAY / self.map.standpoints.len() as f64;
+            if has_say && only.is_none_or(|only| only == number) {
                 for action in Direction::ALL {
                     let cost = self.map.cost(number, axis, action).min(f64::from(HOPELESS));
                     costs[action.index()] += mass * cost;
@@ -108,7 +107,7 @@ impl Mapper for BetterNavigator {
 
     fn belief(&self) -> Vec<Guess> {
         let positions = self.map.standpoints.positions().iter();
-        let guesses = positions.zip(self.whereabouts.probabilities());
+        let guesses = positions.zip(self.belief.probabilities());
         let guesses = guesses.filter(|(_, mass)| **mass > NO_SAY);
         let mut guesses: Vec<Guess> = guesses
             .map(|(at, weight)| Guess {
@@ -134,7 +133,7 @@ impl Brain for BetterNavigator {
             Task::Reach(_) => Standing::gave_up("its map leads to the landmark of the goal alone"),
             Task::Localize => {
                 let sure = self
-                    .whereabouts
+                    .belief
                     .certainty(&self.map.standpoints, self.map.config.diameter);
                 if sure > 0.95 {
                     Standing::Done
@@ -145,9 +144,13 @@ impl Brain for BetterNavigator {
         }
     }
 
+    fn sees_straight(&self) -> bool {
+        self.map.config.has(BetterPart::Straightening)
+    }
+
     fn words(&self) -> String {
         let sure = self
-            .whereabouts
+            .belief
             .certainty(&self.map.standpoints, self.map.config.diameter);
         format!("believes with {:.0} % to know where it is", 100.0 * sure)
     }

@@ -1,5 +1,6 @@
-use tolman_control::unit_of;
+use tolman_control::{Outcome, unit_of};
 use tolman_geom::{Heading, Vector};
+use tolman_maze::Direction;
 
 use super::BetterConfig;
 use crate::{Doing, RolledStep};
@@ -10,49 +11,67 @@ pub(super) struct Reckoning {
     heading: Option<Heading>,
     moved: Vector,
     variance: Vector,
+    /// How far the wheels say that the action under way has led.
+    rolled: Vector,
+    /// Whether they said nothing in one of its time steps.
+    has_gap: bool,
 }
+
+/// Standard deviation of how far an action leads aside whose way the wheels do not tell, as a share of it.
+const ASIDE: f64 = 0.05;
 
 impl Reckoning {
     /// Adds a time step. Where the wheels tell nothing, what the action is made of stands for it.
     pub(super) fn add(&mut self, seen: &RolledStep, config: &BetterConfig) {
         let before = self.heading;
         self.heading = seen.step.heading.or(before);
-        let (Some(before), Some(now)) = (before, self.heading) else {
-            return;
-        };
-        let Some(odometry) = seen.odometry else {
-            return self.assume(seen.step.doing, config);
-        };
-        let along = before.turned(0.5 * before.turn_to(now)).unit();
-        self.moved += along * odometry.distance;
-        let sd = config.odometry_sd * odometry.distance.abs();
-        self.variance += Vector::new(sd * sd, sd * sd);
+        if let (Some(before), Some(now), Some(odometry)) = (before, self.heading, seen.odometry) {
+            let along = before.turned(0.5 * before.turn_to(now)).unit();
+            self.rolled += along * odometry.distance;
+            let sd = config.odometry_sd * odometry.distance.abs();
+            self.variance += Vector::new(sd * sd, sd * sd);
+        } else {
+            self.has_gap |= seen.step.doing != Doing::PutDown;
+        }
         if seen.bump == Some(true) {
             let sd = config.slide_sd;
             self.variance += Vector::new(sd * sd, sd * sd);
+        }
+        if let Doing::Ended(action, outcome) = seen.step.doing {
+            self.end(action, outcome, config);
         }
     }
 
     /// Returns the way since the last time, and its standard deviations, and begins anew.
     pub(super) fn take(&mut self) -> (Vector, Vector) {
-        let (moved, variance) = (self.moved, self.variance);
-        (self.moved, self.variance) = (Vector::zeros(), Vector::zeros());
+        let (moved, variance) = (self.since(), self.variance);
+        (self.moved, self.rolled, self.variance) =
+            (Vector::zeros(), Vector::zeros(), Vector::zeros());
         (moved, variance.map(libm::sqrt))
     }
 
     /// Returns the way since the last time.
-    pub(super) const fn since(&self) -> Vector {
-        self.moved
+    pub(super) fn since(&self) -> Vector {
+        self.moved + self.rolled
     }
 
-    fn assume(&mut self, doing: Doing, config: &BetterConfig) {
-        if let Doing::Ended(action, outcome) = doing
-            && outcome.moved()
-        {
-            let way = unit_of(action) * config.action_way;
-            self.moved += way;
-            let sd = way.map(|way| config.action_sd * way.abs());
+    /// Ends an action. What the wheels did not tell of its way is what it lacks to the way of such actions.
+    fn end(&mut self, action: Direction, outcome: Outcome, config: &BetterConfig) {
+        let way = match outcome {
+            Outcome::Completed => config.action_way,
+            Outcome::CutShort => 0.5 * config.action_way,
+            Outcome::Failed | Outcome::TimedOut => 0.0,
+        };
+        if self.has_gap && way > 0.0 {
+            let along = unit_of(action);
+            let rest = (way - self.rolled.dot(&along)).max(0.0);
+            self.moved += along * rest;
+            let sd = along.map(|along| {
+                config.action_sd * rest * along.abs() + ASIDE * way * (1.0 - along.abs())
+            });
             self.variance += sd.component_mul(&sd);
         }
+        self.moved += self.rolled;
+        (self.rolled, self.has_gap) = (Vector::zeros(), false);
     }
 }

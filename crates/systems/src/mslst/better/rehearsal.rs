@@ -9,8 +9,8 @@ use tolman_maze::Direction;
 use tolman_planners::Decisions;
 use tolman_robot::Ring;
 
-use super::BetterConfig;
 use super::imagined::Imagined;
+use super::{BetterConfig, BetterPart};
 use crate::stream;
 
 /// The axes a robot faces along: east–west, north–south.
@@ -35,7 +35,11 @@ pub(super) fn rehearse(
 ) -> Result<Decisions, RingError> {
     let stack = Stack::paper(ring, config.diameter, config.corridor_width)?;
     let mut drive = Drive::new(stack, stream(0, 1)).longest_action(LONGEST_ACTION);
-    let mut robot = Imagined::new(standpoints, clearings, ring, config.motors, stream(0, 2));
+    let motors = match config.has(BetterPart::Chances) {
+        true => config.motors,
+        false => config.motors.exact(),
+    };
+    let mut robot = Imagined::new(standpoints, clearings, ring, motors, stream(0, 2));
     let mut rng = stream(0, 3);
     let mut decisions = Decisions::between(Direction::ALL.len());
     for number in 0..standpoints.len() as u32 {

@@ -44,15 +44,15 @@ pub(in crate::cli) fn each<'a, T: Send>(
     jobs: Option<u16>,
     work: impl Fn(&'a Path, &'a Maze) -> Result<T, Failure> + Sync,
 ) -> Result<Vec<T>, Failure> {
+    // A single one may be drawn on the terminal meanwhile, which this thread holds.
+    if let [(file, maze)] = mazes {
+        return Ok(vec![work(file, maze)?]);
+    }
     let threads = rayon::ThreadPoolBuilder::new()
         .num_threads(jobs.map_or(0, usize::from))
         .build()
         .context("no threads can be started")?;
-    let bar = if mazes.len() > 1 {
-        ProgressBar::new(mazes.len() as u64)
-    } else {
-        ProgressBar::hidden()
-    };
+    let bar = ProgressBar::new(mazes.len() as u64);
     threads.install(|| {
         mazes
             .par_iter()

@@ -1,0 +1,31 @@
+//! Constraints of a static world: an action leads from a place to one place, and its reverse from there back.
+//!
+//! Beyond the paper, whose world may change.
+
+use super::Verdict;
+use super::geometric::Pair;
+use crate::diktiometry::{Action, Config, Diktiometry, PlaceId, WorldKind};
+
+/// Two places that one action leads to from one place are one. Geometry has its say all the same. O(degree²).
+pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
+    let is_static = config.world == WorldKind::Static;
+    Verdict::propose_if(
+        is_static
+            && beside(map, pair.a, config).any(|(from, action)| {
+                beside(map, pair.b, config).any(|other| other == (from, action))
+            }),
+    )
+}
+
+/// The places and actions that lead to a place: those that did, and those whose reverse led there from it.
+fn beside<'a>(
+    map: &'a Diktiometry,
+    place: PlaceId,
+    config: &'a Config,
+) -> impl Iterator<Item = (PlaceId, Action)> + 'a {
+    let came = map.paths.incoming(place);
+    let came = came.map(|(_, link)| (link.from, link.action));
+    let left = map.paths.outgoing(place);
+    let left = left.filter_map(|(_, link)| Some((link.to, config.reverse(link.action)?)));
+    came.chain(left)
+}

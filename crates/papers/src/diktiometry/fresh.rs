@@ -1,0 +1,280 @@
+//! Every run another world of its kind: what a claim about maps is made on.
+
+use alloc::sync::Arc;
+
+use rand_chacha::ChaCha8Rng;
+use serde::Serialize;
+use tolman_arena::diktiometry::{
+    Office, OfficeConfig, PlaceCue, Survey, SurveyConfig, SurveyorConfig, blocks,
+};
+use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record, require};
+use tolman_maps::diktiometry::Use;
+use tolman_maze::drawings::{eight, ladder_of, office, ring, spiral};
+use tolman_maze::{GenerateError, Maze};
+use tolman_systems::stream;
+
+use super::ablations::papers_rule;
+use super::settings::{BARE, FURNISHED, HEED, WALLED_UP};
+use super::share;
+
+/// The name of the table.
+pub(super) const FRESH: &str = "fresh worlds";
+
+/// Worlds a row, unless the caller asks for more or fewer.
+const WORLDS: u32 = 100;
+
+/// The same of the largest worlds.
+const LARGE_WORLDS: u32 = 20;
+
+/// For a first look.
+const QUICK: u32 = 2;
+
+/// Share of all places and ways of a world that a map has to have to be right.
+const WHOLE: f64 = 0.95;
+
+/// The stream of a run's seed that its world is drawn from, beside those of the walk.
+const WORLD_STREAM: u64 = 20;
+
+/// Walls of eight colours, no doorways.
+const PAINTED: OfficeConfig = OfficeConfig { colours: 8, ..BARE };
+
+/// One row: a kind of world, a robot and a mapper.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FreshRow {
+    pub(super) row: &'static str,
+    draw: fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>,
+    furniture: OfficeConfig,
+    moves: u32,
+    /// How likely a script is begun when one is applicable.
+    heed: f64,
+    worlds: u32,
+    /// Errors of the robot.
+    robot: fn(&mut SurveyorConfig),
+    /// What the mapper does otherwise.
+    change: fn(&mut SurveyConfig),
+}
+
+impl FreshRow {
+    /// A passive walk by the robot of the paper's figures, by our mapper.
+    const fn new(
+        row: &'static str,
+        draw: fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>,
+        moves: u32,
+    ) -> Self {
+        Self {
+            row,
+            draw,
+            furniture: BARE,
+            moves,
+            heed: 0.0,
+            worlds: WORLDS,
+            robot: |_| {},
+            change: |_| {},
+        }
+    }
+
+    const fn heed(self, heed: f64) -> Self {
+        Self { heed, ..self }
+    }
+
+    const fn furnished(self, furniture: OfficeConfig) -> Self {
+        Self { furniture, ..self }
+    }
+
+    /// Looks count as evidence.
+    const fn by_looks(self) -> Self {
+        Self {
+            change: |config| config.mapper.restructuring.look_merge = Use::On,
+            ..self
+        }
+    }
+
+    /// What it sees of a place is which ways lead on, and that counts as evidence.
+    const fn by_exits(self) -> Self {
+        Self {
+            robot: |robot| robot.sight = PlaceCue::Exits,
+            ..self.by_looks()
+        }
+    }
+
+    const fn papers_rule(self, row: &'static str) -> Self {
+        Self {
+            row,
+            change: |config| papers_rule(&mut config.mapper),
+            ..self
+        }
+    }
+}
+
+const fn five() -> FreshRow {
+    FreshRow::new("5x5 passive", |rng| Ok(blocks(5, WALLED_UP, rng)), 700)
+}
+
+const fn seven() -> FreshRow {
+    FreshRow::new("7x7 passive", |rng| Ok(blocks(7, WALLED_UP, rng)), 3000)
+}
+
+const fn painted(
+    row: &'static str,
+    draw: fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>,
+) -> FreshRow {
+    FreshRow::new(row, draw, 1000)
+        .heed(HEED)
+        .furnished(PAINTED)
+        .by_looks()
+}
+
+/// All rows.
+pub(super) fn rows() -> Vec<FreshRow> {
+    let five_scripted = FreshRow {
+        row: "5x5 with scripts",
+        ..five().heed(HEED)
+    };
+    let seven_scripted = FreshRow {
+        row: "7x7 with scripts",
+        ..seven().heed(HEED)
+    };
+    let complicated = FreshRow {
+        row: "7x7 doorways with scripts",
+        ..seven_scripted.furnished(FURNISHED)
+    };
+    vec![
+        five(),
+        five().papers_rule("5x5 passive (paper's rule)"),
+        five_scripted,
+        five_scripted.papers_rule("5x5 with scripts (paper's rule)"),
+        FreshRow {
+            row: "5x5 constant error",
+            robot: |robot| robot.hold_steps = u32::MAX,
+            ..five_scripted
+        },
+        seven(),
+        seven().papers_rule("7x7 passive (paper's rule)"),
+        seven_scripted,
+        seven_scripted.papers_rule("7x7 with scripts (paper's rule)"),
+        complicated,
+        complicated.papers_rule("7x7 doorways with scripts (paper's rule)"),
+        FreshRow {
+            row: "20x20 with scripts",
+            moves: 6000,
+            worlds: LARGE_WORLDS,
+            draw: |rng| Ok(blocks(20, WALLED_UP, rng)),
+            ..seven().heed(1.0).by_exits()
+        },
+        painted("ladder 7", |rng| ladder_of(7, rng)),
+        painted("ladder 11", |rng| ladder_of(11, rng)),
+        painted("ladder 15", |rng| ladder_of(15, rng)),
+        painted("eight", |rng| eight((8, 8), rng)),
+        painted("spiral", |rng| spiral((8, 8), rng)),
+        painted("ring", |rng| ring((8, 8), rng)),
+        painted("office floor", |rng| office((8, 6), rng))
+            .furnished(BARE)
+            .by_exits(),
+    ]
+}
+
+record! {
+    /// A walk through a world drawn for it, and the map at its end.
+    #[check(FreshRun::relations)]
+    struct FreshRun {
+        /// Whether the map is one to one the world: all places and ways that were seen, no others, and 95 % of all at least.
+        right: bool => higher("map right"),
+        /// The same without asking how much was seen.
+        right_of_visited: bool => higher("right of what was visited"),
+        /// Share of the visits that were to the true place for which their place on the map stands.
+        purity: f64 => higher("purity").share().decimals(4),
+        /// Places on the map for each true place that was visited.
+        places_over_true: f64 => lower("places over true ones").at_least(0).decimals(2),
+        /// Share of the true places that were visited.
+        seen: f64 => higher("true places visited").share().decimals(3),
+        /// Share of the true ways of the whole world that are on the map.
+        link_recall: f64 => higher("link recall").share().decimals(3),
+        /// Share of the map's links that lead where their action truly leads.
+        link_precision: f64 => higher("link precision").share().decimals(4),
+    }
+}
+
+impl FreshRun {
+    fn relations(&self) -> Result<(), String> {
+        let told = "a map is right only of what was visited, and if it is whole";
+        let whole = self.seen >= WHOLE && self.link_recall >= WHOLE;
+        require(self.right == (self.right_of_visited && whole), told)
+    }
+}
+
+/// The table.
+pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
+    let runs = |row: &FreshRow| options.runs_else(row.worlds, QUICK);
+    Table::of::<FreshRun>(FRESH, "Fresh worlds: each run another drawing")
+        .metric(Metric::percent("right_percent", FreshRun::right))
+        .metric(Metric::percent("right_of_visited_percent", FreshRun::right_of_visited))
+        .metrics_from(FreshRun::purity)
+        .rows(rows.iter().map(|row| Row::new(row.row).runs(runs(row))))
+        .note(
+            "Each run draws its own world from its seed, the same for all rows of a kind. 5x5, 7x7 and 20x20 are blocks with a quarter of \
+             the ways walled up, all places alike; 700, 3000 and 6000 moves. Doorways: a fifth of the passages, walls of eight colours. Ladders \
+             (corridors of so many cells), eights, spirals and rings have walls of eight colours, the office floor has one; 1000 moves with \
+             scripts. Scripts are begun with a chance of 30 %, in 20x20 always. Constant error: odometry and compass are wrong by the same \
+             all along. Paper's rule: a place is known again if boxes meet, and places merge by their estims.",
+        )
+}
+
+impl FreshRow {
+    /// What the runs depend on, but for what the mapper is told of each drawing.
+    pub(super) fn config(&self) -> impl Serialize {
+        #[derive(Serialize)]
+        struct Settings {
+            moves: u32,
+            heed: f64,
+            furniture: OfficeConfig,
+            robot: SurveyorConfig,
+        }
+        Settings {
+            moves: self.moves,
+            heed: self.heed,
+            furniture: self.furniture,
+            robot: self.surveyor(),
+        }
+    }
+
+    fn surveyor(&self) -> SurveyorConfig {
+        let mut robot = SurveyorConfig::paper();
+        (self.robot)(&mut robot);
+        robot
+    }
+
+    /// Draws a run's world, and says how it is surveyed there.
+    pub(super) fn draw(&self, seed: u64) -> Result<(Arc<Office>, SurveyConfig), BoxError> {
+        let mut rng = stream(seed, WORLD_STREAM);
+        let maze = (self.draw)(&mut rng)?;
+        let furniture = OfficeConfig {
+            seed,
+            ..self.furniture
+        };
+        let office = Arc::new(Office::new(&maze, &furniture)?);
+        let mut config = SurveyConfig::of(&office, self.surveyor(), self.moves);
+        config.heed = self.heed;
+        (self.change)(&mut config);
+        Ok((office, config))
+    }
+
+    /// Surveys a world.
+    pub(super) fn run(&self, seed: u64) -> Result<Fields, BoxError> {
+        let (office, config) = self.draw(seed)?;
+        let survey = Survey::new(&office, config, seed)?.finish()?;
+        let score = survey.score();
+        let places = office.places(&[]).len();
+        let seen = share(score.visited, places).unwrap_or(1.0);
+        let whole = seen >= WHOLE && score.link_recall >= WHOLE;
+        let run = FreshRun {
+            right: score.is_isomorphic && whole,
+            right_of_visited: score.is_isomorphic,
+            purity: score.purity,
+            places_over_true: score.places as f64 / score.visited as f64,
+            seen,
+            link_recall: score.link_recall,
+            link_precision: score.link_precision,
+        };
+        Ok(run.fields()?)
+    }
+}

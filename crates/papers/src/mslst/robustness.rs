@@ -1,0 +1,221 @@
+//! The better system where something is wrong, and without each of its parts, over drawings of Large.
+//!
+//! A run is a drawing with some starts, so that the spread is that between mazes.
+
+use alloc::sync::Arc;
+use std::sync::OnceLock;
+
+use rand::RngExt;
+use serde::Serialize;
+use tolman_maze::{Maze, MazeFile};
+
+use super::condition::Condition;
+use crate::venue::{self, Drawing, LARGE_DRAWINGS, Venue};
+use tolman_arena::Mind;
+use tolman_arena::cast::Agent;
+use tolman_arena::course::Course;
+use tolman_arena::episode::{self, Trial};
+use tolman_arena::mslst::learn_better_without;
+use tolman_arena::pioneer;
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, run_seed};
+use tolman_sim::DoorState;
+use tolman_systems::mslst::better::{BetterNavigator, BetterPart};
+use tolman_systems::stream;
+
+record! {
+    /// A drawing and some starts in it.
+    pub(super) struct RobustnessRun {
+        /// Starts from which the destination is reached within the time limit.
+        success_percent: f64 => higher("success").unit("%").percent(),
+        /// Mean time steps; a run that does not arrive counts its limit.
+        steps: f64 => lower("steps").at_least(0),
+        /// Mean time steps of the Unlocalized oracle from the same starts, whose robot is as calibrated.
+        oracle_steps: f64 => neither("Unlocalized oracle's steps").at_least(0),
+    }
+}
+
+/// Names of the tables.
+pub(super) const ROBUSTNESS: &str = "robustness";
+pub(super) const ABLATION: &str = "ablation";
+
+/// The rows of the ablation, and what each goes without.
+const PARTS: [(&str, Option<BetterPart>); 7] = [
+    ("Better", None),
+    ("positions by wheels alone", Some(BetterPart::Fit)),
+    ("wandering like Avoid", Some(BetterPart::Exploration)),
+    ("plans for exact motors", Some(BetterPart::Chances)),
+    ("the likeliest place only", Some(BetterPart::Average)),
+    ("absence of the goal unused", Some(BetterPart::Absence)),
+    ("scans as sensed", Some(BetterPart::Straightening)),
+];
+
+/// Stream of where doors shut.
+const DOOR_STREAM: u64 = 4;
+
+/// Starts in a drawing at least.
+const LEAST_STARTS: u32 = 5;
+
+/// The drawings, and what is planned in them.
+#[derive(Debug)]
+pub(super) struct Robustness {
+    mazes: u32,
+    starts: u32,
+    limit: Option<u32>,
+    /// By number of the drawing: as it was learned, and with a door shut.
+    venues: Vec<[OnceLock<Arc<Venue>>; 2]>,
+}
+
+/// What the runs depend on.
+#[derive(Serialize)]
+pub(super) struct RobustnessConfig {
+    starts: u32,
+    limit: Option<u32>,
+}
+
+impl Robustness {
+    /// `runs` starts in all, in drawings with at least five starts each.
+    pub(super) fn new(runs: u32, limit: Option<u32>) -> Self {
+        let mazes = (runs / LEAST_STARTS).clamp(1, LARGE_DRAWINGS.len() as u32);
+        Self {
+            mazes,
+            starts: (runs / mazes).max(LEAST_STARTS),
+            limit,
+            venues: (0..mazes).map(|_| Default::default()).collect(),
+        }
+    }
+
+    pub(super) const fn config(&self) -> RobustnessConfig {
+        RobustnessConfig {
+            starts: self.starts,
+            limit: self.limit,
+        }
+    }
+
+    /// Its two tables.
+    pub(super) fn tables(&self) -> [Table; 2] {
+        let conditions = Condition::ALL.map(Condition::name);
+        let parts = PARTS.map(|(name, _)| name);
+        [
+            self.table(
+                ROBUSTNESS,
+                "The better system where something is wrong",
+                conditions,
+            ),
+            self.table(
+                ABLATION,
+                "The better system without each of its parts",
+                parts,
+            ),
+        ]
+    }
+
+    fn table(
+        &self,
+        name: &str,
+        title: &str,
+        rows: impl IntoIterator<Item = &'static str>,
+    ) -> Table {
+        let over = Metric::ratio(
+            "steps_over_unlocalized_oracle",
+            RobustnessRun::steps,
+            RobustnessRun::oracle_steps,
+        );
+        Table::of::<RobustnessRun>(name, title)
+            .metric(Metric::mean(RobustnessRun::success_percent).decimals(1))
+            .metric(Metric::mean(RobustnessRun::steps))
+            .metric(over.titled("steps / Unlocalized oracle's").decimals(2))
+            .metric(Metric::least("least_success_percent", RobustnessRun::success_percent).titled("success, least").decimals(1))
+            .rows(rows.into_iter().map(|row| Row::new(row).runs(self.mazes)))
+            .note(format!(
+                "A run is a drawing of Large with {} starts, by one map that was learned in it. The Unlocalized oracle's robot is as \
+                 calibrated, with sensors that do not err; where a door has shut since, it knows that.",
+                self.starts
+            ))
+    }
+
+    /// Plays a drawing.
+    pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let (condition, without) = row(job)?;
+        let learned_in = self.venue(job.run, DoorState::Open)?;
+        let venue = self.venue(job.run, condition.door())?;
+        let robot = condition.robot(&venue.robot);
+        let learned = learn_better_without(without, &learned_in.course, &robot, job.seed)?;
+        let (mut reached, mut steps, mut oracle_steps) = (0_u32, 0_u64, 0_u64);
+        for start in 0..self.starts {
+            let seed = run_seed(job.seed, "starts", start);
+            let undisturbed = venue.trial(seed);
+            let oracle = episode::run(
+                &undisturbed,
+                &mut venue.mind(Agent::UnlocalizedOracle)?,
+                |_| {},
+            )?;
+            oracle_steps += u64::from(oracle.steps);
+            let trial = Trial {
+                robot: robot.clone(),
+                ..undisturbed
+            };
+            let brain = BetterNavigator::new(Arc::clone(&learned.map));
+            let mut mind = Mind::Rolling(Box::new(brain));
+            let lifted = condition.lifted(&venue, run_seed(job.seed, "elsewhere", start));
+            let episode = episode::run_lifted(&trial, &mut mind, lifted, |_| {})?;
+            reached += u32::from(episode.reached);
+            steps += u64::from(episode.steps);
+        }
+        let mean = |sum: u64| sum as f64 / f64::from(self.starts);
+        let run = RobustnessRun {
+            success_percent: 100.0 * mean(reached.into()),
+            steps: mean(steps),
+            oracle_steps: mean(oracle_steps),
+        };
+        Ok(run.fields()?)
+    }
+
+    /// A drawing as it was learned, or with a door shut since, with what was planned there.
+    fn venue(&self, number: u32, door: DoorState) -> Result<Arc<Venue>, BoxError> {
+        let cell = &self.venues[number as usize][usize::from(door == DoorState::Shut)];
+        if let Some(venue) = cell.get() {
+            return Ok(Arc::clone(venue));
+        }
+        let drawing = LARGE_DRAWINGS[number as usize];
+        let venue = match door {
+            DoorState::Open => Drawing::Large.venue(drawing)?,
+            DoorState::Shut => with_a_door_shut(drawing)?,
+        };
+        let venue = Arc::new(venue.limited(self.limit));
+        // Two threads may make it at once; they make the same.
+        Ok(Arc::clone(cell.get_or_init(|| venue)))
+    }
+}
+
+/// A drawing in which the way is shut between two cells of its loop, any of them.
+fn with_a_door_shut(drawing: u32) -> Result<Venue, BoxError> {
+    let maze = Drawing::Large.maze(drawing)?;
+    let mut shut: Vec<Maze> = Vec::new();
+    for cell in maze.grid().cells() {
+        for (direction, _) in maze.neighbours(cell) {
+            let mut with_door = maze.clone();
+            with_door.set_wall(cell, direction, true);
+            if with_door.reachable().count() == maze.reachable().count() {
+                shut.push(with_door);
+            }
+        }
+    }
+    let any = stream(u64::from(drawing), DOOR_STREAM).random_range(0..shut.len().max(1) as u32);
+    let maze = shut.into_iter().nth(any as usize);
+    let maze = maze.ok_or_else(|| format!("drawing {drawing} has no loop"))?;
+    let course = Course::for_body("Large", &MazeFile::from(maze), &pioneer::body())?;
+    Ok(venue::large_like(course))
+}
+
+/// Who drives in a row: under which condition, and without which part.
+fn row(job: &Job<'_>) -> Result<(Condition, Option<BetterPart>), BoxError> {
+    let found = match job.table {
+        ROBUSTNESS => Condition::named(job.row).map(|condition| (condition, None)),
+        _ => {
+            let mut parts = PARTS.into_iter();
+            let part = parts.find(|(name, _)| *name == job.row);
+            part.map(|(_, part)| (Condition::AsJudged, part))
+        }
+    };
+    found.ok_or_else(|| format!("there is no row {:?}", job.row).into())
+}
