@@ -281,7 +281,7 @@ impl Contestant {
                     corridor_width: course.corridor_width,
                     ..BetterConfig::pioneer()
                 };
-                let stack = layers(&course, &robot)?.straightening();
+                let stack = layers(&course, &robot)?;
                 let brain = BetterMslst::new(config, robot.ring);
                 let actor = Actor::seeded(brain, stack, seed);
                 let robot = LaserPioneer::new(condition.laser_pioneer(robot, seed))?;

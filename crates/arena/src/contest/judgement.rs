@@ -50,7 +50,10 @@ pub fn judge(
     let chart = Chart::of(map, &stands_for, truth);
     let mut found: BTreeSet<usize> = BTreeSet::new();
     let (mut links, mut right_links) = (0_usize, 0_usize);
-    for chain in chart.chains() {
+    let mut chains = chart.chains();
+    // One without a cell between may be any way between its ends that no other is.
+    chains.sort_by_key(|chain| chain.over.is_empty());
+    for chain in chains {
         let way = chart.way_of(&chain, &found, gone);
         match way {
             Matched::Way(way) => {
@@ -406,6 +409,27 @@ mod tests {
             }
             let judged = judged(&maze, &truth, &(map, visits));
             prop_assert!(!judged.is_right && !judged.is_right_of_visited, "{judged:?}\n{maze}");
+        }
+    }
+
+    #[test]
+    fn of_two_ways_between_two_places_the_short_one_is_not_the_long_one() {
+        let text = "\
+start = 0 0 east
+
+o---o---o---o
+|       |   |
+o   o   o---o
+|   |   |   |
+o   o   o---o
+| S       G |
+o---o---o---o
+";
+        let maze = tolman_maze::read(text).unwrap().maze;
+        for rule in [PlaceRule::Landmarks, PlaceRule::Corners] {
+            let truth = TrueGraph::of(&maze, rule);
+            let judged = judged(&maze, &truth, &of_cells(&maze));
+            assert!(judged.is_right, "{judged:?}");
         }
     }
 

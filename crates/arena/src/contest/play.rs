@@ -423,7 +423,9 @@ impl<'a> Bout<'a> {
         self.is_lifted = false;
         let bumped = self.outing.bumped().len();
         let is_sent = matches!(task, Task::Reach(_));
-        let (mut driven, mut until, mut idle) = (0.0, from, 0_u32);
+        let (mut driven, mut until) = (0.0, from);
+        // Metres driven when it last had made a cell's way, and actions since.
+        let (mut before_last, mut idle) = (0.0, 0_u32);
         let mut arrived = None;
         // Where it was put, and the pose of its path that came next.
         let mut put: Option<(Point, usize)> = None;
@@ -437,7 +439,6 @@ impl<'a> Bout<'a> {
             watch(&*self.outing, Moment::Acted);
             let path = self.outing.path();
             let last = path.len() - 1;
-            idle = if last > until { 0 } else { idle + 1 };
             for at in until..=last {
                 let step = path.get(at.max(from + 1) - 1..=at).map_or(0.0, length);
                 let is_lifted = put.is_some_and(|(_, next)| next == at);
@@ -446,6 +447,10 @@ impl<'a> Bout<'a> {
                 arrived = arrived.or(is_there.then_some(driven));
             }
             until = until.max(last);
+            idle += 1;
+            if driven - before_last >= self.squares.pitch {
+                (before_last, idle) = (driven, 0);
+            }
             match standing {
                 Ok(Standing::UnderWay) => {}
                 Ok(Standing::Done) => break TaskEnd::Done,
@@ -618,8 +623,8 @@ impl<'a> Bout<'a> {
     }
 }
 
-/// A system that does nothing for so many actions will do nothing any more.
-const IDLE: u32 = 1000;
+/// A system that has not got on by a cell in so many actions is stuck, and turns on the spot for ever.
+const IDLE: u32 = 500;
 
 /// A robot is at a place when it is nearer to it than this, in cells.
 pub(super) const NEAR: f64 = 0.75;

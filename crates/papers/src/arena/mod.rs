@@ -26,7 +26,7 @@ pub(super) const ENTRY: Entry = Entry {
     name: "arena",
     title: "Arena: every system in every kind of world",
     source: "",
-    runs: 6,
+    runs: 3,
     quick_runs: 1,
     open,
 };
@@ -83,7 +83,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
                 ArenaTask::Home => records::home(name),
                 ArenaTask::Locate => records::locate(name),
             };
-            let table = table.rows(rows::of(task, &worlds, runs));
+            let table = table.rows(rows::of(task, robot, &worlds, runs));
             table.note(records::note(task, robot))
         })
         .collect();

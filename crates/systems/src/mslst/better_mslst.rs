@@ -10,8 +10,8 @@ use crate::{Brain, Doing, RolledStep};
 
 /// The better MSLST as a whole: it explores, makes its map ready, and then navigates.
 ///
-/// Let an [`Actor`](crate::Actor) drive it through layers that see scans straightened. [`Task::Explore`] ends when no gap is left. Whoever
-/// puts it down before ends the exploration: it navigates by what it has learned so far.
+/// Let an [`Actor`](crate::Actor) drive it. [`Task::Explore`] ends when no gap is left. Whoever puts it down before ends the exploration: it
+/// navigates by what it has learned so far.
 #[derive(Clone, Debug)]
 pub struct BetterMslst {
     config: BetterConfig,
@@ -129,6 +129,10 @@ impl Brain for BetterMslst {
             }
             _ => self.brain().standing(task),
         }
+    }
+
+    fn sees_straight(&self) -> bool {
+        self.brain().sees_straight()
     }
 
     fn words(&self) -> String {

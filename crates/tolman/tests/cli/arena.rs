@@ -51,6 +51,38 @@ fn a_condition_makes_it_harder() {
 }
 
 #[test]
+fn the_tables_are_the_same_for_any_number_of_jobs() {
+    let folder = folder("arena-jobs");
+    std::fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
+    let made = |jobs: &str| {
+        let arguments = [
+            "experiment",
+            "arena",
+            "--maze",
+            "corridor.maze",
+            "--runs",
+            "1",
+            "--table",
+            "learn",
+            "--table",
+            "home",
+            "--table",
+            "locate",
+            "--jobs",
+            jobs,
+            "--out",
+            jobs,
+        ];
+        tolman_in(&folder, &arguments).done();
+        ["runs.jsonl", "summary.json"].map(|file| {
+            let path = folder.join(jobs).join(file);
+            std::fs::read(path).unwrap()
+        })
+    };
+    assert!(made("1") == made("2"));
+}
+
+#[test]
 fn what_is_unknown_is_refused() {
     tolman(&["arena", "--system", "dog"]).refused(2, &["dog", "cpm-better"]);
     tolman(&["arena", "--family", "dog"]).refused(2, &["dog", "spiral"]);
