@@ -75,3 +75,56 @@ impl Reckoning {
         (self.rolled, self.has_gap) = (Vector::zeros(), false);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use tolman_robot::Odometry;
+
+    use super::*;
+    use crate::TimeStep;
+
+    /// How far to the east a robot comes that goes there in steps of which the wheels tell so much, m, and how sure that is.
+    fn reckoned(told: &[Option<f64>], outcome: Outcome) -> (Vector, Vector) {
+        let step = |doing, distance: Option<f64>| RolledStep {
+            step: TimeStep {
+                scan: None,
+                heading: Some(Heading::EAST),
+                landmark: None,
+                doing,
+            },
+            odometry: distance.map(|distance| Odometry {
+                distance,
+                turn: 0.0,
+            }),
+            bump: None,
+        };
+        let config = BetterConfig::pioneer();
+        let mut reckoning = Reckoning::default();
+        reckoning.add(&step(Doing::PutDown, None), &config);
+        for (index, distance) in told.iter().enumerate() {
+            let doing = match index + 1 == told.len() {
+                true => Doing::Ended(Direction::East, outcome),
+                false => Doing::UnderWay(Direction::East),
+            };
+            reckoning.add(&step(doing, *distance), &config);
+        }
+        reckoning.take()
+    }
+
+    #[test]
+    fn what_the_wheels_did_not_tell_is_what_the_action_lacks() {
+        let way = BetterConfig::pioneer().action_way;
+        let half = Some(0.5 * way);
+        let (_, sure) = reckoned(&[half, half], Outcome::Completed);
+        for told in [[half, half], [half, None], [None, half], [None, None]] {
+            let (moved, sd) = reckoned(&told, Outcome::Completed);
+            assert!((moved - Vector::new(way, 0.0)).norm() < 1e-9, "{told:?}");
+            let has_gap = told.contains(&None);
+            assert_eq!(sd.x > sure.x, has_gap, "{told:?}");
+        }
+        let (moved, _) = reckoned(&[None], Outcome::CutShort);
+        assert!((moved.x - 0.5 * way).abs() < 1e-9, "{moved}");
+        let (moved, _) = reckoned(&[None], Outcome::Failed);
+        assert_eq!(moved, Vector::zeros());
+    }
+}
