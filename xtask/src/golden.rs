@@ -51,7 +51,7 @@ pub(crate) fn run(bless: bool) -> Result<()> {
 }
 
 /// What takes longest, and is left to `cargo xtask golden` by hand.
-const SLOW: &[&str] = &["mslst-sweeps", "diktiometry"];
+const SLOW: &[&str] = &["mslst", "mslst-sweeps", "diktiometry"];
 
 /// Compares all but the slowest.
 ///

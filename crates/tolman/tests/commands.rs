@@ -10,6 +10,8 @@ use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::Mutex;
+use std::thread;
 
 /// The command: what `TOLMAN` names, else the one built with this test.
 fn tolman() -> PathBuf {
@@ -122,6 +124,27 @@ fn verbs(verb: &[String]) -> Vec<Vec<String>> {
     found
 }
 
+/// Runs all pages, each in a folder of its own, as many at a time as there are cores, and returns what went wrong.
+fn run_all(pages: Vec<(String, Vec<String>)>) -> Vec<String> {
+    let left = Mutex::new(pages.into_iter());
+    let work = || {
+        let mut wrong = Vec::new();
+        let next = || left.lock().unwrap().next();
+        while let Some((page, lines)) = next() {
+            wrong.extend(run(&page, &lines));
+        }
+        wrong
+    };
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        let workers: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
+        let ended = workers
+            .into_iter()
+            .flat_map(|worker| worker.join().unwrap());
+        ended.collect()
+    })
+}
+
 #[test]
 #[ignore = "takes many minutes in a debug build"]
 fn every_command_that_is_shown_works() {
@@ -130,19 +153,20 @@ fn every_command_that_is_shown_works() {
     pages.extend(docs.map(|entry| entry.unwrap().path()));
     pages.retain(|page| page.extension().is_some_and(|extension| extension == "md"));
     pages.sort();
-    let mut count = 0;
-    let mut wrong = Vec::new();
-    for page in pages {
+    let of_pages = pages.into_iter().map(|page| {
         let lines = commands_of_page(&fs::read_to_string(&page).unwrap());
-        let name = page.file_name().unwrap().to_string_lossy().into_owned();
-        count += lines.len();
-        wrong.extend(run(&name, &lines));
-    }
-    for verb in verbs(&[]) {
-        let lines = commands_of_help(&verb);
-        count += lines.len();
-        wrong.extend(run(&format!("tolman {} --help", verb.join(" ")), &lines));
-    }
+        (
+            page.file_name().unwrap().to_string_lossy().into_owned(),
+            lines,
+        )
+    });
+    let of_help = verbs(&[]).into_iter().map(|verb| {
+        let name = format!("tolman {} --help", verb.join(" "));
+        (name, commands_of_help(&verb))
+    });
+    let all: Vec<(String, Vec<String>)> = of_pages.chain(of_help).collect();
+    let count: usize = all.iter().map(|(_, lines)| lines.len()).sum();
+    let wrong = run_all(all);
     assert!(count > 60, "only {count} commands are shown");
     assert!(
         wrong.is_empty(),
