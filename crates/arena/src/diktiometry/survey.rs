@@ -516,6 +516,24 @@ mod tests {
         }
     }
 
+    /// Without what is known of them the walk ends with many places for each true one.
+    #[test]
+    fn straight_corridors_and_walls_that_stay_fold_a_map_in_which_all_places_look_alike() {
+        let maze = blocks(5, 0.25, &mut stream(1002, 20));
+        let office = Arc::new(Office::new(&maze, &OfficeConfig::bare()).unwrap());
+        let mut config = SurveyConfig::paper(&office, 700);
+        config.heed = 0.3;
+        let run = Survey::new(&office, config.clone(), 1002).unwrap();
+        let score = run.finish().unwrap().score();
+        assert!(score.is_isomorphic, "{score:?}");
+        config.mapper.actions = Config::compass_actions();
+        config.mapper.apart = Apart::Distance;
+        config.mapper.world = WorldKind::Changing;
+        let run = Survey::new(&office, config, 1002).unwrap();
+        let score = run.finish().unwrap().score();
+        assert!(score.places > 3 * score.visited, "{score:?}");
+    }
+
     #[test]
     fn places_may_be_far_apart_and_walls_painted() {
         let file = tolman_maze::read(include_str!("../../mazes/j-long.maze")).unwrap();

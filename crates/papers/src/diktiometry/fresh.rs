@@ -4,6 +4,7 @@ use alloc::sync::Arc;
 
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
+use tolman_arena::contest::MapJudgement;
 use tolman_arena::diktiometry::{
     Office, OfficeConfig, PlaceCue, Survey, SurveyConfig, SurveyorConfig, blocks,
 };
@@ -13,7 +14,7 @@ use tolman_maze::drawings::{eight, ladder_of, office, ring, spiral};
 use tolman_maze::{GenerateError, Maze};
 use tolman_systems::stream;
 
-use super::ablations::papers_rule;
+use super::ablations::{Change, papers_rule};
 use super::settings::{BARE, FURNISHED, HEED, WALLED_UP};
 use super::share;
 
@@ -29,20 +30,20 @@ const LARGE_WORLDS: u32 = 20;
 /// For a first look.
 const QUICK: u32 = 2;
 
-/// Share of all places and ways of a world that a map has to have to be right.
-const WHOLE: f64 = 0.95;
-
 /// The stream of a run's seed that its world is drawn from, beside those of the walk.
 const WORLD_STREAM: u64 = 20;
 
 /// Walls of eight colours, no doorways.
 const PAINTED: OfficeConfig = OfficeConfig { colours: 8, ..BARE };
 
+/// How a row's worlds are drawn.
+type Draw = fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>;
+
 /// One row: a kind of world, a robot and a mapper.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FreshRow {
     pub(super) row: &'static str,
-    draw: fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>,
+    draw: Draw,
     furniture: OfficeConfig,
     moves: u32,
     /// How likely a script is begun when one is applicable.
@@ -51,16 +52,12 @@ pub(super) struct FreshRow {
     /// Errors of the robot.
     robot: fn(&mut SurveyorConfig),
     /// What the mapper does otherwise.
-    change: fn(&mut SurveyConfig),
+    change: Change,
 }
 
 impl FreshRow {
     /// A passive walk by the robot of the paper's figures, by our mapper.
-    const fn new(
-        row: &'static str,
-        draw: fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>,
-        moves: u32,
-    ) -> Self {
+    const fn new(row: &'static str, draw: Draw, moves: u32) -> Self {
         Self {
             row,
             draw,
@@ -84,7 +81,7 @@ impl FreshRow {
     /// Looks count as evidence.
     const fn by_looks(self) -> Self {
         Self {
-            change: |config| config.mapper.restructuring.look_merge = Use::On,
+            change: |config| config.restructuring.look_merge = Use::On,
             ..self
         }
     }
@@ -100,7 +97,7 @@ impl FreshRow {
     const fn papers_rule(self, row: &'static str) -> Self {
         Self {
             row,
-            change: |config| papers_rule(&mut config.mapper),
+            change: papers_rule,
             ..self
         }
     }
@@ -114,10 +111,7 @@ const fn seven() -> FreshRow {
     FreshRow::new("7x7 passive", |rng| Ok(blocks(7, WALLED_UP, rng)), 3000)
 }
 
-const fn painted(
-    row: &'static str,
-    draw: fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>,
-) -> FreshRow {
+const fn painted(row: &'static str, draw: Draw) -> FreshRow {
     FreshRow::new(row, draw, 1000)
         .heed(HEED)
         .furnished(PAINTED)
@@ -197,9 +191,14 @@ record! {
 impl FreshRun {
     fn relations(&self) -> Result<(), String> {
         let told = "a map is right only of what was visited, and if it is whole";
-        let whole = self.seen >= WHOLE && self.link_recall >= WHOLE;
-        require(self.right == (self.right_of_visited && whole), told)
+        let right = self.right_of_visited && is_whole(self.seen, self.link_recall);
+        require(self.right == right, told)
     }
+}
+
+/// Whether so large shares of the places and of the ways of a world are enough for a right map.
+fn is_whole(places: f64, ways: f64) -> bool {
+    places.min(ways) >= MapJudgement::ENOUGH
 }
 
 /// The table.
@@ -254,7 +253,7 @@ impl FreshRow {
         let office = Arc::new(Office::new(&maze, &furniture)?);
         let mut config = SurveyConfig::of(&office, self.surveyor(), self.moves);
         config.heed = self.heed;
-        (self.change)(&mut config);
+        (self.change)(&mut config.mapper);
         Ok((office, config))
     }
 
@@ -265,9 +264,8 @@ impl FreshRow {
         let score = survey.score();
         let places = office.places(&[]).len();
         let seen = share(score.visited, places).unwrap_or(1.0);
-        let whole = seen >= WHOLE && score.link_recall >= WHOLE;
         let run = FreshRun {
-            right: score.is_isomorphic && whole,
+            right: score.is_isomorphic && is_whole(seen, score.link_recall),
             right_of_visited: score.is_isomorphic,
             purity: score.purity,
             places_over_true: score.places as f64 / score.visited as f64,

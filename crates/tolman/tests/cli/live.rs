@@ -13,10 +13,13 @@ const SHOWN: &[u8] = b"heading";
 #[expect(clippy::print_stderr, reason = "a test that is left out says so")]
 fn drawn(folder: &Path, arguments: &str) -> Option<(Option<i32>, String)> {
     let tolman = env!("CARGO_BIN_EXE_tolman");
-    let line = format!("stty cols 100 rows 40; timeout 60 {tolman} {arguments}");
+    // Only what runs in the foreground may change its terminal, and `timeout` would leave it.
+    let limit = "timeout --foreground --kill-after 5 60";
+    let line = format!("stty cols 100 rows 40; {limit} {tolman} {arguments}");
     let spawned = Command::new("script")
         .current_dir(folder)
         .env("TERM", "xterm")
+        .env("SHELL", "/bin/sh")
         .args(["-qec", &line, "/dev/null"])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

@@ -8,13 +8,11 @@ use crate::diktiometry::{Action, Config, Diktiometry, PlaceId, WorldKind};
 
 /// Two places that one action leads to from one place are one. Geometry has its say all the same. O(degree²).
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
-    let is_static = config.world == WorldKind::Static;
-    Verdict::propose_if(
-        is_static
-            && beside(map, pair.a, config).any(|(from, action)| {
-                beside(map, pair.b, config).any(|other| other == (from, action))
-            }),
-    )
+    if config.world == WorldKind::Changing {
+        return Verdict::Abstain;
+    }
+    let leads_to_both = |way| beside(map, pair.b, config).any(|other| other == way);
+    Verdict::propose_if(beside(map, pair.a, config).any(leads_to_both))
 }
 
 /// The places and actions that lead to a place: those that did, and those whose reverse led there from it.
