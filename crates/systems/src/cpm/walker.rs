@@ -8,7 +8,8 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::cpm::{Bearings, Sighting};
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
 
-use super::reckoned::Reckoned;
+use super::calibration::WheelCalibration;
+use super::reckoned::{Calibrated, Reckoned};
 use super::robot::CpmRobot;
 use super::walker_config::{HeadingBy, WalkerConfig};
 
@@ -40,6 +41,7 @@ pub struct RestingWalker {
     forward: Forward,
     pose: Pose,
     driven: f64,
+    wheels: WheelCalibration,
 }
 
 /// One observation.
@@ -168,6 +170,11 @@ const SPREAD: u32 = 20;
 /// A wall that reads more than this on average is nearer than any beside the middle of a corridor: the robot was off its path.
 const TOO_NEAR: f64 = 220.0;
 
+/// Before it sets off a robot that has walls to tell by turns round until it knows how far its wheels roll to this standard deviation, as a
+/// share, or has turned round so often.
+const CALIBRATED: f64 = 3e-3;
+const MOST_TURNS: u32 = 12;
+
 /// Near enough to the middle, m.
 const NEAR: f64 = 0.015;
 
@@ -179,17 +186,23 @@ impl<B: CpmRobot> Walker<B> {
             forward: Forward::new(config.pilot.forward),
             pose: Pose::IDENTITY,
             driven: 0.0,
+            wheels: WheelCalibration::UNKNOWN,
         };
         Self::wake(body, config, resting)
     }
 
     /// Goes on with the robot, which has not been moved since the walker was given its [rest](Self::rest).
     pub fn wake(body: B, config: WalkerConfig, resting: RestingWalker) -> Self {
+        let calibrated = match config.heading {
+            HeadingBy::Encoders => None,
+            HeadingBy::Walls => Some(Calibrated::new(resting.wheels, *body.sensing())),
+        };
         let reckoned = Reckoned {
             body,
             pose: resting.pose,
             driven: resting.driven,
             steps: 0,
+            calibrated,
         };
         Self {
             pilot: Pilot::resume(reckoned, config.pilot.clone(), resting.forward),
@@ -204,6 +217,7 @@ impl<B: CpmRobot> Walker<B> {
             forward: *self.pilot.forward(),
             pose: self.pose(),
             driven: self.driven(),
+            wheels: self.wheels(),
             memory: self.memory,
         }
     }
@@ -221,6 +235,18 @@ impl<B: CpmRobot> Walker<B> {
     /// Where it believes to be, in the frame in which it began.
     pub const fn pose(&self) -> Pose {
         self.pilot.robot().pose
+    }
+
+    /// What is known of how its wheels roll.
+    fn wheels(&self) -> WheelCalibration {
+        let calibrated = &self.pilot.robot().calibrated;
+        calibrated.map_or(WheelCalibration::UNKNOWN, |calibrated| calibrated.wheels)
+    }
+
+    /// Returns the standard deviation of how far it has driven, as a share; 0 where its encoders are trusted as they are.
+    pub fn uncertainty(&self) -> f64 {
+        let calibrated = &self.pilot.robot().calibrated;
+        calibrated.map_or(0.0, |calibrated| calibrated.wheels.uncertainty())
     }
 
     /// Microseconds since the robot was switched on.
@@ -294,6 +320,7 @@ impl<B: CpmRobot> Walker<B> {
     ) -> WalkResult<Walk, B> {
         // It may have been carried here.
         self.pilot.stand()?;
+        self.calibrate()?;
         let begun = self.pose().position;
         self.memory.trail.clear();
         self.memory.trail.push(begun);
@@ -418,12 +445,12 @@ impl<B: CpmRobot> Walker<B> {
         let view = self.look()?;
         let landmark = self.pilot.robot().landmark();
         course.left = course.left.filter(|left| landmark == Some(*left));
+        let is_under_way = self.is_beyond(course, driven, PLACE);
         if let Some(landmark) = landmark
-            && course.left.is_none()
+            && (course.left.is_none() || is_under_way && self.tells_neighbours())
         {
             return Ok(Some(Ahead::Landmark(landmark)));
         }
-        let is_under_way = self.is_beyond(course, driven, PLACE);
         match view.segments.place() {
             PlaceKind::Junction => {
                 let middle = self.pose().transform(self.middle_of(&view));
@@ -441,6 +468,11 @@ impl<B: CpmRobot> Walker<B> {
             course.track.push((self.pose().position, seen));
         }
         Ok(None)
+    }
+
+    /// Whether a landmark that is seen beyond the place with the same one is that of another place. Ours: the paper's robot has one goal.
+    fn tells_neighbours(&self) -> bool {
+        self.config.heading == HeadingBy::Walls
     }
 
     /// Whether the place that a course leads from lies more than so many corridors' widths back, where the robot has driven so far, m.
@@ -628,6 +660,18 @@ impl<B: CpmRobot> Walker<B> {
         let segments = profile.segments(&self.config.segments)?;
         self.true_up(&profile);
         Ok(View { profile, segments })
+    }
+
+    /// Turns round until it knows how far its wheels roll, if it has a heading to tell that by.
+    fn calibrate(&mut self) -> WalkResult<(), B> {
+        for _ in 0..MOST_TURNS {
+            if self.uncertainty() <= CALIBRATED {
+                break;
+            }
+            let sweep = self.pilot.sweep()?;
+            self.true_up(&Profile::of(&sweep, self.config.alignment)?);
+        }
+        Ok(())
     }
 
     /// Takes the drift out of the heading: walls stand at right angles, along the axes in which the robot began.
