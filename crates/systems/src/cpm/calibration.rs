@@ -22,8 +22,17 @@ const UNKNOWN: f64 = 0.03;
 /// Variance of a heading before the walls were first read, rad²: they say it up to a quarter of a turn.
 const ANY_HEADING: f64 = 0.2;
 
-/// Standard deviation of a heading that is read off the walls, rad.
-const READING: f64 = 0.02;
+/// A heading of a larger variance may be off by an eighth of a turn, rad², where walls tell it no more.
+const LOST: f64 = 0.1;
+
+/// A heading as the walls have it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reading {
+    /// By how much it is more than the robot believes, rad.
+    pub(super) off: f64,
+    /// Standard deviation, rad.
+    pub(super) deviation: f64,
+}
 
 /// What slipping wheels add to the variance of the heading, rad² a metre that both of them roll.
 const SLIP: f64 = 2e-3;
@@ -74,10 +83,14 @@ impl WheelCalibration {
     }
 
     /// Takes in by how much the heading is off by the walls, rad, and returns how much of that to believe.
-    pub(super) fn read(&mut self, off: f64) -> f64 {
+    pub(super) fn read(&mut self, reading: Reading) -> f64 {
         self.predict();
+        let Reading { off, deviation } = reading;
+        if self.covariance[0][0] > LOST {
+            self.forget_heading();
+        }
         let innovation = self.covariance.map(|row| row[0]);
-        let variance = innovation[0] + READING * READING;
+        let variance = innovation[0] + deviation * deviation;
         if off * off > ODD * ODD * variance {
             return 0.0;
         }
@@ -90,6 +103,13 @@ impl WheelCalibration {
         self.errors[0] += gain[1] * off;
         self.errors[1] += gain[2] * off;
         gain[0] * off
+    }
+
+    /// It may be off by more than walls can tell: what they say then is taken as it is, and nothing is learned of the wheels.
+    const fn forget_heading(&mut self) {
+        self.covariance[0] = [ANY_HEADING, 0.0, 0.0];
+        self.covariance[1][0] = 0.0;
+        self.covariance[2][0] = 0.0;
     }
 
     /// Moves on to now from when the walls were last read.
@@ -140,7 +160,8 @@ mod tests {
                 off += (right - left) / TRACK - believed;
             }
             off -= libm::round(off / FRAC_PI_2) * FRAC_PI_2;
-            off -= calibration.read(off);
+            let deviation = 0.02;
+            off -= calibration.read(Reading { off, deviation });
         }
         calibration
     }
@@ -160,7 +181,8 @@ mod tests {
     fn a_reading_that_cannot_be_changes_nothing() {
         let mut calibration = calibrated([0.01, 0.01], 100);
         let before = calibration;
-        assert!(calibration.read(0.7).abs() < 1e-12);
+        let (off, deviation) = (0.7, 0.02);
+        assert!(calibration.read(Reading { off, deviation }).abs() < 1e-12);
         assert_eq!(calibration.errors, before.errors);
     }
 }

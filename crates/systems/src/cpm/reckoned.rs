@@ -2,7 +2,7 @@ use tolman_geom::{Pose, Twist};
 use tolman_robot::epuck::{EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds};
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
 
-use super::calibration::WheelCalibration;
+use super::calibration::{Reading, WheelCalibration};
 use super::robot::CpmRobot;
 
 /// A body with dead reckoning by its encoders.
@@ -34,10 +34,10 @@ impl Calibrated {
 }
 
 impl<B: CpmRobot> Reckoned<B> {
-    /// By the walls its heading is off by so much, rad.
-    pub(super) fn correct(&mut self, off: f64) {
+    /// The walls say that its heading is another.
+    pub(super) fn correct(&mut self, reading: Reading) {
         if let Some(Calibrated { wheels, .. }) = &mut self.calibrated {
-            self.pose.heading = self.pose.heading.turned(wheels.read(off));
+            self.pose.heading = self.pose.heading.turned(wheels.read(reading));
         }
     }
 }

@@ -8,7 +8,7 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::cpm::{Bearings, Sighting};
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
 
-use super::calibration::WheelCalibration;
+use super::calibration::{Reading, WheelCalibration};
 use super::reckoned::{Calibrated, Reckoned};
 use super::robot::CpmRobot;
 use super::walker_config::{HeadingBy, WalkerConfig};
@@ -140,6 +140,22 @@ fn count_from(direction: f64, ways: &mut [f64]) {
         ways.rotate_left(first);
     }
 }
+
+/// How far ways are turned out of the robot's axes, rad, where they lead along two axes: what tells in the middle of a crossing, which has no
+/// walls. `None` of fewer than three.
+fn askew_of(segments: &Segments) -> Option<f64> {
+    let (mut sine, mut cosine, mut count) = (0.0, 0.0, 0.0);
+    for way in segments.spaces() {
+        let (sin, cos) = libm::sincos(4.0 * way);
+        (sine, cosine, count) = (sine + sin, cosine + cos, count + 1.0);
+    }
+    let agreement = libm::hypot(sine, cosine);
+    (count >= 3.0 && agreement > 0.8 * count).then(|| libm::atan2(sine, cosine) / 4.0)
+}
+
+/// Standard deviations of a heading that is read off walls, and off the ways out of a crossing, rad.
+const BY_WALLS: f64 = 0.02;
+const BY_WAYS: f64 = 0.1;
 
 /// Rounds of looking for a junction's middle.
 const ROUNDS: u32 = 4;
@@ -658,7 +674,7 @@ impl<B: CpmRobot> Walker<B> {
         self.memory.observations += 1;
         let profile = Profile::of(&sweep, self.config.alignment)?;
         let segments = profile.segments(&self.config.segments)?;
-        self.true_up(&profile);
+        self.true_up(&profile, &segments);
         Ok(View { profile, segments })
     }
 
@@ -669,19 +685,28 @@ impl<B: CpmRobot> Walker<B> {
                 break;
             }
             let sweep = self.pilot.sweep()?;
-            self.true_up(&Profile::of(&sweep, self.config.alignment)?);
+            let profile = Profile::of(&sweep, self.config.alignment)?;
+            let segments = profile.segments(&self.config.segments)?;
+            self.true_up(&profile, &segments);
         }
         Ok(())
     }
 
     /// Takes the drift out of the heading: walls stand at right angles, along the axes in which the robot began.
-    fn true_up(&mut self, profile: &Profile) {
-        if self.config.heading == HeadingBy::Walls
-            && let Some(askew) = profile.askew(&self.config.pilot.curve)
-        {
+    fn true_up(&mut self, profile: &Profile, segments: &Segments) {
+        if self.config.heading == HeadingBy::Encoders {
+            return;
+        }
+        let by_walls = profile.askew(&self.config.pilot.curve);
+        let seen = match by_walls {
+            Some(askew) => Some((askew, BY_WALLS)),
+            None => askew_of(segments).map(|askew| (askew, BY_WAYS)),
+        };
+        if let Some((askew, deviation)) = seen {
             let walls = self.pose().heading.radians() + askew;
-            let off = walls - libm::round(walls / FRAC_PI_2) * FRAC_PI_2;
-            self.pilot.robot_mut().correct(-off);
+            let off = libm::round(walls / FRAC_PI_2) * FRAC_PI_2 - walls;
+            let reading = Reading { off, deviation };
+            self.pilot.robot_mut().correct(reading);
         }
     }
 
