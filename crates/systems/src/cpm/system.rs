@@ -62,7 +62,7 @@ enum Stance {
     /// It is finding out where.
     Searching(Box<(RestingWalker, Relocalization)>),
     /// At the place where its map has it.
-    AtPlace(RestingWalker),
+    AtPlace(Box<RestingWalker>),
 }
 
 /// Places at which a robot that is lost has to know where it is; after them it goes on where it most likely is.
@@ -187,7 +187,7 @@ impl Cpm {
         self.trail.begin(layer.explorer().mapper.at());
         self.doubtful = 0;
         self.layer = Some(layer);
-        self.standing = Stance::AtPlace(walker.rest());
+        self.standing = Stance::AtPlace(Box::new(walker.rest()));
         Ok(Standing::UnderWay)
     }
 
@@ -233,7 +233,7 @@ impl Cpm {
                         self.on = here.map;
                     }
                 }
-                self.standing = Stance::AtPlace(walker);
+                self.standing = Stance::AtPlace(Box::new(walker));
                 Ok(if is_sure && is_like {
                     Standing::Done
                 } else {
@@ -262,7 +262,7 @@ impl Cpm {
         };
         let mut walker = Walker::wake(robot, self.walker.clone(), resting);
         let flow = layer.advance(&mut walker, aim, &mut self.rng)?;
-        self.standing = Stance::AtPlace(walker.rest());
+        self.standing = Stance::AtPlace(Box::new(walker.rest()));
         let done = match flow {
             ControlFlow::Break(done) => done,
             ControlFlow::Continue(step) => {
@@ -338,14 +338,14 @@ impl Cpm {
         goal: Goal,
     ) -> CpmResult<Standing, R> {
         let (Some(layer), Some(leg)) = (&mut self.layer, plan.legs.first()) else {
-            self.standing = Stance::AtPlace(resting);
+            self.standing = Stance::AtPlace(Box::new(resting));
             return Ok(Standing::Done);
         };
         let mut walker = Walker::wake(robot, self.walker.clone(), resting);
         let sighting = Layer3::drive(&mut walker, leg)?;
         if layer.expected(leg) == Some(sighting) {
             layer.explorer_mut().mapper.place(leg.arrive)?;
-            self.standing = Stance::AtPlace(walker.rest());
+            self.standing = Stance::AtPlace(Box::new(walker.rest()));
         } else if sighting.landmark.map(Goal::Landmark) == Some(goal) {
             // Elsewhere than it thought, but where it was sent.
             return Ok(Standing::Done);
@@ -373,7 +373,7 @@ impl Cpm {
             (Some(plan), _) => self.drive(robot, resting, &plan, goal),
             (None, Goal::Landmark(landmark)) => self.pursue(robot, resting, Aim::Find(landmark)),
             (None, Goal::Place(place)) => {
-                self.standing = Stance::AtPlace(resting);
+                self.standing = Stance::AtPlace(Box::new(resting));
                 Ok(Standing::gave_up(format!(
                     "it knows no way to place {place}"
                 )))
@@ -460,8 +460,8 @@ impl<R: CpmRobot> System<R> for Cpm {
                 self.standing = Stance::AtPlace(resting);
                 Ok(Standing::Done)
             }
-            (Stance::AtPlace(resting), Task::Explore) => self.pursue(robot, resting, Aim::Explore),
-            (Stance::AtPlace(resting), Task::Reach(goal)) => self.reach(robot, resting, goal),
+            (Stance::AtPlace(resting), Task::Explore) => self.pursue(robot, *resting, Aim::Explore),
+            (Stance::AtPlace(resting), Task::Reach(goal)) => self.reach(robot, *resting, goal),
             (lost, task) => {
                 self.standing = lost;
                 if self.layer.is_none() && task != Task::Localize {
