@@ -349,13 +349,14 @@ impl Contestant {
         R: cpm_robot::Any + HasSimulated + 'static,
     {
         let mode = match self {
-            Self::Cpm => Mode::Paper(CpmConfig::online()),
+            // It cannot tell that its map grows without end: who sends it does.
+            Self::Cpm => Mode::Paper(CpmConfig {
+                most_traversals: patience(maze),
+                ..CpmConfig::online()
+            }),
             _ => Mode::Reckoned(CpmConfig::robust()),
         };
-        let config = CpmConfig {
-            most_traversals: patience(maze),
-            ..mode.config()
-        };
+        let config = mode.config();
         let walker = WalkerConfig {
             heading: mode.heading(),
             ..walker
