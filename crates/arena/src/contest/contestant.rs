@@ -151,6 +151,12 @@ impl Contestant {
         all.find(|contestant| slug(contestant.name()) == slug(name))
     }
 
+    /// Returns whether it learns a map: all but the baselines do.
+    #[must_use]
+    pub const fn learns(self) -> bool {
+        !matches!(self, Self::Baseline(_))
+    }
+
     /// Returns the name of the robot that it drives.
     #[must_use]
     pub const fn robot(self, robot: ContestRobot) -> &'static str {
