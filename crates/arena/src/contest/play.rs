@@ -449,8 +449,8 @@ impl<'a> Bout<'a> {
         let bumped = self.outing.bumped().len();
         let is_sent = matches!(task, Task::Reach(_));
         let (mut driven, mut until) = (0.0, from);
-        // Metres driven when it last had made a cell's way, and actions since.
-        let (mut before_last, mut idle) = (0.0, 0_u32);
+        // Metres driven when it last had made a cell's way, the pose of that, and actions since.
+        let (mut before_last, mut idle_from, mut idle) = (0.0, from, 0_u32);
         let mut arrived = None;
         // Where it was put, and the pose of its path that came next.
         let mut put: Option<(Point, usize)> = None;
@@ -474,7 +474,7 @@ impl<'a> Bout<'a> {
             until = until.max(last);
             idle += 1;
             if driven - before_last >= self.squares.pitch {
-                (before_last, idle) = (driven, 0);
+                (before_last, idle_from, idle) = (driven, last, 0);
             }
             match standing {
                 Ok(Standing::UnderWay) => {}
@@ -490,8 +490,8 @@ impl<'a> Bout<'a> {
             {
                 put = Some((pose.position, last + 1));
             }
-            let is_over = driven > most || idle > IDLE || arrived.is_some();
-            if is_over || self.outing.is_out_of_time() {
+            let is_stuck = idle > IDLE || last - idle_from.min(last) > IDLE_STEPS;
+            if driven > most || is_stuck || arrived.is_some() || self.outing.is_out_of_time() {
                 break TaskEnd::OutOfTime;
             }
         };
@@ -650,8 +650,9 @@ impl<'a> Bout<'a> {
     }
 }
 
-/// A system that has not got on by a cell in so many actions is stuck, and turns on the spot for ever.
+/// A system that has not got on by a cell in so many actions, or time steps, is stuck, and turns on the spot for ever.
 const IDLE: u32 = 500;
+const IDLE_STEPS: usize = 20_000;
 
 /// A robot is at a place when it is nearer to it than this, in cells.
 pub(super) const NEAR: f64 = 0.75;
