@@ -36,6 +36,9 @@ pub trait Outing: InRun {
     /// Returns what its laser sees; `None` of a robot without one.
     fn scan(&self) -> Option<&Scan>;
 
+    /// Allows the robot so many further time steps, and no more.
+    fn allow(&mut self, _steps: u32) {}
+
     /// Makes the next action of `task`.
     ///
     /// # Errors
@@ -397,6 +400,10 @@ where
 
     fn scan(&self) -> Option<&Scan> {
         R::Model::scan(self.robot.robot().simulated().sensing())
+    }
+
+    fn allow(&mut self, steps: u32) {
+        self.robot.allow(steps);
     }
 
     fn act(&mut self, task: Task) -> Result<Standing, BoxError> {

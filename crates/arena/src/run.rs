@@ -45,6 +45,11 @@ impl<R: Robot> Limited<R> {
         }
     }
 
+    /// Allows it so many further time steps, and no more.
+    pub const fn allow(&mut self, steps: u32) {
+        self.step_limit = self.steps.saturating_add(steps);
+    }
+
     /// Measures from now on how long the robot itself takes.
     pub const fn measure(&mut self, stopwatch: Stopwatch) {
         self.stopwatch = Some(stopwatch);
@@ -262,6 +267,16 @@ mod tests {
     }
 
     const REACH: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
+
+    #[test]
+    fn a_robot_that_is_out_of_time_may_be_allowed_more() {
+        let mut robot = Limited::new(Cart::default(), 0);
+        assert!(robot.is_out_of_time() && robot.step(&1.0).is_err());
+        robot.allow(2);
+        assert!(robot.step(&1.0).is_ok() && robot.step(&1.0).is_ok());
+        assert!(robot.is_out_of_time() && robot.step(&1.0).is_err());
+        assert_eq!(robot.steps(), 2);
+    }
 
     #[test]
     fn a_run_ends_as_its_system_says_or_at_its_limit_and_the_robot_stands_still() {

@@ -447,10 +447,12 @@ impl<'a> Bout<'a> {
         let from = self.outing.path().len() - usize::from(!self.is_lifted);
         self.is_lifted = false;
         let bumped = self.outing.bumped().len();
+        let cells = self.maze.reachable().count() as u32;
+        self.outing.allow(cells.saturating_mul(STEPS_A_CELL));
         let is_sent = matches!(task, Task::Reach(_));
         let (mut driven, mut until) = (0.0, from);
-        // Metres driven when it last had made a cell's way, the pose of that, and actions since.
-        let (mut before_last, mut idle_from, mut idle) = (0.0, from, 0_u32);
+        // Metres driven when it last had made a cell's way, and actions since.
+        let (mut before_last, mut idle) = (0.0, 0_u32);
         let mut arrived = None;
         // Where it was put, and the pose of its path that came next.
         let mut put: Option<(Point, usize)> = None;
@@ -474,12 +476,14 @@ impl<'a> Bout<'a> {
             until = until.max(last);
             idle += 1;
             if driven - before_last >= self.squares.pitch {
-                (before_last, idle_from, idle) = (driven, last, 0);
+                (before_last, idle) = (driven, 0);
             }
             match standing {
                 Ok(Standing::UnderWay) => {}
                 Ok(Standing::Done) => break TaskEnd::Done,
                 Ok(Standing::GaveUp { why }) => break TaskEnd::GaveUp { why },
+                // It broke off amid an action, as it had to.
+                Err(_) if self.outing.is_out_of_time() => break TaskEnd::OutOfTime,
                 Err(error) => {
                     let why = error.to_string();
                     break TaskEnd::GaveUp { why };
@@ -490,8 +494,8 @@ impl<'a> Bout<'a> {
             {
                 put = Some((pose.position, last + 1));
             }
-            let is_stuck = idle > IDLE || last - idle_from.min(last) > IDLE_STEPS;
-            if driven > most || is_stuck || arrived.is_some() || self.outing.is_out_of_time() {
+            let is_over = driven > most || idle > IDLE || arrived.is_some();
+            if is_over || self.outing.is_out_of_time() {
                 break TaskEnd::OutOfTime;
             }
         };
@@ -650,9 +654,12 @@ impl<'a> Bout<'a> {
     }
 }
 
-/// A system that has not got on by a cell in so many actions, or time steps, is stuck, and turns on the spot for ever.
+/// A system that has not got on by a cell in so many actions is stuck, and turns on the spot for ever.
 const IDLE: u32 = 500;
-const IDLE_STEPS: usize = 20_000;
+
+/// A task takes so many time steps at most for each cell, however little is driven in them: an e-puck, the slowest, makes some 1200 in a cell,
+/// and may drive ten times through all.
+const STEPS_A_CELL: u32 = 20_000;
 
 /// A robot is at a place when it is nearer to it than this, in cells.
 pub(super) const NEAR: f64 = 0.75;

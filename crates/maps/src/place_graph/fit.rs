@@ -308,3 +308,57 @@ fn likelihood(outline: &Outline, residuals: &[Residual]) -> f64 {
     let saved: f64 = residuals.iter().map(saved).sum();
     0.5 * INDEPENDENT * (saved - worst * of)
 }
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec;
+
+    use proptest::prelude::*;
+    use tolman_geom::{Heading, Point};
+
+    use super::super::surfaces::Surfaces;
+    use super::*;
+
+    /// Walls 2 m away all round, each point looked at from the middle, and a sonar that hears the one ahead.
+    fn room() -> Outline {
+        let point = |number: u32| {
+            let heading = Heading::from_radians(f64::from(number) * 0.26);
+            OutlinePoint {
+                position: Point::from(heading.unit() * 2.0),
+                normal: Some(-heading.unit()),
+                deviation: 0.02,
+                colour: Some([0.5, 0.3]),
+            }
+        };
+        Outline {
+            points: (0..24).map(point).collect(),
+            arcs: vec![Sounding {
+                mount: Pose::IDENTITY,
+                half_width: 0.2,
+                max_range: 5.0,
+                range: 2.0,
+            }],
+            faced: Vec::new(),
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_far_changes_no_fit(x in -0.3..0.3, y in -0.3..0.3, turn in -0.2..0.2, away in 5.0..50.0) {
+            let outline = room();
+            let (mut near, mut all) = (Surfaces::default(), Surfaces::default());
+            near.add(0, Pose::IDENTITY, &outline);
+            all.add(0, Pose::IDENTITY, &outline);
+            all.add(1, Pose::new(Point::new(away, -away), Heading::EAST), &outline);
+            let predicted = Pose::new(Point::new(x, y), Heading::from_radians(turn));
+            let covariance = Matrix3::from_diagonal(&Vector3::new(0.1, 0.1, 0.1));
+            let fitted = |surfaces: &Surfaces| {
+                let surfaces: Vec<&Surface> = surfaces.all().collect();
+                fit(&outline, &surfaces, predicted, &covariance)
+            };
+            let fitted = [fitted(&near), fitted(&all)];
+            prop_assert!(fitted[0].as_ref().is_some_and(|fit| fit.share > 0.5));
+            prop_assert_eq!(&fitted[0], &fitted[1]);
+        }
+    }
+}
