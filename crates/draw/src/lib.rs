@@ -61,7 +61,7 @@ pub use chart::{Axis, Chart, Line, LinePoint, Points};
 pub use figure::{Drawing, Figure, style};
 pub use floor_plan::{FloorPlan, ZoneStyle};
 pub use graph_picture::{EdgeLine, GraphEdge, GraphNode, GraphPicture, NodeMark};
-pub use heatmap::HeatMap;
+pub use heatmap::{Hatching, HeatMap};
 pub use image::{Image, ImageError};
 pub use polar::PolarPlot;
 pub use region::Region;

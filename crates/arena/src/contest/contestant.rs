@@ -93,8 +93,8 @@ const LESSON: usize = 300;
 /// How many colours the walls have where a camera looks at them.
 const COLOURS: u32 = 8;
 
-/// Time steps of a run at most, whatever becomes of it.
-const STEP_LIMIT: u32 = 100_000_000;
+/// Time steps until a contest [allows](Outing::allow) others.
+const NO_STEPS: u32 = 0;
 
 /// From wall to wall where a robot keeps away from what is near, as GNG-SLAM's does, m.
 const WIDE: f64 = 1.5;
@@ -149,6 +149,12 @@ impl Contestant {
         let slug = |name: &str| name.to_lowercase().replace(' ', "-");
         let mut all = Self::ALL.into_iter();
         all.find(|contestant| slug(contestant.name()) == slug(name))
+    }
+
+    /// Returns whether it learns a map: all but the baselines do.
+    #[must_use]
+    pub const fn learns(self) -> bool {
+        !matches!(self, Self::Baseline(_))
     }
 
     /// Returns the name of the robot that it drives.
@@ -451,7 +457,7 @@ where
     R: tolman_robot::SensesLandmarks + HasSimulated + 'static,
     S: tolman_robot::System<crate::run::Limited<R>, Failure: Into<BoxError>> + 'static,
 {
-    let outing = Box::new(Sent::new(course, robot, STEP_LIMIT, system));
+    let outing = Box::new(Sent::new(course, robot, NO_STEPS, system));
     Entered { outing, pitch }
 }
 

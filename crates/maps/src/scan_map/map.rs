@@ -142,6 +142,16 @@ impl ScanMap {
         Clearings::new(&self.grid, self.config.radius)
     }
 
+    /// Returns how many bytes places, links, walls and the landmark's positions take. O(1).
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.places.as_slice())
+            + self.links.len() * size_of::<[u32; 2]>()
+            + size_of_val(self.stands.as_slice())
+            + size_of_val(self.goal.as_slice())
+            + self.grid.bytes()
+    }
+
     /// Returns places and links as any scorer and any drawing can read them. O(places + links).
     #[must_use]
     pub fn view(&self) -> MapView {

@@ -46,6 +46,12 @@ impl WallGrid {
     /// How far from a wall its distance is known, m.
     pub const REACH: f64 = 0.35;
 
+    /// Returns how many bytes its cells take. O(1).
+    #[must_use]
+    pub const fn bytes(&self) -> usize {
+        size_of_val(self.cells.as_slice())
+    }
+
     /// Adds what a scan shows from a position, its beams turned by `heading`. A beam that met nothing passed all the way.
     /// O(cells within the ring's range).
     pub fn add(&mut self, from: Point, heading: Heading, scan: &Scan) {

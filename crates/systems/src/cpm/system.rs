@@ -426,6 +426,10 @@ impl Mapper for Cpm {
         self.explorer()?.mapper.certainty(self.apart())
     }
 
+    fn map_bytes(&self) -> Option<usize> {
+        self.layer.as_ref().map(|layer| layer.map().bytes())
+    }
+
     fn visits(&self) -> Vec<Option<u32>> {
         let layer = self.layer.as_ref();
         layer.map_or_else(Vec::new, |layer| self.trail.places(layer.map()))

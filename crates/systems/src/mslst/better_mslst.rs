@@ -112,6 +112,10 @@ impl Mapper for BetterMslst {
     fn belief(&self) -> Vec<Guess> {
         self.brain().belief()
     }
+
+    fn map_bytes(&self) -> Option<usize> {
+        self.brain().map_bytes()
+    }
 }
 
 impl Brain for BetterMslst {
