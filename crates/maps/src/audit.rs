@@ -6,7 +6,8 @@
 //! - **Cycle**: a closure with a way back over odometry and other closures. Its *bound* is χ² of the logarithm of its product, 3 degrees of
 //!   freedom, by first-order propagation of its edges' covariances: at most k², k = 5. It is *tight* if the region of k standard deviations
 //!   fills at most 3 ‰ of all poses within 5 m.
-//! - **Run**: closures linked by at most 3 poses at both ends, one after the other. They err together, so a run is one witness, however long.
+//! - **Run**: closures linked by at most 3 poses at both ends, one after the other, that do not contradict each other. They err together, so a run
+//!   is one witness, however long.
 //! - **Witness**: a tight cycle within its bound. Witnesses of one closure share no run with it or each other. Odometry alone is one.
 //!
 //! How: closures that odometry alone refutes are told in O(1) by sums of its covariance (`chain`). The others are held against each other in
@@ -23,6 +24,7 @@ mod consistency;
 mod cycle;
 mod error;
 mod groups;
+mod layout;
 mod link;
 mod motion;
 mod run;
@@ -36,6 +38,7 @@ pub use auditor::{audit, errors_of_witnesses};
 pub use config::AuditConfig;
 pub use cycle::{AuditCycle, CycleError, CycleStep};
 pub use error::AuditError;
+pub use layout::supported_graph;
 pub use scale::SigmaScale;
 pub use verdict::{Audit, AuditedClosure, ClosureVerdict, RefutedBy, UndecidedBecause};
 pub use verify::{CertificateError, verify};

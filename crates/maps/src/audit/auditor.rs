@@ -63,8 +63,7 @@ pub fn audit(graph: &PoseGraph, config: &AuditConfig) -> Result<Audit, AuditErro
         .collect();
     let pairs = Pairs::of(&links, &by_odometry, &chain, config);
     let mut belief = Belief::new(&links, &chain, config, &by_odometry);
-    belief.begin(&pairs);
-    belief.settle();
+    belief.settle(&pairs);
     let board = Board::new(graph, &chain, config);
     let mut judge = Judge {
         belief,

@@ -72,16 +72,57 @@ impl<'a> Belief<'a> {
         gap.is_some_and(|gap| gap.supports(self.config))
     }
 
-    /// Believes the greatest groups of closures that agree, each unless those believed before it speak against it.
-    pub(super) fn begin(&mut self, pairs: &Pairs) {
-        for group in pairs.groups(self.by_odometry) {
-            let witnessed = self.by_odometry[group[0] as usize] == ByOdometry::Supports;
-            if (group.len() > 1 || witnessed) && self.fits(&group) {
+    /// Believes the closures of groups that agree, the largest first, and drops what has no witness, until nothing new is believed.
+    pub(super) fn settle(&mut self, pairs: &Pairs) {
+        for _ in 0..MOST_ROUNDS {
+            let before = self.open(true).len();
+            let is_candidate: Vec<bool> = (0..self.links.len()).map(|link| self.is_candidate(link)).collect();
+            let groups = pairs.groups(&is_candidate, self.by_odometry);
+            let (broad, single): (Vec<_>, Vec<_>) = groups.into_iter().partition(|group| self.is_broad(group));
+            // Groups of several runs can bear witness to each other; those of single runs have to fit what is settled by then.
+            self.take_in(&broad);
+            self.take_in(&single);
+            if self.open(true).len() <= before {
+                break;
+            }
+        }
+        self.refresh();
+    }
+
+    /// Whether nothing speaks against a closure that is not believed.
+    fn is_candidate(&self, link: usize) -> bool {
+        let found = self.found[link].as_ref();
+        let refuted = found.is_some_and(|(_, gap)| gap.refutes(self.config));
+        self.by_odometry[link] != ByOdometry::Refutes && !self.believed[link] && !refuted
+    }
+
+    fn take_in(&mut self, groups: &[Vec<u32>]) {
+        let before = self.believed.clone();
+        for group in groups {
+            if self.can_last(group) && self.fits(group) {
                 for link in group {
-                    self.believed[link as usize] = true;
+                    self.believed[*link as usize] = true;
                 }
             }
         }
+        // What was settled before is not asked while others may yet fall.
+        let new = self.open(true).into_iter();
+        let new: Vec<u32> = new.filter(|link| !before[*link as usize]).collect();
+        if !new.is_empty() {
+            self.drop_unwitnessed(new);
+            self.come_to_rest();
+        }
+    }
+
+    /// Whether a group is of more than one run.
+    fn is_broad(&self, group: &[u32]) -> bool {
+        let run = |link: &u32| self.links[*link as usize].run;
+        group.iter().any(|link| run(link) != run(&group[0]))
+    }
+
+    /// Whether a group has more than one member, or one that odometry supports.
+    fn can_last(&self, group: &[u32]) -> bool {
+        group.len() > 1 || self.by_odometry[group[0] as usize] == ByOdometry::Supports
     }
 
     /// Whether at most three in ten of a group's members lie beyond the bounds of what is believed.
@@ -98,17 +139,26 @@ impl<'a> Belief<'a> {
     }
 
     /// Believes and drops until each closure that is believed has a witness in the others, and no other has one.
-    pub(super) fn settle(&mut self) {
-        self.drop_unwitnessed();
+    fn come_to_rest(&mut self) {
         for _ in 0..MOST_ROUNDS {
+            let all = self.open(true);
+            self.drop_unwitnessed(all);
             if !self.grow() {
                 return;
             }
-            self.drop_unwitnessed();
         }
-        // Without growing on: what is looked for now is said of what is believed now.
+        let all = self.open(true);
+        self.drop_unwitnessed(all);
+    }
+
+    /// Looks again for the ways of closures that lead over what is believed no more.
+    fn refresh(&mut self) {
         for link in self.open(false) {
-            self.look(link);
+            let way = self.found[link as usize].as_ref();
+            let holds = way.is_some_and(|(way, _)| way.closures().all(|over| self.believed[over as usize]));
+            if !holds {
+                self.look(link);
+            }
         }
     }
 
@@ -122,8 +172,7 @@ impl<'a> Belief<'a> {
     }
 
     /// The greatest fixed point: drops all without a witness at once, and looks again for those whose way led over them.
-    fn drop_unwitnessed(&mut self) {
-        let mut asked = self.open(true);
+    fn drop_unwitnessed(&mut self, mut asked: Vec<u32>) {
         while !asked.is_empty() {
             let mut dropped = Vec::new();
             for link in asked {

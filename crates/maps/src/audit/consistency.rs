@@ -88,10 +88,10 @@ impl Pairs {
         both[b].push(a as u32);
     }
 
-    /// Returns groups of closures of which no two conflict, joined by agreement, the largest first: again and again the closure is dropped
+    /// Returns groups of candidates of which no two conflict, joined by agreement, the largest first: again and again the closure is dropped
     /// that most conflict with, less those it agrees with. O(pairs · log closures).
-    pub(super) fn groups(&self, by_odometry: &[ByOdometry]) -> Vec<Vec<u32>> {
-        let lives = self.without_conflicts(by_odometry);
+    pub(super) fn groups(&self, is_candidate: &[bool], by_odometry: &[ByOdometry]) -> Vec<Vec<u32>> {
+        let lives = self.without_conflicts(is_candidate, by_odometry);
         let mut groups = Groups::new(lives.len());
         for (a, agreeing) in self.agreeing.iter().enumerate().filter(|(a, _)| lives[*a]) {
             for b in agreeing.iter().filter(|b| lives[**b as usize]) {
@@ -110,21 +110,18 @@ impl Pairs {
         members
     }
 
-    fn without_conflicts(&self, by_odometry: &[ByOdometry]) -> Vec<bool> {
-        let mut lives: Vec<bool> = by_odometry
-            .iter()
-            .map(|by| *by != ByOdometry::Refutes)
-            .collect();
-        let mut conflicts: Vec<i64> = self
-            .conflicting
-            .iter()
-            .map(|all| all.len() as i64)
-            .collect();
-        let mut friends: Vec<i64> = self.agreeing.iter().map(|all| all.len() as i64).collect();
+    fn without_conflicts(&self, is_candidate: &[bool], by_odometry: &[ByOdometry]) -> Vec<bool> {
+        let mut lives = is_candidate.to_vec();
+        let count = |others: &Vec<u32>| {
+            let living = others.iter().filter(|other| is_candidate[**other as usize]);
+            living.count() as i64
+        };
+        let mut conflicts: Vec<i64> = self.conflicting.iter().map(count).collect();
+        let mut friends: Vec<i64> = self.agreeing.iter().map(count).collect();
         for (friends, by) in friends.iter_mut().zip(by_odometry) {
             *friends += 3 * i64::from(*by == ByOdometry::Supports);
         }
-        let doubted = (0..lives.len()).filter(|one| conflicts[*one] > 0);
+        let doubted = (0..lives.len()).filter(|one| lives[*one] && conflicts[*one] > 0);
         let mut heap: BinaryHeap<Reverse<(i64, usize)>> = doubted
             .map(|one| Reverse((friends[one] - conflicts[one], one)))
             .collect();

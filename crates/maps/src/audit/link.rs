@@ -81,7 +81,12 @@ pub(super) fn links(graph: &PoseGraph, chain: &Chain, config: &AuditConfig) -> V
     }
     links.sort_by_key(|link| (link.first, link.second, link.edge));
     let ends: Vec<(u32, u32)> = links.iter().map(|link| (link.first, link.second)).collect();
-    for (link, run) in links.iter_mut().zip(runs(&ends, config.run_gap)) {
+    let agree = |a: usize, b: usize| {
+        let gap = links[a].gap_to(&links[b], chain);
+        gap.is_none_or(|gap| !gap.refutes(config))
+    };
+    let runs = runs(&ends, config.run_gap, agree);
+    for (link, run) in links.iter_mut().zip(runs) {
         link.run = run;
     }
     links
