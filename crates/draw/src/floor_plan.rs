@@ -133,7 +133,9 @@ impl FloorPlan {
 
     /// Adds many straight lines as one element; dashed for what is doubtful.
     pub fn segments(&mut self, segments: &[[Point; 2]], dashed: bool, series: Series) {
-        let lines = segments.iter().map(|ends| line(ends.map(|end| self.at(end))));
+        let lines = segments
+            .iter()
+            .map(|ends| line(ends.map(|end| self.at(end))));
         let path: String = lines.collect();
         let dashes = dashed.then_some("4 3");
         self.layers.push(html! {

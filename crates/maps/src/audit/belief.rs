@@ -76,9 +76,12 @@ impl<'a> Belief<'a> {
     pub(super) fn settle(&mut self, pairs: &Pairs) {
         for _ in 0..MOST_ROUNDS {
             let before = self.open(true).len();
-            let is_candidate: Vec<bool> = (0..self.links.len()).map(|link| self.is_candidate(link)).collect();
+            let is_candidate: Vec<bool> = (0..self.links.len())
+                .map(|link| self.is_candidate(link))
+                .collect();
             let groups = pairs.groups(&is_candidate, self.by_odometry);
-            let (broad, single): (Vec<_>, Vec<_>) = groups.into_iter().partition(|group| self.is_broad(group));
+            let (broad, single): (Vec<_>, Vec<_>) =
+                groups.into_iter().partition(|group| self.is_broad(group));
             // Groups of several runs can bear witness to each other; those of single runs have to fit what is settled by then.
             self.take_in(&broad);
             self.take_in(&single);
@@ -155,7 +158,8 @@ impl<'a> Belief<'a> {
     fn refresh(&mut self) {
         for link in self.open(false) {
             let way = self.found[link as usize].as_ref();
-            let holds = way.is_some_and(|(way, _)| way.closures().all(|over| self.believed[over as usize]));
+            let holds =
+                way.is_some_and(|(way, _)| way.closures().all(|over| self.believed[over as usize]));
             if !holds {
                 self.look(link);
             }

@@ -90,7 +90,11 @@ impl Pairs {
 
     /// Returns groups of candidates of which no two conflict, joined by agreement, the largest first: again and again the closure is dropped
     /// that most conflict with, less those it agrees with. O(pairs · log closures).
-    pub(super) fn groups(&self, is_candidate: &[bool], by_odometry: &[ByOdometry]) -> Vec<Vec<u32>> {
+    pub(super) fn groups(
+        &self,
+        is_candidate: &[bool],
+        by_odometry: &[ByOdometry],
+    ) -> Vec<Vec<u32>> {
         let lives = self.without_conflicts(is_candidate, by_odometry);
         let mut groups = Groups::new(lives.len());
         for (a, agreeing) in self.agreeing.iter().enumerate().filter(|(a, _)| lives[*a]) {

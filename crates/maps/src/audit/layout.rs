@@ -21,7 +21,10 @@ const ITERATIONS: usize = 200;
 /// O(edges · log poses), and 2000 times O(edges) at most to optimize.
 #[must_use]
 pub fn supported_graph(graph: &PoseGraph, config: &AuditConfig, audit: &Audit) -> PoseGraph {
-    let supported = audit.closures.iter().filter(|closure| closure.verdict.is_supported());
+    let supported = audit
+        .closures
+        .iter()
+        .filter(|closure| closure.verdict.is_supported());
     let supported: Vec<u32> = supported.map(|closure| closure.edge).collect();
     let mut cleaned = PoseGraph::new();
     for pose in graph.poses() {

@@ -113,6 +113,14 @@ pub enum CertificateError {
         /// The edge.
         edge: u32,
     },
+    /// The number of runs is another.
+    #[error("the closures are said to make up {told} runs; the graph gives {measured}")]
+    Runs {
+        /// What the audit says.
+        told: u32,
+        /// What the graph gives.
+        measured: u32,
+    },
     /// The run is another.
     #[error("edge {edge} is said to be of run {told}; the graph gives {measured}")]
     Run {
@@ -123,6 +131,28 @@ pub enum CertificateError {
         /// What the graph gives.
         measured: u32,
     },
+}
+
+impl CertificateError {
+    /// Returns the edge of the certificate at fault; `None` if the graph itself is.
+    #[must_use]
+    pub const fn edge(&self) -> Option<u32> {
+        match self {
+            Self::Graph(_) | Self::Runs { .. } => None,
+            Self::NoClosure { edge }
+            | Self::Twice { edge }
+            | Self::Cycle { edge, .. }
+            | Self::Another { edge }
+            | Self::Number { edge, .. }
+            | Self::Within { edge, .. }
+            | Self::Unsupported { edge, .. }
+            | Self::NoWitness { edge }
+            | Self::Unproven { edge, .. }
+            | Self::SameRun { edge, .. }
+            | Self::RefutedBy { edge }
+            | Self::Run { edge, .. } => Some(*edge),
+        }
+    }
 }
 
 /// Checks every cycle of an audit again, from the graph alone: that it is one, its numbers, on which side of its bound it lies, and that it leads
@@ -143,6 +173,13 @@ pub fn verify(
     let chain = Chain::of(graph, config)?;
     let runs = links(graph, &chain, config);
     let runs: BTreeMap<u32, u32> = runs.iter().map(|link| (link.edge, link.run)).collect();
+    let measured = runs.values().max().map_or(0, |last| last + 1);
+    if audit.runs != measured {
+        return Err(CertificateError::Runs {
+            told: audit.runs,
+            measured,
+        });
+    }
     let supported = audit
         .closures
         .iter()

@@ -94,14 +94,19 @@ impl<'a> Spoiler<'a> {
                 steps[edge.from as usize] = Some(edge.measured);
             }
         }
-        let closures = graph.edges().iter().filter(|edge| edge.kind == PoseEdgeKind::Closure);
+        let closures = graph
+            .edges()
+            .iter()
+            .filter(|edge| edge.kind == PoseEdgeKind::Closure);
         let ends = graph.edges().iter();
         Self {
             graph,
             truth,
             steps,
             information: closures.map(|edge| edge.information).collect(),
-            taken: ends.map(|edge| (edge.from.min(edge.to), edge.from.max(edge.to))).collect(),
+            taken: ends
+                .map(|edge| (edge.from.min(edge.to), edge.from.max(edge.to)))
+                .collect(),
         }
     }
 
@@ -113,7 +118,8 @@ impl<'a> Spoiler<'a> {
                 break;
             }
             if let Some(group) = self.group(kind, rng) {
-                self.taken.extend(group.iter().map(|edge| (edge.from, edge.to)));
+                self.taken
+                    .extend(group.iter().map(|edge| (edge.from, edge.to)));
                 drawn.extend(group);
             }
         }
@@ -123,8 +129,14 @@ impl<'a> Spoiler<'a> {
 
     /// One false closure, or a group of them; `None` if chance chose poses that will not do.
     fn group(&self, kind: Kind, rng: &mut ChaCha8Rng) -> Option<Vec<PoseEdge>> {
-        let length = if kind.is_grouped() { rng.random_range(10..=20_u32) } else { 1 };
-        let poses = u32::try_from(self.graph.poses().len()).ok()?.checked_sub(length)?;
+        let length = if kind.is_grouped() {
+            rng.random_range(10..=20_u32)
+        } else {
+            1
+        };
+        let poses = u32::try_from(self.graph.poses().len())
+            .ok()?
+            .checked_sub(length)?;
         let one = rng.random_range(0..poses.max(1));
         let other = match kind.is_local() {
             true => self.near(one, rng)?,
@@ -135,7 +147,9 @@ impl<'a> Spoiler<'a> {
         if second - first < least || second >= poses {
             return None;
         }
-        let information = self.information.get(rng.random_range(0..self.information.len().max(1) as u32) as usize)?;
+        let information = self
+            .information
+            .get(rng.random_range(0..self.information.len().max(1) as u32) as usize)?;
         let mut group = Vec::new();
         let mut measured = spread(Pose::IDENTITY, JITTER_M, JITTER_DEG.to_radians(), rng);
         for step in 0..length {
@@ -149,7 +163,13 @@ impl<'a> Spoiler<'a> {
                 0 => measured,
                 _ => spread(measured, GROUP_M, GROUP_RAD, rng),
             };
-            let edge = PoseEdge { from, to, measured: said, information: *information, kind: PoseEdgeKind::Closure };
+            let edge = PoseEdge {
+                from,
+                to,
+                measured: said,
+                information: *information,
+                kind: PoseEdgeKind::Closure,
+            };
             if self.taken.contains(&(from, to)) || !self.fits(kind, &edge) {
                 return None;
             }
@@ -169,7 +189,9 @@ impl<'a> Spoiler<'a> {
     /// Any pose within reach of another in the true map.
     fn near(&self, one: u32, rng: &mut ChaCha8Rng) -> Option<u32> {
         let place = self.truth[one as usize].position;
-        let near = (0..).zip(self.truth).filter(|(_, pose)| (pose.position - place).norm() < RADIUS);
+        let near = (0..)
+            .zip(self.truth)
+            .filter(|(_, pose)| (pose.position - place).norm() < RADIUS);
         let near: Vec<u32> = near.map(|(pose, _)| pose).collect();
         let chosen = rng.random_range(0..near.len().max(1) as u32);
         near.get(chosen as usize).copied()

@@ -81,7 +81,9 @@ struct StepLine {
 pub(super) enum CertificateFileError {
     #[error("it is no file of certificates: {0}; audit again without --verify")]
     Json(#[from] serde_json::Error),
-    #[error("it has format `{format}`, version {version}; this program reads `{FORMAT}`, version {VERSION}")]
+    #[error(
+        "it has format `{format}`, version {version}; this program reads `{FORMAT}`, version {VERSION}"
+    )]
     Version { format: String, version: u32 },
     #[error("it says {told} {what}, but the graph has {found}: name the graph it was made of")]
     OtherGraph {
@@ -190,7 +192,13 @@ impl CertificateFile {
             });
         }
         let runs = self.runs;
-        Ok((Audit { closures: all, runs }, config))
+        Ok((
+            Audit {
+                closures: all,
+                runs,
+            },
+            config,
+        ))
     }
 }
 
@@ -230,7 +238,11 @@ impl<'a> Places<'a> {
     }
 
     fn pose(&self, id: u64) -> Result<u32, CertificateFileError> {
-        let place = self.file.file.poses.binary_search_by_key(&id, |pose| pose.id);
+        let place = self
+            .file
+            .file
+            .poses
+            .binary_search_by_key(&id, |pose| pose.id);
         let place = place.map_err(|_| CertificateFileError::NoPose { id })?;
         Ok(place as u32)
     }
@@ -255,7 +267,9 @@ impl<'a> Places<'a> {
 
     fn cycle(&self, cycle: &CycleLine) -> Result<AuditCycle, CertificateFileError> {
         let step = |step: &StepLine| {
-            let over = step.line.map(|line| self.edge_between(line, step.from, step.to));
+            let over = step
+                .line
+                .map(|line| self.edge_between(line, step.from, step.to));
             Ok(CycleStep {
                 from: self.pose(step.from)?,
                 to: self.pose(step.to)?,
@@ -263,7 +277,11 @@ impl<'a> Places<'a> {
             })
         };
         Ok(AuditCycle {
-            steps: cycle.steps.iter().map(step).collect::<Result<_, CertificateFileError>>()?,
+            steps: cycle
+                .steps
+                .iter()
+                .map(step)
+                .collect::<Result<_, CertificateFileError>>()?,
             residual: cycle.residual,
             covariance: cycle.covariance,
             chi2: cycle.chi2,

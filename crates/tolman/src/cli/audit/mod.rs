@@ -128,13 +128,19 @@ impl Arguments {
 
     fn write(&self, audited: &Audited<'_>, folder: &Path) -> Result<(), Failure> {
         fs::create_dir_all(folder).with_context(|| {
-            format!("cannot make {}: name another folder by --out", folder.display())
+            format!(
+                "cannot make {}: name another folder by --out",
+                folder.display()
+            )
         })?;
         let certificates = CertificateFile::of(audited);
         let json = serde_json::to_string(&certificates)?;
         file::write(&folder.join(certificates::NAME), json + "\n")?;
         file::write(&folder.join("verdicts.csv"), told::csv(audited))?;
-        file::write(&folder.join("cleaned.g2o"), audited.cleaned(self.strict).text())?;
+        file::write(
+            &folder.join("cleaned.g2o"),
+            audited.cleaned(self.strict).text(),
+        )?;
         let laid_out = supported_graph(&audited.file.graph, &audited.config, &audited.audit);
         file::write(&folder.join("audit.html"), page::html(audited, &laid_out))
     }
@@ -175,11 +181,16 @@ fn check(
     let certificates = CertificateFile::read(&text)
         .with_context(|| path.display().to_string())
         .or_bad_input()?;
-    let (audit, config) = certificates.audit(file).map_err(|error| {
-        Failure::Failed(anyhow!("{}: {error}", path.display()))
+    let (audit, config) = certificates
+        .audit(file)
+        .map_err(|error| Failure::Failed(anyhow!("{}: {error}", path.display())))?;
+    verify(&file.graph, &config, &audit).map_err(|error| {
+        Failure::Failed(anyhow!(
+            "{}: {}",
+            path.display(),
+            told::by_line(&error, file)
+        ))
     })?;
-    verify(&file.graph, &config, &audit)
-        .map_err(|error| Failure::Failed(anyhow!("{}: {}", path.display(), told::by_line(&error, file))))?;
     Ok(writeln!(
         out,
         "{}: all certificates hold: {} refuted, {} supported",

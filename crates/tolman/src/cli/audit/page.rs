@@ -29,7 +29,10 @@ pub(super) fn html(audited: &Audited<'_>, laid_out: &PoseGraph) -> String {
         .fact("undecided", audited.audit.count(undecided).to_string())
         .fact("poses", laid_out.poses().len().to_string())
         .fact("runs of closures", audited.audit.runs.to_string())
-        .fact("standard deviations ×", told::rounded(audited.config.sigma_scale))
+        .fact(
+            "standard deviations ×",
+            told::rounded(audited.config.sigma_scale),
+        )
         .text(audited.counted());
     if let Some(scale) = audited.told_of_scale() {
         page = page.text(scale);
@@ -89,14 +92,22 @@ fn refuted(audited: &Audited<'_>) -> PageTable {
         };
         let steps = cycle.steps.iter().skip(1).map(|step| {
             let id = audited.file.file.poses[step.to as usize].id;
-            if step.over.is_some() { format!("⇒ {id}") } else { format!("→ {id}") }
+            if step.over.is_some() {
+                format!("⇒ {id}")
+            } else {
+                format!("→ {id}")
+            }
         });
         let cycle_told = steps.collect::<Vec<_>>().join(" ");
         table = table.row([
             line(audited, closure),
             ends(audited, closure),
             by.to_owned(),
-            format!("{:.2} m, {:.1}°", (x * x + y * y).sqrt(), turn.to_degrees().abs()),
+            format!(
+                "{:.2} m, {:.1}°",
+                (x * x + y * y).sqrt(),
+                turn.to_degrees().abs()
+            ),
             format!("{:.0}", cycle.chi2),
             format!("{} {cycle_told}", ends(audited, closure)),
         ]);
@@ -107,11 +118,7 @@ fn refuted(audited: &Audited<'_>) -> PageTable {
     ))
 }
 
-fn listed(
-    audited: &Audited<'_>,
-    title: &str,
-    is: impl Fn(&ClosureVerdict) -> bool,
-) -> PageTable {
+fn listed(audited: &Audited<'_>, title: &str, is: impl Fn(&ClosureVerdict) -> bool) -> PageTable {
     let mut table = PageTable::new(title, ["line", "closure", "run", "why"]);
     let all = audited.audit.closures.iter();
     let all: Vec<&AuditedClosure> = all.filter(|closure| is(&closure.verdict)).collect();
@@ -136,7 +143,9 @@ fn of(all: usize, which: &str) -> String {
 }
 
 fn line(audited: &Audited<'_>, closure: &AuditedClosure) -> String {
-    audited.file.file.edges[closure.edge as usize].line.to_string()
+    audited.file.file.edges[closure.edge as usize]
+        .line
+        .to_string()
 }
 
 fn ends(audited: &Audited<'_>, closure: &AuditedClosure) -> String {

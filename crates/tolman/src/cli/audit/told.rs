@@ -58,9 +58,19 @@ impl Audited<'_> {
     /// How many closures are what.
     pub(super) fn counted(&self) -> String {
         let count = |is: fn(&ClosureVerdict) -> bool| self.audit.count(is);
-        let alone = count(|verdict| matches!(verdict, ClosureVerdict::Refuted { by: RefutedBy::Odometry, .. }));
+        let alone = count(|verdict| {
+            matches!(
+                verdict,
+                ClosureVerdict::Refuted {
+                    by: RefutedBy::Odometry,
+                    ..
+                }
+            )
+        });
         let reason = |is: fn(&UndecidedBecause) -> bool| {
-            self.audit.count(|verdict| matches!(verdict, ClosureVerdict::Undecided(because) if is(because)))
+            self.audit.count(
+                |verdict| matches!(verdict, ClosureVerdict::Undecided(because) if is(because)),
+            )
         };
         format!(
             "{} supported; {} refuted ({alone} by odometry alone); {} undecided ({} too wide, {} of a single run, {} contradictory)",
@@ -87,7 +97,9 @@ impl Audited<'_> {
             ));
         }
         (!(0.5..=2.0).contains(&off)).then(|| {
-            format!("{cycles} short cycles have the standard deviations × {by}: try --sigma-scale auto")
+            format!(
+                "{cycles} short cycles have the standard deviations × {by}: try --sigma-scale auto"
+            )
         })
     }
 
@@ -120,14 +132,20 @@ pub(super) fn verdict(verdict: &ClosureVerdict) -> String {
 fn reason(because: &UndecidedBecause) -> String {
     match because {
         UndecidedBecause::Wide { position, heading } if position.is_finite() => {
-            format!("too wide, it may lie within {position:.1} m and {:.0}°", heading.to_degrees())
+            format!(
+                "too wide, it may lie within {position:.1} m and {:.0}°",
+                heading.to_degrees()
+            )
         }
         UndecidedBecause::Wide { .. } => "nothing else joins its poses".to_owned(),
         UndecidedBecause::SingleRun { closures } => {
             format!("only the {closures} closures of its own run agree")
         }
         UndecidedBecause::Contradictory { against, agreeing } => {
-            format!("one cycle speaks against it (χ² {:.0}), another agrees (χ² {:.1})", against.chi2, agreeing.chi2)
+            format!(
+                "one cycle speaks against it (χ² {:.0}), another agrees (χ² {:.1})",
+                against.chi2, agreeing.chi2
+            )
         }
     }
 }
@@ -136,7 +154,11 @@ fn reason(because: &UndecidedBecause) -> String {
 pub(super) fn off(cycle: &AuditCycle) -> String {
     let [x, y, turn] = cycle.residual;
     let metres = (x * x + y * y).sqrt();
-    format!("its cycle is off by {metres:.2} m and {:.1}°, χ² {:.0} of at most 25", turn.to_degrees().abs(), cycle.chi2)
+    format!(
+        "its cycle is off by {metres:.2} m and {:.1}°, χ² {:.0} of at most 25",
+        turn.to_degrees().abs(),
+        cycle.chi2
+    )
 }
 
 /// A number with at most three digits behind the point, and no zeros at its end.
@@ -151,7 +173,9 @@ pub(super) fn csv(audited: &Audited<'_>) -> String {
     for closure in &audited.audit.closures {
         let edge = &audited.file.file.edges[closure.edge as usize];
         let (word, witnesses, why) = match &closure.verdict {
-            ClosureVerdict::Supported { witnesses } => ("supported", witnesses.len(), String::new()),
+            ClosureVerdict::Supported { witnesses } => {
+                ("supported", witnesses.len(), String::new())
+            }
             ClosureVerdict::Refuted { by, .. } => match by {
                 RefutedBy::Odometry => ("refuted", 0, "odometry".to_owned()),
                 RefutedBy::SupportedClosures => ("refuted", 0, "supported closures".to_owned()),
@@ -171,9 +195,14 @@ pub(super) fn csv(audited: &Audited<'_>) -> String {
 /// A fault of a certificate, with the line of the graph's file where it names an edge.
 pub(super) fn by_line(error: &CertificateError, file: &GraphFile) -> String {
     let told = error.to_string();
-    let line = error.edge().and_then(|edge| file.file.edges.get(edge as usize));
+    let line = error
+        .edge()
+        .and_then(|edge| file.file.edges.get(edge as usize));
     match line {
-        Some(edge) => format!("{told} (edge {} → {}, line {})", edge.from, edge.to, edge.line),
+        Some(edge) => format!(
+            "{told} (edge {} → {}, line {})",
+            edge.from, edge.to, edge.line
+        ),
         None => told,
     }
 }
