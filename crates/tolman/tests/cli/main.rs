@@ -6,6 +6,7 @@
 )]
 
 mod arena;
+mod audit;
 mod cpm;
 mod experiment;
 mod gngslam;
