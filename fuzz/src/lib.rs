@@ -7,7 +7,7 @@
 //!
 //! `cargo xtask ci` holds the parsers to the same on the stable compiler, with proptest's texts.
 
-use tolman_formats::{GreyMap, RosMap, RosMapHeader};
+use tolman_formats::{G2o, GreyMap, RosMap, RosMapHeader};
 use tolman_maze::{Format, parse_as, read, read_as, write};
 
 /// A parser may refuse a text, but not panic; and what it takes, its format can hold and give back.
@@ -45,5 +45,14 @@ pub fn is_a_header_or_refused(text: &str) {
         let picture = GreyMap::parse(b"P2 2 1 2 0 1").expect("a picture");
         let map = RosMap::of(&header, &picture);
         assert!(map.cells.len() == 2 && map.resolution > 0.0 && map.resolution.is_finite());
+    }
+}
+
+/// A pose graph has an edge, and reads as it was when it is written again.
+pub fn is_a_graph_or_refused(bytes: &[u8]) {
+    if let Ok(graph) = G2o::read(bytes) {
+        let again = G2o::parse(&graph.text()).expect("what was written is read");
+        assert!(again.left_out.is_empty() && !again.edges.is_empty());
+        assert_eq!((again.poses, again.edges.len()), (graph.poses, graph.edges.len()));
     }
 }

@@ -1,7 +1,8 @@
 //! Other people's files, read into plain structs.
 //!
 //! [`RosMap`] is an occupancy grid as `map_server` of ROS writes it: a YAML file with the grid's scale and place, and a PGM
-//! picture beside it. [`RosMapHeader`] and [`GreyMap`] are the two files by themselves.
+//! picture beside it. [`RosMapHeader`] and [`GreyMap`] are the two files by themselves. [`G2o`] is a pose graph in the plane, read
+//! and written.
 //!
 //! ```
 //! use tolman_formats::{GreyMap, MapCell, RosMap, RosMapHeader};
@@ -16,11 +17,15 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
+extern crate alloc;
+
 // What the signatures need, whole: see docs/architecture.md, API boundaries.
 pub use tolman_geom as geom;
 
+mod g2o;
 mod ros_map;
 
+pub use g2o::{G2o, G2oEdge, G2oError, G2oFault, G2oFaultKind, G2oPose};
 pub use ros_map::{
     GreyMap, GreyMapError, MapCell, RosMap, RosMapError, RosMapHeader, RosMapHeaderError,
 };

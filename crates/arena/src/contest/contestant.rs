@@ -14,7 +14,6 @@ use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
 use tolman_systems::gngslam::{OfflineSlam, OfflineSlamConfig, OnlineSlam, OnlineSlamConfig};
 use tolman_systems::micromouse::SIDE;
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
-use tolman_systems::mslst::better::BetterConfig;
 use tolman_systems::mslst::{BetterMslst, Mslst, MslstConfig};
 
 use super::condition::Condition;
@@ -27,6 +26,7 @@ use crate::cpm::{self, epuck, epuck_course, patience, ring_measures, walker_conf
 use crate::diktiometry::{Office, OfficeConfig, PlaceCue, SurveyorConfig, mapper, office_robot};
 use crate::episode::layers;
 use crate::micromouse::brief;
+use crate::mslst::better_config;
 use crate::pioneer::{
     CAMERA_PIONEER, CORRIDOR_WIDTH, ENCODER_SD, LASER_PIONEER, body, calibrated, with_sensor_noise,
 };
@@ -282,11 +282,7 @@ impl Contestant {
                     ContestRobot::Own => with_sensor_noise(&calibrated(), ENCODER_SD),
                     ContestRobot::Pioneer => calibrated(),
                 };
-                let config = BetterConfig {
-                    diameter: 2.0 * robot.radius,
-                    corridor_width: course.corridor_width,
-                    ..BetterConfig::pioneer()
-                };
+                let config = better_config(course.corridor_width, &robot);
                 let stack = layers(&course, &robot)?;
                 let brain = BetterMslst::new(config, robot.ring);
                 let actor = Actor::seeded(brain, stack, seed);
@@ -355,13 +351,14 @@ impl Contestant {
         R: cpm_robot::Any + HasSimulated + 'static,
     {
         let mode = match self {
-            Self::Cpm => Mode::Paper(CpmConfig::online()),
+            // It cannot tell that its map grows without end: who sends it does.
+            Self::Cpm => Mode::Paper(CpmConfig {
+                most_traversals: patience(maze),
+                ..CpmConfig::online()
+            }),
             _ => Mode::Reckoned(CpmConfig::robust()),
         };
-        let config = CpmConfig {
-            most_traversals: patience(maze),
-            ..mode.config()
-        };
+        let config = mode.config();
         let walker = WalkerConfig {
             heading: mode.heading(),
             ..walker
