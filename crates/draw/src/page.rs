@@ -12,7 +12,7 @@ use super::{Figure, style};
 /// let page = Page::new("Two poses")
 ///     .fact("closures", "1")
 ///     .text("One closure joins them.")
-///     .table(PageTable::new("Closures", ["from", "to"]).row(["0", "1"]));
+///     .table(&PageTable::new("Closures", ["from", "to"]).row(["0", "1"]));
 /// assert!(page.html().starts_with("<!DOCTYPE html>"));
 /// ```
 #[derive(Clone, Debug)]
@@ -70,7 +70,7 @@ impl Page {
 
     /// Adds a table.
     #[must_use]
-    pub fn table(mut self, table: PageTable) -> Self {
+    pub fn table(mut self, table: &PageTable) -> Self {
         self.parts.push(table.markup());
         self
     }

@@ -331,7 +331,8 @@ fn compare(edge: u32, told: &AuditCycle, measured: &AuditCycle) -> Result<(), Ce
         let allowed = ROUNDING * largest(measured);
         for (told, measured) in told.iter().zip(measured) {
             // NaN is no agreement either.
-            if !((told - measured).abs() <= allowed) {
+            let agrees = (told - measured).abs() <= allowed;
+            if !agrees {
                 let (told, measured) = (*told, *measured);
                 return Err(CertificateError::Number {
                     edge,

@@ -7,7 +7,8 @@ use std::fs;
 use std::io::Read;
 use std::process::{Command, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use core::time::Duration;
+use std::time::Instant;
 
 use tolman_experiment::BoxError;
 use tolman_formats::G2o;
@@ -60,7 +61,7 @@ impl Gnc {
             thread::current().id()
         ));
         fs::write(&path, graph.text())?;
-        let cap = (TIMES * ours).max(LEAST).min(CAP);
+        let cap = (TIMES * ours).clamp(LEAST, CAP);
         let out = self.answer(&[
             &path.to_string_lossy(),
             &right.to_string(),

@@ -1,6 +1,6 @@
 //! The file of certificates: cycles by the ids and lines of the graph's file, so that other programs can check them.
 
-use std::collections::BTreeMap;
+use alloc::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

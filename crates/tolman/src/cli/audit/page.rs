@@ -38,9 +38,9 @@ pub(super) fn html(audited: &Audited<'_>, laid_out: &PoseGraph) -> String {
         page = page.text(scale);
     }
     page.figure(&picture(audited, laid_out))
-        .table(refuted(audited))
-        .table(listed(audited, "Undecided", undecided))
-        .table(listed(audited, "Supported", ClosureVerdict::is_supported))
+        .table(&refuted(audited))
+        .table(&listed(audited, "Undecided", undecided))
+        .table(&listed(audited, "Supported", ClosureVerdict::is_supported))
         .text(
             "Support is evidence, never proof: the cycles agree with the closure, and share no run of closures. Refuted by odometry alone holds if the odometry's \
              standard deviations do; refuted by supported closures, if those are right besides. certificates.json has every cycle; tolman audit --verify \
