@@ -123,10 +123,6 @@ impl Mapper for BetterNavigator {
         guesses.sort_by(|a, b| b.weight.total_cmp(&a.weight));
         guesses
     }
-
-    fn map_bytes(&self) -> Option<usize> {
-        Some(self.map.scans.bytes())
-    }
 }
 
 impl Brain for BetterNavigator {
