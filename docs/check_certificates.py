@@ -24,7 +24,8 @@ for number, line in enumerate((gzip.open if graph.endswith(".gz") else open)(gra
         edge = int(word[1]), int(word[2]), tuple(map(float, word[3:6])), [[x * scale for x in row] for row in invert([[a, b, c], [b, d, e], [c, e, f]])]
         lines[number] = edge; odometry.setdefault(frozenset(edge[:2]), edge)
 for one in found["refuted"]:
-    at, off, cov, steps = one["from"], (0, 0, 0), [[0] * 3] * 3, one["cycle"]["steps"]
+    steps, off, cov = one["cycle"]["steps"], (0, 0, 0), [[0] * 3] * 3
+    at = steps[0]["from"]
     for step in steps:
         ids = range(step["from"], step["to"], 1 if step["to"] > step["from"] else -1)
         for edge in [lines[step["line"]]] if "line" in step else [odometry[frozenset((i, i + ids.step))] for i in ids]:
@@ -34,5 +35,5 @@ for one in found["refuted"]:
     half = (off[2] + math.pi) % (2 * math.pi) / 2 - math.pi / 2; along = half / math.tan(half) if abs(half) > 1e-9 else 1
     log = along * off[0] + half * off[1], along * off[1] - half * off[0], 2 * half
     chi2 = sum(x * y for x, y in zip(log, [row[0] for row in dot(invert(cov), [[x] for x in log])]))
-    assert at == one["from"] and steps[0]["line"] == one["line"] and chi2 > 25 and abs(chi2 - one["cycle"]["chi2"]) < 1e-4 * chi2, (one["line"], chi2)
+    assert at == steps[0]["from"] and steps[0]["line"] == one["line"] and chi2 > 25 and abs(chi2 - one["cycle"]["chi2"]) < 1e-4 * chi2, (one["line"], chi2)
 print(len(found["refuted"]), "refutations hold")

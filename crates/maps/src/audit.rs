@@ -41,4 +41,4 @@ pub use error::AuditError;
 pub use layout::supported_graph;
 pub use scale::SigmaScale;
 pub use verdict::{Audit, AuditedClosure, ClosureVerdict, RefutedBy, UndecidedBecause};
-pub use verify::{CertificateError, verify};
+pub use verify::{AuditCertificateError, verify};

@@ -104,9 +104,9 @@ pub fn errors_of_witnesses(
         let ClosureVerdict::Refuted { cycle, .. } = &closure.verdict else {
             return None;
         };
-        let edge = graph.edges().get(closure.edge as usize)?;
-        let from = poses.get(edge.from as usize)?;
-        let truth = from.between(*poses.get(edge.to as usize)?);
+        let first = cycle.steps.first()?;
+        let from = poses.get(first.from as usize)?;
+        let truth = from.between(*poses.get(first.to as usize)?);
         let chi2 = cycle.chi2_of_witnesses(&board, truth).ok()?;
         Some((closure.edge, chi2))
     });

@@ -94,7 +94,6 @@ impl AuditCycle {
         links: &[Link],
         board: &Board<'_>,
     ) -> Result<Self, CycleError> {
-        let edge = &board.graph.edges()[link.edge as usize];
         let step = |from, to, over: Option<u32>| CycleStep {
             from,
             to,
@@ -117,21 +116,15 @@ impl AuditCycle {
                 ),
             })
             .collect();
-        let mut steps = alloc::vec![CycleStep {
-            from: edge.from,
-            to: edge.to,
-            over: Some(link.edge)
-        }];
-        if edge.from < edge.to {
-            let back = forth.into_iter().rev();
-            steps.extend(back.map(|step| CycleStep {
-                from: step.to,
-                to: step.from,
-                over: step.over,
-            }));
-        } else {
-            steps.extend(forth);
-        }
+        // From its lower pose to its higher, as the way was measured, whichever way the edge itself leads.
+        let mut steps = alloc::vec![step(link.first, link.second, None)];
+        steps[0].over = Some(link.edge);
+        let back = forth.into_iter().rev();
+        steps.extend(back.map(|step| CycleStep {
+            from: step.to,
+            to: step.from,
+            over: step.over,
+        }));
         Self::measured(steps, board)
     }
 

@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1e-7;
 /// Why a certificate does not hold.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum CertificateError {
+pub enum AuditCertificateError {
     /// The graph itself cannot be audited.
     #[error(transparent)]
     Graph(#[from] AuditError),
@@ -133,7 +133,7 @@ pub enum CertificateError {
     },
 }
 
-impl CertificateError {
+impl AuditCertificateError {
     /// Returns the edge of the certificate at fault; `None` if the graph itself is.
     #[must_use]
     pub const fn edge(&self) -> Option<u32> {
@@ -160,7 +160,7 @@ impl CertificateError {
 /// closure cannot be checked so. Undecided closures are passed over.
 ///
 /// # Errors
-/// [`CertificateError`] of the first certificate that does not hold.
+/// [`AuditCertificateError`] of the first certificate that does not hold.
 ///
 /// # Complexity
 /// O(edges of all cycles + closures · log closures).
@@ -168,14 +168,14 @@ pub fn verify(
     graph: &PoseGraph,
     config: &AuditConfig,
     audit: &Audit,
-) -> Result<(), CertificateError> {
+) -> Result<(), AuditCertificateError> {
     check(config)?;
     let chain = Chain::of(graph, config)?;
     let runs = links(graph, &chain, config);
     let runs: BTreeMap<u32, u32> = runs.iter().map(|link| (link.edge, link.run)).collect();
     let measured = runs.values().max().map_or(0, |last| last + 1);
     if audit.runs != measured {
-        return Err(CertificateError::Runs {
+        return Err(AuditCertificateError::Runs {
             told: audit.runs,
             measured,
         });
@@ -193,7 +193,7 @@ pub fn verify(
     let mut seen = BTreeSet::new();
     for closure in &audit.closures {
         if !seen.insert(closure.edge) {
-            return Err(CertificateError::Twice { edge: closure.edge });
+            return Err(AuditCertificateError::Twice { edge: closure.edge });
         }
         checker.check(closure)?;
     }
@@ -208,16 +208,16 @@ struct Checker<'a> {
 }
 
 impl Checker<'_> {
-    fn check(&self, closure: &AuditedClosure) -> Result<(), CertificateError> {
+    fn check(&self, closure: &AuditedClosure) -> Result<(), AuditCertificateError> {
         let edge = closure.edge;
         let edges = self.board.graph.edges();
         let is_closure =
             edges.get(edge as usize).map(|edge| edge.kind) == Some(PoseEdgeKind::Closure);
         let Some(run) = self.runs.get(&edge).filter(|_| is_closure) else {
-            return Err(CertificateError::NoClosure { edge });
+            return Err(AuditCertificateError::NoClosure { edge });
         };
         if *run != closure.run {
-            return Err(CertificateError::Run {
+            return Err(AuditCertificateError::Run {
                 edge,
                 told: closure.run,
                 measured: *run,
@@ -241,11 +241,11 @@ impl Checker<'_> {
         by: RefutedBy,
         cycle: &AuditCycle,
         counted: &mut Vec<u32>,
-    ) -> Result<(), CertificateError> {
+    ) -> Result<(), AuditCertificateError> {
         let measured = self.measure(edge, cycle, counted)?;
         let most = self.config.most_chi2();
         if !measured.gap().refutes(self.config) {
-            return Err(CertificateError::Within {
+            return Err(AuditCertificateError::Within {
                 edge,
                 chi2: measured.chi2,
                 most,
@@ -254,7 +254,7 @@ impl Checker<'_> {
         let alone = measured.closures().next().is_none();
         match (by == RefutedBy::Odometry) == alone {
             true => Ok(()),
-            false => Err(CertificateError::RefutedBy { edge }),
+            false => Err(AuditCertificateError::RefutedBy { edge }),
         }
     }
 
@@ -263,9 +263,9 @@ impl Checker<'_> {
         edge: u32,
         witnesses: &[AuditCycle],
         counted: &mut Vec<u32>,
-    ) -> Result<(), CertificateError> {
+    ) -> Result<(), AuditCertificateError> {
         if witnesses.is_empty() {
-            return Err(CertificateError::NoWitness { edge });
+            return Err(AuditCertificateError::NoWitness { edge });
         }
         let mut alone = 0;
         for witness in witnesses {
@@ -273,7 +273,7 @@ impl Checker<'_> {
             alone += u32::from(measured.closures().next().is_none());
             if !measured.gap().supports(self.config) || alone > 1 {
                 let most = self.config.most_chi2();
-                return Err(CertificateError::Unsupported {
+                return Err(AuditCertificateError::Unsupported {
                     edge,
                     chi2: measured.chi2,
                     most,
@@ -289,22 +289,22 @@ impl Checker<'_> {
         edge: u32,
         cycle: &AuditCycle,
         counted: &mut Vec<u32>,
-    ) -> Result<AuditCycle, CertificateError> {
+    ) -> Result<AuditCycle, AuditCertificateError> {
         if cycle.steps.first().and_then(|step| step.over) != Some(edge) {
-            return Err(CertificateError::Another { edge });
+            return Err(AuditCertificateError::Another { edge });
         }
         let measured = AuditCycle::measured(cycle.steps.clone(), &self.board);
-        let measured = measured.map_err(|error| CertificateError::Cycle { edge, error })?;
+        let measured = measured.map_err(|error| AuditCertificateError::Cycle { edge, error })?;
         compare(edge, cycle, &measured)?;
         let mut new = Vec::new();
         for over in measured.closures() {
             if !self.supported.contains(&over) {
-                return Err(CertificateError::Unproven { edge, over });
+                return Err(AuditCertificateError::Unproven { edge, over });
             }
             let run = self.runs.get(&over).copied();
             match run.filter(|run| !counted.contains(run)) {
                 Some(run) => new.push(run),
-                None => return Err(CertificateError::SameRun { edge, over }),
+                None => return Err(AuditCertificateError::SameRun { edge, over }),
             }
         }
         counted.append(&mut new);
@@ -313,7 +313,11 @@ impl Checker<'_> {
 }
 
 /// Holds the numbers of a certificate against those that are measured.
-fn compare(edge: u32, told: &AuditCycle, measured: &AuditCycle) -> Result<(), CertificateError> {
+fn compare(
+    edge: u32,
+    told: &AuditCycle,
+    measured: &AuditCycle,
+) -> Result<(), AuditCertificateError> {
     let largest = |numbers: &[f64]| {
         numbers
             .iter()
@@ -334,7 +338,7 @@ fn compare(edge: u32, told: &AuditCycle, measured: &AuditCycle) -> Result<(), Ce
             let agrees = (told - measured).abs() <= allowed;
             if !agrees {
                 let (told, measured) = (*told, *measured);
-                return Err(CertificateError::Number {
+                return Err(AuditCertificateError::Number {
                     edge,
                     what,
                     told,

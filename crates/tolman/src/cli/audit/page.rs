@@ -65,11 +65,12 @@ fn picture(audited: &Audited<'_>, laid_out: &PoseGraph) -> Figure {
         ends.collect()
     };
     plan.segments(&lines(&ClosureVerdict::is_refuted), true, REFUTED);
-    plan.faint_trajectory(&places, ODOMETRY);
+    let way: Vec<[Point; 2]> = places.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    plan.segments(&way, false, ODOMETRY);
     plan.segments(&lines(&undecided), false, UNDECIDED);
     plan.segments(&lines(&ClosureVerdict::is_supported), false, SUPPORTED);
     Figure::new("graph", "The graph by what is supported.", plan.drawing(audited.counted())).caption(
-        "Blue the way by odometry and supported closures, green supported closures (short where the poses meet), orange undecided ones, red dashes refuted ones.",
+        "Blue the way by odometry and supported closures, green supported closures (short where the poses meet), yellow undecided ones, red dashes refuted ones.",
     )
 }
 

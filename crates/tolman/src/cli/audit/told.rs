@@ -6,7 +6,7 @@ use std::path::Path;
 
 use tolman_formats::G2o;
 use tolman_maps::audit::{
-    AuditCycle, AuditedClosure, CertificateError, ClosureVerdict, RefutedBy, UndecidedBecause,
+    AuditCertificateError, AuditCycle, AuditedClosure, ClosureVerdict, RefutedBy, UndecidedBecause,
 };
 use tolman_papers::real::GraphFile;
 
@@ -87,10 +87,9 @@ impl Audited<'_> {
     pub(super) fn told_of_scale(&self) -> Option<String> {
         let estimate = self.estimate?;
         let by = rounded(estimate.estimate);
-        let (tail, cycles) = (rounded(estimate.tail), estimate.cycles);
-        let used = self.config.sigma_scale;
-        let off = estimate.estimate / used;
-        if estimate.is_heavy() && estimate.estimate < 1.0 {
+        let (tail, cycles) = (estimate.tail.round(), estimate.cycles);
+        let off = estimate.estimate / self.config.sigma_scale;
+        if estimate.is_heavy() && off < 0.5 {
             return Some(format!(
                 "{cycles} short cycles would have the standard deviations × {by}, but their tail is heavy (99th percentile {tail} times the median; a \
                  Gaussian's is 4.8): smaller ones would refute right closures"
@@ -193,7 +192,7 @@ pub(super) fn csv(audited: &Audited<'_>) -> String {
 }
 
 /// A fault of a certificate, with the line of the graph's file where it names an edge.
-pub(super) fn by_line(error: &CertificateError, file: &GraphFile) -> String {
+pub(super) fn by_line(error: &AuditCertificateError, file: &GraphFile) -> String {
     let told = error.to_string();
     let line = error
         .edge()
