@@ -16,11 +16,24 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
+extern crate alloc;
+
 // What the signatures need, whole: see docs/architecture.md, API boundaries.
 pub use tolman_geom as geom;
+pub use tolman_robot as robot;
 
+mod carmen;
+mod fields;
+mod log;
 mod ros_map;
+mod trajectory;
+
+pub use carmen::CarmenReader;
+pub use log::{
+    KindCount, LogEntry, LogError, LogOdometry, LogReport, LogScan, LogTrouble, TroubleCount,
+};
 
 pub use ros_map::{
     GreyMap, GreyMapError, MapCell, RosMap, RosMapError, RosMapHeader, RosMapHeaderError,
 };
+pub use trajectory::{ReadRelations, ReadTrajectory, tum};
