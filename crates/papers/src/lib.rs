@@ -3,7 +3,7 @@
 //! [`catalogue`] lists them as the experiments that `tolman experiment` knows. What a map or a run looks
 //! like is drawn in the folder of its paper: [`mslst::drawing`], [`cpm::drawing`],
 //! [`diktiometry::drawing`]; [`Recorder`] makes the replay of a run, [`Film`] that of any outing, [`plan_of_course`] the plan it is drawn over.
-//! [`data`] finds what other people measured.
+//! [`data`] finds what other people measured, [`real`] reads their logs.
 
 extern crate alloc;
 
@@ -21,6 +21,7 @@ mod mslst_drawings;
 mod mslst_sweeps;
 mod plan;
 mod quantizers;
+pub mod real;
 mod recorder;
 mod tolerances;
 mod venue;
@@ -45,6 +46,7 @@ pub const fn catalogue() -> &'static [Entry] {
         cpm::ENTRY,
         gngslam::ENTRY,
         arena::ENTRY,
+        real::ENTRY,
     ]
 }
 

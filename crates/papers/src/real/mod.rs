@@ -1,0 +1,75 @@
+//! Logs of real robots, and a small one of the project's own simulator: how right the ways are that are found in them.
+
+mod drawing;
+mod figures;
+mod log;
+mod relations;
+mod small;
+mod trajectories;
+
+use serde::Serialize;
+use tolman_draw::Figure;
+use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run};
+use tolman_maps::scan_matching::ScanMatchingConfig;
+
+pub use drawing::{MapPicture, ros_map};
+pub use log::{Log, LogSystem, MappedLog};
+
+/// What the catalogue says of it.
+pub(super) const ENTRY: Entry = Entry {
+    name: "real",
+    title: "Logs of real robots: where scans, places and closures say they went",
+    source: "R. Kümmerle et al.: On Measuring the Accuracy of SLAM Algorithms, 2009, for the relations",
+    runs: 5,
+    quick_runs: 1,
+    open,
+};
+
+/// The experiment, ready to run.
+#[derive(Debug)]
+struct Real {
+    small: small::Small,
+    relations: relations::Intel,
+}
+
+/// What the runs depend on.
+#[derive(Serialize)]
+struct Config {
+    scan_matching: ScanMatchingConfig,
+}
+
+/// Says which logs are here and sets the tables up.
+///
+/// # Errors
+/// If the caller names mazes, which have no place here, or a log that is here cannot be read.
+fn open(options: &Options) -> Result<Experiment, BoxError> {
+    if !options.mazes.is_empty() {
+        return Err("logs know no mazes: leave --maze out".into());
+    }
+    let config = toml::Table::try_from(Config {
+        scan_matching: ScanMatchingConfig::indoor(),
+    })?;
+    let real = Real {
+        small: small::Small::read()?,
+        relations: relations::Intel::default(),
+    };
+    let tables = vec![small::table(), relations::table(), trajectories::table()];
+    let missing = [relations::missing(), trajectories::missing()];
+    let skipped = missing.into_iter().flatten().next();
+    Ok(Experiment::new(ENTRY, tables, config, real).skipped(skipped))
+}
+
+impl Procedure for Real {
+    fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        match job.table {
+            small::NAME => self.small.run(job),
+            relations::NAME => self.relations.run(job),
+            trajectories::NAME => trajectories::run(job),
+            table => Err(format!("there is no table {table}").into()),
+        }
+    }
+
+    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+        figures::of(self, runs)
+    }
+}
