@@ -28,6 +28,7 @@ mod pitch;
 mod replay;
 mod replay_file;
 mod run;
+mod score;
 mod send;
 mod sent_out;
 mod share;
@@ -66,6 +67,7 @@ Examples:
   tolman maze show mazes/j.maze
   tolman mouse mazes/grid --worst 3
   tolman arena --system cpm-better --family office
+  tolman map --log logs/office.clf.gz --out office
   tolman experiment baselines --quick
 
 Exit codes: 0 done as asked; 1 failed: a robot did not arrive, a maze was not solved, no way is known, or an
@@ -76,8 +78,8 @@ Results are written to stdout, progress and errors to stderr.";
 enum Verb {
     Learn(learn::Arguments),
     Drive(drive::Arguments),
-    #[command(subcommand)]
-    Map(map::Verb),
+    Map(map::Arguments),
+    Score(score::Arguments),
     Systems(systems::Arguments),
     Arena(arena::Arguments),
     Run(run::Arguments),
@@ -189,7 +191,8 @@ impl Verb {
         match self {
             Self::Learn(arguments) => learn::carry_out(app, &arguments, out),
             Self::Drive(arguments) => drive::carry_out(app, &arguments, out),
-            Self::Map(verb) => verb.carry_out(app, out),
+            Self::Map(arguments) => arguments.carry_out(app, out),
+            Self::Score(arguments) => score::carry_out(&arguments, out),
             Self::Systems(_) => systems::carry_out(app, out),
             Self::Arena(arguments) => arena::carry_out(app, &arguments, out),
             Self::Run(arguments) => run::carry_out(&arguments, out),
