@@ -23,7 +23,8 @@ mod mapper;
 mod occupancy;
 mod outline;
 mod refine;
+mod surroundings;
 
-pub use config::{ClosureConfig, ScanMatchingConfig};
+pub use config::{ClosureConfig, ClosureSites, ScanMatchingConfig};
 pub use mapper::{ScanMatching, ScanMatchingError, ScanStep};
 pub use occupancy::OccupancyGrid;

@@ -4,12 +4,12 @@ use alloc::vec::Vec;
 
 use tolman_geom::nalgebra::{Matrix3, Vector3};
 
-use super::ClosureConfig;
 use super::correlate::{self, Pyramid, Window};
 use super::grid::LikelihoodGrid;
 use super::mapper::{ScanMatching, ScanMatchingError};
 use super::outline::ScanOutline;
 use super::refine::{self, Prior};
+use super::{ClosureConfig, ClosureSites};
 use crate::pose_graph::{OptimizerConfig, PoseEdge, PoseEdgeKind, PoseGraph};
 
 /// What is known of closures while the robot drives.
@@ -59,21 +59,70 @@ impl ScanMatching {
         };
         let last = self.keyframes.len() - 1;
         let way = self.keyframes[last].way;
-        if way - self.closing.searched_at < config.every {
+        let is_due = way - self.closing.searched_at >= config.every;
+        if config.sites == ClosureSites::Named || !is_due {
             return Ok(());
         }
         self.closing.searched_at = way;
-        let since = way - self.closing.closed_at;
-        let reach = Reach {
+        let found = self.candidates(&config, last, self.reach(&config, last));
+        self.accept(&config, found, way)?;
+        Ok(())
+    }
+
+    /// Holds the keyframes up to `here` against those about `there`, and takes them for the same place if they match and an earlier or
+    /// later match agrees; returns whether they match at all. Nothing matches if no closures are looked for, or there are no such keyframes.
+    ///
+    /// # Errors
+    /// If a measurement does not fit the graph.
+    pub fn recognize(&mut self, here: usize, there: usize) -> Result<bool, ScanMatchingError> {
+        let Some(config) = self.config.closures.clone() else {
+            return Ok(false);
+        };
+        if here >= self.keyframes.len() || there >= here {
+            return Ok(false);
+        }
+        let reach = self.reach(&config, here);
+        let query = self.put_together(
+            (here + 1).saturating_sub(config.query_keyframes),
+            here,
+            here,
+        );
+        let found = self.closure(&config, &query, here, there, reach);
+        let matches = found.is_some();
+        self.accept(&config, found, self.keyframes[here].way)?;
+        Ok(matches)
+    }
+
+    /// Returns how far from where the map has it a keyframe may be, m: as far as places are looked for.
+    #[must_use]
+    pub fn doubt(&self, keyframe: usize) -> f64 {
+        let config = self.config.closures.as_ref();
+        let known = config.filter(|_| keyframe < self.keyframes.len());
+        known.map_or(0.0, |config| self.reach(config, keyframe).window)
+    }
+
+    /// How far off places are looked for from a keyframe.
+    fn reach(&self, config: &ClosureConfig, keyframe: usize) -> Reach {
+        let since = self.keyframes[keyframe].way - self.closing.closed_at;
+        let since = since.max(0.0);
+        Reach {
             window: (config.window + config.window_growth * since).min(config.most_window),
             turn: (config.window_turn + config.window_turn_growth * since)
                 .min(config.most_window_turn),
-        };
-        let found = self.candidates(&config, last, reach);
+        }
+    }
+
+    /// Takes matches for closures as far as others agree, and moves the map if they are far off.
+    fn accept(
+        &mut self,
+        config: &ClosureConfig,
+        found: impl IntoIterator<Item = PoseEdge>,
+        way: f64,
+    ) -> Result<(), ScanMatchingError> {
         let before = self.graph.edges().len();
         let mut is_closed = false;
         for candidate in found {
-            is_closed |= self.weigh(&config, candidate)?;
+            is_closed |= self.weigh(config, candidate)?;
         }
         if is_closed {
             self.closing.closed_at = way;
@@ -84,7 +133,7 @@ impl ScanMatching {
             self.graph.optimize(&OptimizerConfig {
                 most_steps: STEPS_ON_THE_WAY,
                 most_iterations: ITERATIONS_ON_THE_WAY,
-                ..optimizer(&config)
+                ..optimizer(config)
             });
         }
         Ok(())
@@ -99,6 +148,9 @@ impl ScanMatching {
             return Ok(());
         };
         self.graph.optimize(&optimizer(&config));
+        if config.sites == ClosureSites::Named {
+            return Ok(());
+        }
         for _ in 0..config.rounds {
             self.close_again(&config)?;
         }

@@ -39,11 +39,23 @@ pub struct ScanMatchingConfig {
     pub closures: Option<ClosureConfig>,
 }
 
+/// Where the robot looks round for places that it has seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum ClosureSites {
+    /// All along its way.
+    Everywhere,
+    /// Where somebody tells it to: see [`ScanMatching::recognize`](super::ScanMatching::recognize).
+    Named,
+}
+
 /// How places that are seen again are looked for.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ClosureConfig {
+    /// Where they are looked for.
+    pub sites: ClosureSites,
     /// Way from one search to the next.
     pub every: f64,
     /// A place is seen again after that much way at least.
@@ -107,6 +119,15 @@ impl ScanMatchingConfig {
         }
     }
 
+    /// Returns it with closures where somebody names places.
+    #[must_use]
+    pub fn with_places(self) -> Self {
+        Self {
+            closures: Some(ClosureConfig::places()),
+            ..self
+        }
+    }
+
     /// Returns it without closures.
     #[must_use]
     pub fn without_closures(self) -> Self {
@@ -122,6 +143,7 @@ impl ClosureConfig {
     #[must_use]
     pub fn indoor() -> Self {
         Self {
+            sites: ClosureSites::Everywhere,
             every: 0.6,
             least_way: 12.0,
             query_keyframes: 8,
@@ -140,6 +162,16 @@ impl ClosureConfig {
             turn_sd: 0.005,
             doubt: 16.0,
             rounds: 1,
+        }
+    }
+
+    /// Returns the values for places that somebody names: a few metres apart, so that matches which agree are.
+    #[must_use]
+    pub fn places() -> Self {
+        Self {
+            sites: ClosureSites::Named,
+            agreement_way: 20.0,
+            ..Self::indoor()
         }
     }
 }

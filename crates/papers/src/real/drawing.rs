@@ -7,7 +7,7 @@ use tolman_geom::{Point, Pose};
 use tolman_maps::scan_matching::OccupancyGrid;
 use tolman_sim::Bounds;
 
-use super::Log;
+use super::RobotLog;
 
 /// What a picture of a log shows: occupancy, the way found, and what the wheels say.
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ const APART: (f64, f64) = (0.1, 0.1);
 impl MapPicture {
     /// Draws the scans of a log from the poses found for them. O(scans · beams · range).
     #[must_use]
-    pub fn of(log: &Log, poses: &[Pose]) -> Self {
+    pub fn of(log: &RobotLog, poses: &[Pose]) -> Self {
         let drawn = apart(poses);
         let ends = drawn.iter().flat_map(|index| {
             let scan = &log.scans[*index];

@@ -3,12 +3,13 @@ use std::path::Path;
 use tolman_experiment::BoxError;
 use tolman_formats::{CarmenReader, LogEntry, LogReport, LogScan};
 use tolman_geom::Pose;
-use tolman_maps::scan_matching::{ScanMatching, ScanMatchingConfig, ScanMatchingError, ScanStep};
-use tolman_robot::{Mapper, TimedPose, Trajectory};
+use tolman_maps::scan_matching::{ScanMatching, ScanMatchingConfig, ScanStep};
+use tolman_robot::{MapView, Mapper, TimedPose, Trajectory};
+use tolman_systems::places::{PlacesConfig, PlacesError, PlacesMapper};
 
 /// The scans of a log, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Log {
+pub struct RobotLog {
     /// The scans.
     pub scans: Vec<LogScan>,
     /// How the file was read.
@@ -24,6 +25,8 @@ pub enum LogSystem {
     Matching,
     /// Scans matched to those before, and places seen again.
     ScanMatching,
+    /// Scans matched to those before; junctions, bends, dead ends and rooms recognized.
+    Places,
 }
 
 /// What was found in a log.
@@ -35,9 +38,11 @@ pub struct MappedLog {
     pub closures: usize,
     /// The numbers of the scans that the map keeps.
     pub keyframes: Vec<usize>,
+    /// The map of places, of a system that has one.
+    pub places: MapView,
 }
 
-impl Log {
+impl RobotLog {
     /// Reads a CARMEN log, plain or packed by gzip.
     ///
     /// # Errors
@@ -85,20 +90,40 @@ impl Log {
         &self,
         system: LogSystem,
         odometry: &[Pose],
-        mut see: impl FnMut(usize),
-    ) -> Result<MappedLog, ScanMatchingError> {
-        let config = match system {
+        see: impl FnMut(usize),
+    ) -> Result<MappedLog, PlacesError> {
+        let config = ScanMatchingConfig::indoor();
+        let mut mapper = match system {
             LogSystem::Odometry => {
                 return Ok(MappedLog {
                     poses: odometry.to_vec(),
                     closures: 0,
                     keyframes: Vec::new(),
+                    places: MapView::default(),
                 });
             }
-            LogSystem::Matching => ScanMatchingConfig::indoor().without_closures(),
-            LogSystem::ScanMatching => ScanMatchingConfig::indoor(),
+            LogSystem::Places => {
+                let mut mapper = PlacesMapper::new(PlacesConfig::indoor())?;
+                self.show(&mut mapper, odometry, see)?;
+                mapper.finish()?;
+                let places = mapper.map();
+                return Ok(MappedLog::of(mapper.matching(), places));
+            }
+            LogSystem::Matching => ScanMatching::new(config.without_closures()),
+            LogSystem::ScanMatching => ScanMatching::new(config),
         };
-        let mut mapper = ScanMatching::new(config);
+        self.show(&mut mapper, odometry, see)?;
+        mapper.finish()?;
+        Ok(MappedLog::of(&mapper, MapView::default()))
+    }
+
+    /// Shows a mapper the log, step by step.
+    fn show<M: Mapper<Observation = ScanStep>>(
+        &self,
+        mapper: &mut M,
+        odometry: &[Pose],
+        mut see: impl FnMut(usize),
+    ) -> Result<(), M::Error> {
         let mut before = odometry.first().copied().unwrap_or(Pose::IDENTITY);
         for (index, (scan, odometry)) in self.scans.iter().zip(odometry).enumerate() {
             mapper.observe(&ScanStep {
@@ -109,12 +134,7 @@ impl Log {
             before = *odometry;
             see(index + 1);
         }
-        mapper.finish()?;
-        Ok(MappedLog {
-            poses: mapper.trajectory(),
-            closures: mapper.closures(),
-            keyframes: mapper.keyframes(),
-        })
+        Ok(())
     }
 
     /// Returns poses, one a scan, as a way in time.
@@ -125,5 +145,16 @@ impl Log {
             time: scan.time,
             pose: *pose,
         }))
+    }
+}
+
+impl MappedLog {
+    fn of(matching: &ScanMatching, places: MapView) -> Self {
+        Self {
+            poses: matching.trajectory(),
+            closures: matching.closures(),
+            keyframes: matching.keyframes(),
+            places,
+        }
     }
 }

@@ -11,9 +11,10 @@ use serde::Serialize;
 use tolman_draw::Figure;
 use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run};
 use tolman_maps::scan_matching::ScanMatchingConfig;
+use tolman_systems::places::PlacesConfig;
 
 pub use drawing::{MapPicture, ros_map};
-pub use log::{Log, LogSystem, MappedLog};
+pub use log::{LogSystem, MappedLog, RobotLog};
 
 /// What the catalogue says of it.
 pub(super) const ENTRY: Entry = Entry {
@@ -36,6 +37,7 @@ struct Real {
 #[derive(Serialize)]
 struct Config {
     scan_matching: ScanMatchingConfig,
+    places: PlacesConfig,
 }
 
 /// Says which logs are here and sets the tables up.
@@ -48,6 +50,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     }
     let config = toml::Table::try_from(Config {
         scan_matching: ScanMatchingConfig::indoor(),
+        places: PlacesConfig::indoor(),
     })?;
     let real = Real {
         small: small::Small::read()?,

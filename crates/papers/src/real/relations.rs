@@ -8,7 +8,7 @@ use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use tolman_formats::ReadRelations;
 use tolman_robot::Trajectory;
 
-use super::{Log, LogSystem};
+use super::{LogSystem, RobotLog};
 use crate::data;
 
 /// The table's name.
@@ -21,17 +21,18 @@ const PUBLISHED: &str = "logs/radish/intel-corrected.log.gz";
 /// What the times of the published log lack to those of the relations, s.
 const PUBLISHED_TIMES: f64 = 976_052_857.34;
 
-pub(super) const ROWS: [(&str, Option<LogSystem>); 4] = [
+pub(super) const ROWS: [(&str, Option<LogSystem>); 5] = [
     ("intel raw", Some(LogSystem::Odometry)),
     ("intel published", None),
     ("intel matching", Some(LogSystem::Matching)),
+    ("intel places", Some(LogSystem::Places)),
     ("intel dense", Some(LogSystem::ScanMatching)),
 ];
 
 /// The log, read when it is first needed.
 #[derive(Debug, Default)]
 pub(super) struct Intel {
-    log: OnceLock<Log>,
+    log: OnceLock<RobotLog>,
 }
 
 /// A file of the data, if it is here.
@@ -62,6 +63,8 @@ record! {
         relations: usize => neither("relations").decimals(0),
         /// Places seen again.
         closures: usize => neither("closures").decimals(0),
+        /// Places of the map of places.
+        places: usize => neither("places").decimals(0),
     }
 }
 
@@ -77,39 +80,41 @@ pub(super) fn table() -> Table {
         .note(
             "Every fifth scan of the raw log. Relations whose times lie within 30 s have a floor of 0.09 m, since their times lie between scans \
              that are a second apart. Published: the corrected log that others map with, which went through a mapper of its authors. \
-             Matching: scans matched to those before, without closures. Dense: with closures.",
+             Matching: scans matched to those before, without closures. Places: with closures where a junction, a bend, a dead end or a room \
+             was recognized. Dense: with closures everywhere.",
         )
 }
 
 impl Intel {
-    fn log(&self) -> Result<&Log, BoxError> {
+    fn log(&self) -> Result<&RobotLog, BoxError> {
         if let Some(log) = self.log.get() {
             return Ok(log);
         }
         let path = file(LOG).ok_or("the log of the Intel lab is gone")?;
-        let log = Log::read(&path)?;
+        let log = RobotLog::read(&path)?;
         Ok(self.log.get_or_init(|| log))
     }
 
     /// The way that a row has.
-    fn way(&self, row: &str) -> Result<(Trajectory, usize), BoxError> {
+    fn way(&self, row: &str) -> Result<(Trajectory, [usize; 2]), BoxError> {
         let named = ROWS.iter().find(|(name, _)| *name == row);
         let (_, system) = named.ok_or_else(|| format!("there is no row {row}"))?;
         let Some(system) = system else {
             let path = file(PUBLISHED).ok_or("the published log of the Intel lab is gone")?;
-            let mut log = Log::read(&path)?;
+            let mut log = RobotLog::read(&path)?;
             for scan in &mut log.scans {
                 scan.time += PUBLISHED_TIMES;
             }
-            return Ok((log.trajectory(&log.odometry()), 0));
+            return Ok((log.trajectory(&log.odometry()), [0, 0]));
         };
         let log = self.log()?;
         let mapped = log.map(*system, &log.odometry(), |_| {})?;
-        Ok((log.trajectory(&mapped.poses), mapped.closures))
+        let counts = [mapped.closures, mapped.places.places.len()];
+        Ok((log.trajectory(&mapped.poses), counts))
     }
 
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let (way, closures) = self.way(job.row)?;
+        let (way, [closures, places]) = self.way(job.row)?;
         let path = file(RELATIONS).ok_or("the relations of the Intel lab are gone")?;
         let relations = ReadRelations::open(&path)?.relations;
         let score = RelationScore::of(&way, &relations).ok_or("no relation lies on the way")?;
@@ -118,6 +123,7 @@ impl Intel {
             error_over_30s_m: score.far_error.ok_or("no relation is far")?,
             relations: score.relations,
             closures,
+            places,
         };
         Ok(run.fields()?)
     }

@@ -7,23 +7,24 @@ use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use tolman_geom::Pose;
 
 use super::trajectories::aligned;
-use super::{Log, LogSystem};
+use super::{LogSystem, RobotLog};
 
 /// The table's name.
 pub(super) const NAME: &str = "small log";
 
 const PACKED: &[u8] = include_bytes!("../../logs/office.clf.gz");
 
-const ROWS: [(&str, LogSystem); 3] = [
+const ROWS: [(&str, LogSystem); 4] = [
     ("odometry", LogSystem::Odometry),
     ("matching", LogSystem::Matching),
+    ("places", LogSystem::Places),
     ("dense", LogSystem::ScanMatching),
 ];
 
 /// The log, whose noted poses are the true ones.
 #[derive(Debug)]
 pub(super) struct Small {
-    pub(super) log: Log,
+    pub(super) log: RobotLog,
 }
 
 record! {
@@ -50,7 +51,7 @@ impl Small {
         let mut text = Vec::new();
         GzDecoder::new(PACKED).read_to_end(&mut text)?;
         Ok(Self {
-            log: Log::of_text(&text),
+            log: RobotLog::of_text(&text),
         })
     }
 

@@ -10,7 +10,7 @@ use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use tolman_geom::{Heading, Point, Pose};
 
 use super::relations::file;
-use super::{Log, LogSystem};
+use super::{LogSystem, RobotLog};
 use crate::data;
 
 /// The table's name.
@@ -102,7 +102,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let named = ROWS.iter().find(|(name, _, _)| *name == job.row);
     let (_, name, is_raw) = named.ok_or_else(|| format!("there is no row {}", job.row))?;
     let path = file(name).ok_or_else(|| format!("the log of {} is gone", job.row))?;
-    let log = Log::read(&path)?;
+    let log = RobotLog::read(&path)?;
     let truth: Vec<Pose> = log.scans.iter().map(|scan| scan.noted).collect();
     let odometry = match is_raw {
         true => log.odometry(),

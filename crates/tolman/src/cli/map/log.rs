@@ -8,7 +8,7 @@ use anyhow::{Context, anyhow};
 use clap::ValueEnum;
 use tolman_draw::Figure;
 use tolman_formats::tum;
-use tolman_papers::real::{Log, LogSystem, MapPicture, MappedLog, ros_map};
+use tolman_papers::real::{LogSystem, MapPicture, MappedLog, RobotLog, ros_map};
 
 use crate::cli::bar::bar;
 use crate::cli::{Failure, OrBadInput, file};
@@ -41,6 +41,8 @@ pub(super) struct Arguments {
 enum System {
     /// Scans are matched to those before, and to places seen before: the dense baseline
     ScanMatching,
+    /// Scans are matched to those before; junctions, bends, dead ends and rooms are places, and recognized
+    Places,
     /// Scans are matched to those before alone
     Matching,
     /// The wheels alone
@@ -56,7 +58,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     else {
         return Err(Failure::BadInput(anyhow!("give --log FILE and --out DIR")));
     };
-    let log = Log::read(path)
+    let log = RobotLog::read(path)
         .map_err(anyhow::Error::from_boxed)
         .or_bad_input()?;
     for sentence in log.report.sentences() {
@@ -79,9 +81,10 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
 }
 
 /// Finds the way, with a bar on the terminal.
-fn found(log: &Log, system: System) -> Result<MappedLog, Failure> {
+fn found(log: &RobotLog, system: System) -> Result<MappedLog, Failure> {
     let system = match system {
         System::ScanMatching => LogSystem::ScanMatching,
+        System::Places => LogSystem::Places,
         System::Matching => LogSystem::Matching,
         System::Odometry => LogSystem::Odometry,
     };
@@ -94,7 +97,7 @@ fn found(log: &Log, system: System) -> Result<MappedLog, Failure> {
     found.or_bad_input()
 }
 
-fn write_all(folder: &Path, log: &Log, found: &MappedLog) -> Result<(), Failure> {
+fn write_all(folder: &Path, log: &RobotLog, found: &MappedLog) -> Result<(), Failure> {
     fs::create_dir_all(folder).with_context(|| {
         let folder = folder.display();
         format!("cannot make {folder}: give a folder in one that can be written to")
