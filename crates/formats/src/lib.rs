@@ -3,6 +3,9 @@
 //! [`RosMap`] is an occupancy grid as `map_server` of ROS writes it: a YAML file with the grid's scale and place, and a PGM
 //! picture beside it. [`RosMapHeader`] and [`GreyMap`] are the two files by themselves.
 //!
+//! [`CarmenReader`] reads logs of robots; what cannot be used of them stands in a [`LogReport`]. [`ReadTrajectory`] and [`tum`] are ways in
+//! time, [`ReadRelations`] what is known of them. [`dot`], [`graphml`], [`node_link_json`] and [`route_geojson`] write maps of places.
+//!
 //! ```
 //! use tolman_formats::{GreyMap, MapCell, RosMap, RosMapHeader};
 //! let yaml = "image: hall.pgm\nresolution: 0.5\norigin: [-1.0, 0.0, 0.0]\nnegate: 0\n\
@@ -24,11 +27,13 @@ pub use tolman_robot as robot;
 
 mod carmen;
 mod fields;
+mod graph;
 mod log;
 mod ros_map;
 mod trajectory;
 
 pub use carmen::CarmenReader;
+pub use graph::{dot, graphml, node_link_json, route_geojson};
 pub use log::{
     KindCount, LogEntry, LogError, LogOdometry, LogReport, LogScan, LogTrouble, TroubleCount,
 };

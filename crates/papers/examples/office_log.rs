@@ -2,8 +2,7 @@
 //! `cargo run -p tolman-papers --example office_log | gzip -9n > logs/office.clf.gz`.
 #![expect(clippy::print_stdout, reason = "the log goes to standard output")]
 
-use std::error::Error;
-
+use core::error::Error;
 use core::f64::consts::PI;
 
 use tolman_geom::{Point, Pose, Vector};

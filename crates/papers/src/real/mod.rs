@@ -5,6 +5,8 @@ mod figures;
 mod log;
 mod relations;
 mod small;
+#[cfg(test)]
+mod tests;
 mod trajectories;
 
 use serde::Serialize;

@@ -97,19 +97,22 @@ fn tell_relations(
     }
     writeln!(
         out,
-        "{relations} relations, mean error {error:.3} m and {:.2}°",
+        "{}, mean error {error:.3} m and {:.2}°",
+        counted(*relations, "relation"),
         turn_error.to_degrees()
     )?;
     if let Some(far) = far_error {
         writeln!(
             out,
-            "{far_relations} of them over more than 30 s, mean error {far:.3} m"
+            "over more than 30 s: {}, mean error {far:.3} m",
+            counted(*far_relations, "relation")
         )?;
     }
     if *missed > 0 {
         writeln!(
             out,
-            "{missed} relations do not lie on the trajectory and count nowhere"
+            "left out, since not on the trajectory: {}",
+            counted(*missed, "relation")
         )?;
     }
     Ok(())
@@ -128,6 +131,15 @@ fn tell_aligned(as_json: bool, score: &AlignedScore, out: &mut dyn Write) -> Res
     }
     Ok(writeln!(
         out,
-        "{pairs} poses, error {rms:.3} m (root mean square), at most {largest:.3} m"
+        "{}, error {rms:.3} m (root mean square), at most {largest:.3} m",
+        counted(*pairs, "pose")
     )?)
+}
+
+/// A number of things in words.
+fn counted(count: usize, thing: &str) -> String {
+    match count {
+        1 => format!("1 {thing}"),
+        _ => format!("{count} {thing}s"),
+    }
 }

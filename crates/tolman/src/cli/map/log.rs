@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, anyhow};
 use clap::ValueEnum;
 use tolman_draw::Figure;
-use tolman_formats::tum;
+use tolman_formats::{dot, graphml, node_link_json, route_geojson, tum};
 use tolman_papers::real::{LogSystem, MapPicture, MappedLog, RobotLog, ros_map};
 
 use crate::cli::bar::bar;
@@ -15,7 +15,8 @@ use crate::cli::{Failure, OrBadInput, file};
 
 pub(super) const EXAMPLES: &str = "\
 Into the folder go map.svg (occupancy, and both ways over it), trajectory.tum, odometry.tum and noted.tum (the way found, by the wheels, and as
-the log notes it: time x y z qx qy qz qw, as evo reads them), and map.yaml with map.pgm, as map_server of ROS and `tolman run --world` read them.
+the log notes it: time x y z qx qy qz qw, as evo reads them), and map.yaml with map.pgm, as map_server of ROS and `tolman run --world` read them; of a map of
+places also places.graphml, places.dot, places.json (node-link, as networkx reads it) and places.geojson (for nav2_route).
 
 Examples:
   tolman map --log logs/office.clf.gz --out office
@@ -24,6 +25,7 @@ Examples:
 
 /// What a log is mapped with.
 #[derive(clap::Args)]
+#[group(skip)]
 pub(super) struct Arguments {
     /// The log, in the format of CARMEN, plain or packed by gzip
     #[arg(long, value_name = "FILE", required = true)]
@@ -66,18 +68,30 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     }
     let found = found(&log, *system)?;
     write_all(folder, &log, &found)?;
+    for line in sentences(&found) {
+        writeln!(out, "{line}")?;
+    }
+    writeln!(out, "The map: {}", folder.join("map.svg").display())?;
+    Ok(())
+}
+
+/// What was found, a line each.
+fn sentences(found: &MappedLog) -> Vec<String> {
     let MappedLog {
         closures,
         keyframes,
+        places,
         ..
-    } = &found;
-    writeln!(
-        out,
-        "{closures} closures between {} keyframes; the map: {}",
-        keyframes.len(),
-        folder.join("map.svg").display()
-    )?;
-    Ok(())
+    } = found;
+    let mut told = vec![format!(
+        "keyframes: {}, closures: {closures}",
+        keyframes.len()
+    )];
+    if !places.places.is_empty() {
+        let (places, links) = (places.places.len(), places.links.len() / 2);
+        told.push(format!("places: {places}, ways between them: {links}"));
+    }
+    told
 }
 
 /// Finds the way, with a bar on the terminal.
@@ -110,6 +124,12 @@ fn write_all(folder: &Path, log: &RobotLog, found: &MappedLog) -> Result<(), Fai
         ("noted.tum", &noted),
     ] {
         write(name, tum(&log.trajectory(poses)).as_bytes())?;
+    }
+    if !found.places.places.is_empty() {
+        write("places.graphml", graphml(&found.places).as_bytes())?;
+        write("places.json", node_link_json(&found.places).as_bytes())?;
+        write("places.geojson", route_geojson(&found.places).as_bytes())?;
+        write("places.dot", dot(&found.places).as_bytes())?;
     }
     let picture = MapPicture::of(log, &found.poses);
     let map = ros_map(&picture.occupancy);
