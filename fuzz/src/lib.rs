@@ -8,7 +8,7 @@
 //! `cargo xtask ci` holds the parsers to the same on the stable compiler, with proptest's texts.
 
 use tolman_formats::{
-    CarmenReader, GreyMap, LogEntry, ReadRelations, ReadTrajectory, RosMap, RosMapHeader,
+    CarmenReader, G2o, GreyMap, LogEntry, ReadRelations, ReadTrajectory, RosMap, RosMapHeader,
 };
 use tolman_maze::{Format, parse_as, read, read_as, write};
 
@@ -65,4 +65,13 @@ pub fn is_used_or_left_out(bytes: &[u8]) {
     assert_eq!(reader.report().scans + reader.report().odometry, count);
     let _ = ReadRelations::from_lines(bytes);
     let _ = ReadTrajectory::from_lines(bytes);
+}
+
+/// A pose graph has an edge, and reads as it was when it is written again.
+pub fn is_a_graph_or_refused(bytes: &[u8]) {
+    if let Ok(graph) = G2o::read(bytes) {
+        let again = G2o::parse(&graph.text()).expect("what was written is read");
+        assert!(again.left_out.is_empty() && !again.edges.is_empty());
+        assert_eq!((again.poses, again.edges.len()), (graph.poses, graph.edges.len()));
+    }
 }

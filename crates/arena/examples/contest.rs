@@ -35,6 +35,7 @@ fn main() -> Result<(), tolman_arena::BoxError> {
                     condition: Condition::AsMade,
                     starts: 1,
                     seed,
+                    stopwatch: None,
                 };
                 let began = Instant::now();
                 let record = contest.play(&schooling, |_, _| {})?;

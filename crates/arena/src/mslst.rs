@@ -61,7 +61,13 @@ pub fn learn_better(
     times: u32,
     seed: u64,
 ) -> Result<BetterLearned, LearnError> {
-    learn_by(course, robot, &better_config(course, robot), times, seed)
+    learn_by(
+        course,
+        robot,
+        &better_config(course.corridor_width, robot),
+        times,
+        seed,
+    )
 }
 
 /// Lets the better system learn a course without one of its parts, if `without` names one, until it has been everywhere.
@@ -76,15 +82,17 @@ pub fn learn_better_without(
 ) -> Result<BetterLearned, LearnError> {
     let config = BetterConfig {
         without,
-        ..better_config(course, robot)
+        ..better_config(course.corridor_width, robot)
     };
     learn_by(course, robot, &config, 1, seed)
 }
 
-fn better_config(course: &Course, robot: &LaserPioneerConfig) -> BetterConfig {
+/// Returns what the better system reckons with on `robot` where corridors are `corridor_width` m wide.
+#[must_use]
+pub fn better_config(corridor_width: f64, robot: &LaserPioneerConfig) -> BetterConfig {
     BetterConfig {
         diameter: 2.0 * robot.radius,
-        corridor_width: course.corridor_width,
+        corridor_width,
         ..BetterConfig::pioneer()
     }
 }
@@ -122,8 +130,8 @@ fn learn_by(
     .map_err(|error| broken(&robot_in_run, error))?;
     let lingerer = actor.into_brain();
     let actions = lingerer.explored();
-    let scans = lingerer.into_learned();
-    let map = BetterMap::of(scans, robot.ring, config).map_err(EpisodeError::from)?;
+    let chart = lingerer.into_learned().chart();
+    let map = BetterMap::of(chart, robot.ring, config).map_err(EpisodeError::from)?;
     Ok(BetterLearned {
         map: Arc::new(map),
         ended,

@@ -1,5 +1,6 @@
 use alloc::collections::BTreeMap;
 use alloc::fmt;
+use core::time::Duration;
 
 use tolman_geom::{Point, Pose};
 use tolman_robot::{
@@ -12,7 +13,7 @@ use tolman_sim::trace::Recordable;
 use tolman_systems::cpm::RingAsEpuck;
 
 use crate::course::Course;
-use crate::run::{InRun, Limited};
+use crate::run::{InRun, Limited, Stopwatch};
 use crate::{BoxError, Simulated};
 
 /// A system that was sent out with its robot on a course, whichever they are.
@@ -35,6 +36,9 @@ pub trait Outing: InRun {
     /// Returns what its laser sees; `None` of a robot without one.
     fn scan(&self) -> Option<&Scan>;
 
+    /// Allows the robot so many further time steps, and no more.
+    fn allow(&mut self, _steps: u32) {}
+
     /// Makes the next action of `task`.
     ///
     /// # Errors
@@ -56,6 +60,19 @@ pub trait Outing: InRun {
     /// Returns how likely the system takes its map to be right, 0 … 1; `None` if it does not weigh that.
     fn certainty(&self) -> Option<f64> {
         None
+    }
+
+    /// Returns how many bytes the map of the system takes; `None` if it does not say.
+    fn map_bytes(&self) -> Option<usize> {
+        None
+    }
+
+    /// Measures from now on how long the system thinks.
+    fn measure(&mut self, _stopwatch: Stopwatch) {}
+
+    /// Returns how long the system thought while that was measured, the robot's own time aside.
+    fn thinking(&self) -> Duration {
+        Duration::ZERO
     }
 
     /// Lifts the robot, puts it down at `pose` and tells the system, and returns whether that goes on.
@@ -244,6 +261,8 @@ pub struct Sent<R: Robot, S> {
     name: Option<&'static str>,
     /// Where the origin of the map truly lies, if the map says where its places are.
     world_from_map: Option<Pose>,
+    /// How long actions took while that was measured.
+    acting: Duration,
 }
 
 type Count<S> = Box<dyn Fn(&S) -> usize>;
@@ -275,6 +294,7 @@ impl<R: Robot, S> Sent<R, S> {
             choice: Box::new(|_| 0),
             name: None,
             world_from_map: None,
+            acting: Duration::ZERO,
         }
     }
 
@@ -382,8 +402,16 @@ where
         R::Model::scan(self.robot.robot().simulated().sensing())
     }
 
+    fn allow(&mut self, steps: u32) {
+        self.robot.allow(steps);
+    }
+
     fn act(&mut self, task: Task) -> Result<Standing, BoxError> {
+        let began = self.robot.now();
         let standing = self.system.act(&mut self.robot, task);
+        if let (Some(began), Some(now)) = (began, self.robot.now()) {
+            self.acting += now.saturating_sub(began);
+        }
         let made = Site {
             position: self.robot.robot().simulated().truth().pose.position,
             action: self.actions,
@@ -426,6 +454,18 @@ where
 
     fn certainty(&self) -> Option<f64> {
         self.system.certainty()
+    }
+
+    fn map_bytes(&self) -> Option<usize> {
+        self.system.map_bytes()
+    }
+
+    fn measure(&mut self, stopwatch: Stopwatch) {
+        self.robot.measure(stopwatch);
+    }
+
+    fn thinking(&self) -> Duration {
+        self.acting.saturating_sub(self.robot.stepping())
     }
 
     fn put_down(&mut self, pose: Pose) -> Result<Standing, BoxError> {

@@ -1,7 +1,12 @@
 //! The one loop that lets a system drive a robot.
 
+use core::time::Duration;
+
 use thiserror::Error;
 use tolman_robot::{Landmark, Robot, SensesLandmarks, Standing, Stopping, System, Task};
+
+/// Returns the time since some moment. Results do not depend on it.
+pub type Stopwatch = fn() -> Duration;
 
 /// A robot in a run: its time steps are counted and limited, and it stands still when the run is over.
 #[derive(Debug)]
@@ -9,6 +14,9 @@ pub struct Limited<R: Robot> {
     robot: Stopping<R>,
     steps: u32,
     step_limit: u32,
+    stopwatch: Option<Stopwatch>,
+    /// Time that the robot itself took, while somebody measured it.
+    stepping: Duration,
 }
 
 /// Why a robot in a run makes no step.
@@ -32,7 +40,29 @@ impl<R: Robot> Limited<R> {
             robot: Stopping::new(robot),
             steps: 0,
             step_limit,
+            stopwatch: None,
+            stepping: Duration::ZERO,
         }
+    }
+
+    /// Allows it so many further time steps, and no more.
+    pub const fn allow(&mut self, steps: u32) {
+        self.step_limit = self.steps.saturating_add(steps);
+    }
+
+    /// Measures from now on how long the robot itself takes.
+    pub const fn measure(&mut self, stopwatch: Stopwatch) {
+        self.stopwatch = Some(stopwatch);
+    }
+
+    /// Returns the time by the stopwatch; `None` if nobody measures.
+    pub fn now(&self) -> Option<Duration> {
+        self.stopwatch.map(|now| now())
+    }
+
+    /// Returns how long the robot itself took while that was measured: where it is simulated, the simulator.
+    pub const fn stepping(&self) -> Duration {
+        self.stepping
     }
 
     /// Returns the robot.
@@ -64,7 +94,11 @@ impl<R: Robot> Robot for Limited<R> {
         if self.is_out_of_time() {
             return Err(LimitedError::OutOfTime { steps: self.steps });
         }
+        let began = self.now();
         self.robot.step(command)?;
+        if let (Some(began), Some(now)) = (began, self.now()) {
+            self.stepping += now.saturating_sub(began);
+        }
         self.steps += 1;
         Ok(())
     }
@@ -233,6 +267,16 @@ mod tests {
     }
 
     const REACH: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
+
+    #[test]
+    fn a_robot_that_is_out_of_time_may_be_allowed_more() {
+        let mut robot = Limited::new(Cart::default(), 0);
+        assert!(robot.is_out_of_time() && robot.step(&1.0).is_err());
+        robot.allow(2);
+        assert!(robot.step(&1.0).is_ok() && robot.step(&1.0).is_ok());
+        assert!(robot.is_out_of_time() && robot.step(&1.0).is_err());
+        assert_eq!(robot.steps(), 2);
+    }
 
     #[test]
     fn a_run_ends_as_its_system_says_or_at_its_limit_and_the_robot_stands_still() {

@@ -131,6 +131,18 @@ impl FloorPlan {
         self.stroke("trajectory", Some("4 3"), positions, series);
     }
 
+    /// Adds many straight lines as one element; dashed for what is doubtful.
+    pub fn segments(&mut self, segments: &[[Point; 2]], dashed: bool, series: Series) {
+        let lines = segments
+            .iter()
+            .map(|ends| line(ends.map(|end| self.at(end))));
+        let path: String = lines.collect();
+        let dashes = dashed.then_some("4 3");
+        self.layers.push(html! {
+            path class={ "edge " (series.class()) } stroke-dasharray=[dashes] d=(path) {}
+        });
+    }
+
     fn stroke(&mut self, class: &str, dashes: Option<&str>, positions: &[Point], series: Series) {
         let path = self.path(positions);
         self.layers.push(html! {

@@ -1,6 +1,8 @@
 //! Values over two parameters.
 
-use maud::html;
+use core::fmt::Write;
+
+use maud::{Markup, html};
 
 use super::number::tenths;
 use super::words;
@@ -8,6 +10,12 @@ use super::{Drawing, Shade};
 
 const CELL_HEIGHT: f64 = 30.0;
 const LEAST_CELL_WIDTH: f64 = 46.0;
+
+/// How far the lines of a hatching lie apart.
+const HATCH: f64 = 5.0;
+
+/// What is written in a cell that is hatched all over.
+const NONE: &str = "–";
 
 /// A table of values as a picture: one parameter across, another down, each value written in its cell and
 /// shown by the depth of its colour.
@@ -23,6 +31,7 @@ const LEAST_CELL_WIDTH: f64 = 46.0;
 ///     rows: vec!["36".into(), "72".into()],
 ///     shade: Shade::of("success %", success.concat()),
 ///     values: success,
+///     hatching: None,
 /// };
 /// let drawing = map.drawing("Success by width and beams.");
 /// # assert!(drawing.body.into_string().contains(">72<"));
@@ -41,6 +50,58 @@ pub struct HeatMap {
     pub values: Vec<Vec<f64>>,
     /// How values become colours.
     pub shade: Shade,
+    /// What part of a cell is hatched, if any is.
+    pub hatching: Option<Hatching>,
+}
+
+/// Parts of the cells of a [`HeatMap`] that are hatched: the share of what a value is of that is of another kind than all else.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hatching {
+    /// What a hatched part stands for, in a few words.
+    pub title: String,
+    /// By row and column, 0 … 1. A cell that is hatched all over shows a dash for its value.
+    pub shares: Vec<Vec<f64>>,
+}
+
+impl Hatching {
+    fn share(&self, row: usize, column: usize) -> f64 {
+        let share = self.shares.get(row).and_then(|row| row.get(column));
+        share.copied().unwrap_or(0.0).clamp(0.0, 1.0)
+    }
+
+    /// The width of [`Self::legend`].
+    fn width(&self) -> f64 {
+        40.0 + words::width(&self.title)
+    }
+
+    fn legend(&self, x: f64, y: f64) -> Markup {
+        html! {
+            path class="hatch" d=(hatch([x, y], [22.0, 10.0])) {}
+            text class="quiet" x=(tenths(x + 30.0)) y=(tenths(y + 8.0)) { (self.title) }
+        }
+    }
+}
+
+/// Slanted lines in a rectangle, and its outline, as the data of a path. It needs no pattern, whose name would be known to the whole page.
+fn hatch([x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
+    let mut path = format!(
+        "M{} {}h{}v{}h{}z",
+        tenths(x),
+        tenths(y),
+        tenths(width),
+        tenths(height),
+        tenths(-width)
+    );
+    let mut foot = HATCH;
+    while foot < width + height {
+        // From the lower or right edge up to the left or upper one.
+        let low = (foot - width).max(0.0);
+        let high = foot.min(height);
+        let line = [x + foot - low, y + low, x + foot - high, y + high].map(tenths);
+        let _ = write!(path, "M{} {}L{} {}", line[0], line[1], line[2], line[3]);
+        foot += HATCH;
+    }
+    path
 }
 
 impl HeatMap {
@@ -60,11 +121,17 @@ impl HeatMap {
         let (columns, rows) = (self.columns.len() as f64, self.rows.len() as f64);
         let bottom = top + rows * CELL_HEIGHT;
         let legend = 140.0 + words::width(&self.shade.title);
+        let hatched = self.hatching.as_ref().map_or(0.0, Hatching::width);
+        let share = |row: usize, column: usize| {
+            let hatching = self.hatching.as_ref();
+            hatching.map_or(0.0, |hatching| hatching.share(row, column))
+        };
         let cells = self.rows.iter().enumerate().flat_map(|(row, _)| {
             let value = move |column: usize| self.values.get(row)?.get(column).copied();
             let columns = (0..self.columns.len()).map(move |column| (column, value(column)));
             columns.filter_map(move |(column, value)| {
-                Some((row as f64, column as f64, value.filter(|v| v.is_finite())?))
+                let value = value.filter(|v| v.is_finite())?;
+                Some((row as f64, column as f64, value, share(row, column)))
             })
         });
         let body = html! {
@@ -79,20 +146,30 @@ impl HeatMap {
                     text-anchor="end" dominant-baseline="central" { (row) }
             }
             g class=(self.shade.series.class()) {
-                @for (row, column, value) in cells {
+                @for (row, column, value, hatched) in cells {
                     @let (x, y) = (left + column * cell, top + row * CELL_HEIGHT);
-                    rect class="heat" fill-opacity=(self.shade.opacity(value))
-                        x=(tenths(x + 1.0)) y=(tenths(y + 1.0)) rx="3"
-                        width=(tenths(cell - 2.0)) height=(tenths(CELL_HEIGHT - 2.0)) {}
+                    @let (width, height) = (cell - 2.0, CELL_HEIGHT - 2.0);
+                    // Hatched from the right, so that what is left is as wide as its share.
+                    @let rest = width * (1.0 - hatched);
+                    @if rest > 0.0 {
+                        rect class="heat" fill-opacity=(self.shade.opacity(value))
+                            x=(tenths(x + 1.0)) y=(tenths(y + 1.0)) rx="3"
+                            width=(tenths(rest)) height=(tenths(height)) {}
+                    }
+                    @if hatched > 0.0 {
+                        path class="hatch" d=(hatch([x + 1.0 + rest, y + 1.0], [width - rest, height])) {}
+                    }
+                    @let text = if rest > 0.0 { self.shade.text(value) } else { NONE.to_owned() };
                     text class=(self.shade.text_class(value)) text-anchor="middle"
                         dominant-baseline="central" x=(tenths(x + 0.5 * cell))
-                        y=(tenths(y + 0.5 * CELL_HEIGHT)) { (self.shade.text(value)) }
+                        y=(tenths(y + 0.5 * CELL_HEIGHT)) { (text) }
                 }
             }
             (self.shade.legend(left, bottom + 10.0))
+            @if let Some(hatching) = &self.hatching { (hatching.legend(left + legend + 16.0, bottom + 10.0)) }
         };
         Drawing {
-            width: left + (columns * cell).max(legend),
+            width: left + (columns * cell).max(legend + hatched),
             height: bottom + 10.0 + Shade::LEGEND,
             description: description.into(),
             body,
@@ -113,6 +190,7 @@ mod tests {
             rows: vec!["p".into(), "q".into()],
             values: vec![vec![1.0, f64::NAN, 3.0], vec![5.0]],
             shade: Shade::new("v", 1.0, 5.0),
+            hatching: None,
         };
         let drawing = map.drawing("a test");
         let svg = drawing.body.into_string();
@@ -128,5 +206,45 @@ mod tests {
             assert!(svg.contains(&place), "{place} in {svg}");
         }
         assert!(roxmltree::Document::parse(&format!("<g>{svg}</g>")).is_ok());
+    }
+
+    #[test]
+    fn what_is_hatched_is_told_from_a_value_of_nothing() {
+        let map = HeatMap {
+            across: "x".into(),
+            columns: vec!["1".into(), "2".into(), "3".into()],
+            down: "y".into(),
+            rows: vec!["p".into()],
+            values: vec![vec![0.0, 0.0, 50.0]],
+            shade: Shade::new("v", 0.0, 100.0),
+            hatching: Some(Hatching {
+                title: "not tried".into(),
+                shares: vec![vec![0.0, 1.0, 0.5]],
+            }),
+        };
+        let svg = map.drawing("a test").body.into_string();
+        // The cells that are not hatched all over, those that are in part, and the legend.
+        assert_eq!(svg.matches("rx=\"3\"").count(), 2);
+        assert_eq!(svg.matches("class=\"hatch\"").count(), 3);
+        assert!(svg.contains(">–<") && svg.contains(">not tried<"), "{svg}");
+        assert_eq!(
+            svg.matches(">0<").count(),
+            2,
+            "a cell and the end of the shades"
+        );
+        assert!(roxmltree::Document::parse(&format!("<g>{svg}</g>")).is_ok());
+    }
+
+    #[test]
+    fn lines_of_a_hatching_stay_in_their_rectangle() {
+        let path = hatch([10.0, 20.0], [12.0, 7.0]);
+        for line in path.split('M').skip(2) {
+            let numbers = line.split(['L', ' ']).map(|n| n.parse::<f64>().unwrap());
+            let numbers: Vec<f64> = numbers.collect();
+            for point in numbers.chunks(2) {
+                assert!((10.0..=22.0).contains(&point[0]), "{path}");
+                assert!((20.0..=27.0).contains(&point[1]), "{path}");
+            }
+        }
     }
 }

@@ -18,6 +18,7 @@
 //! | scans, as seen from the robot | [`PolarPlot`] |
 //! | pixels | [`Image`] |
 //! | many small pictures with captions | [`Tiles`] |
+//! | figures and tables on a page of their own | [`Page`] |
 //!
 //! `cargo run -p tolman-papers --example pictures > pictures.html` draws one of each.
 //!
@@ -47,6 +48,7 @@ mod graph_picture;
 mod heatmap;
 mod image;
 mod number;
+mod page;
 mod polar;
 mod region;
 mod scale;
@@ -61,8 +63,9 @@ pub use chart::{Axis, Chart, Line, LinePoint, Points};
 pub use figure::{Drawing, Figure, style};
 pub use floor_plan::{FloorPlan, ZoneStyle};
 pub use graph_picture::{EdgeLine, GraphEdge, GraphNode, GraphPicture, NodeMark};
-pub use heatmap::HeatMap;
+pub use heatmap::{Hatching, HeatMap};
 pub use image::{Image, ImageError};
+pub use page::{Page, PageTable};
 pub use polar::PolarPlot;
 pub use region::Region;
 pub use series::Series;

@@ -169,7 +169,11 @@ fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> Me
     };
     let others = metric.statistic.other_row();
     let others = others.map_or_else(Vec::new, |of| runs_of(of));
-    let by_row: Vec<Vec<&Run>> = table.rows.iter().map(|row| runs_of(&row.name)).collect();
+    let by_row = table.rows.iter().map(|row| match row.is_pooled {
+        true => runs.iter().filter(|run| run.table == table.name).collect(),
+        false => runs_of(&row.name),
+    });
+    let by_row: Vec<Vec<&Run>> = by_row.collect();
     let mut samples = Vec::new();
     for (row, runs) in table.rows.iter().zip(&by_row) {
         if let Some(sample) = Sample::of(&metric.statistic, runs, &others, &by_row) {

@@ -10,8 +10,20 @@ use super::{Error, Experiment, Job, Progress, Run};
 /// others are a small part of the time and would be most of the page.
 const FIRST: u32 = 25;
 
-/// So many bytes of replays fit on a page that is to stay below 5 MB with its tables and figures.
-const BUDGET: usize = 4_250_000;
+/// The most bytes that all replays of a page may take.
+const MOST: usize = 4_250_000;
+
+/// The bytes that a page with all its tables, figures and replays stays below.
+const PAGE: usize = 5_000_000;
+
+/// The bytes that a page spends on a replay beside the replay itself, at most.
+const TAG: usize = 400;
+
+/// Returns the bytes that are left for replays on a page that takes `page` bytes without them.
+pub(super) fn budget(page: usize) -> usize {
+    let player = tolman_replay::style().len() + tolman_replay::script().len();
+    PAGE.saturating_sub(page + player).min(MOST)
+}
 
 /// Replays of the first runs of each row.
 #[derive(Clone, Debug, Default)]
@@ -39,18 +51,26 @@ pub struct Recorded {
     pub json: String,
 }
 
+impl Recorded {
+    /// Returns the bytes that it takes on a page, at most.
+    const fn bytes(&self) -> usize {
+        self.json.len() + TAG
+    }
+}
+
 /// Records the first runs of each row, in parallel on the current threads, up to [`FIRST`], as long as their replays fit
-/// the budget; where no room is left for a run as large as those before, none is played in vain. `None` if the caller
+/// `budget` bytes; where no room is left for a run as large as those before, none is played in vain. `None` if the caller
 /// asked to stop.
 pub(super) fn record(
     experiment: &Experiment,
     runs: &[Run],
     master_seed: u64,
     runs_per_row: u32,
+    budget: usize,
     progress: &dyn Progress,
 ) -> Result<Option<Replays>, Error> {
     let mut replays = Replays {
-        budget: BUDGET,
+        budget,
         ..Replays::default()
     };
     let shown = experiment
@@ -66,7 +86,7 @@ pub(super) fn record(
     let most = runs_per_row.min(FIRST);
     let (mut done, mut bytes) = (0, 0);
     while done < most {
-        let runs = match room(done, bytes).min(most - done) {
+        let runs = match room(done, bytes, budget).min(most - done) {
             0 => break,
             count => done..done + count,
         };
@@ -90,8 +110,8 @@ pub(super) fn record(
             .extend(recorded.iter().map(|one| one.table.clone()));
         for run in runs {
             let of_run = || recorded.iter().filter(move |one| one.run == run);
-            bytes += of_run().map(|one| one.json.len()).sum::<usize>();
-            if bytes > BUDGET || replays.tables.is_empty() {
+            bytes += of_run().map(Recorded::bytes).sum::<usize>();
+            if bytes > budget || replays.tables.is_empty() {
                 return Ok(Some(replays));
             }
             replays.recorded.extend(of_run().cloned());
@@ -122,8 +142,8 @@ fn record_shown(
     let mut bytes = 0;
     for one in recorded.into_iter().flatten() {
         replays.tables.insert(one.table.clone());
-        if bytes + one.json.len() <= BUDGET {
-            bytes += one.json.len();
+        if bytes + one.bytes() <= replays.budget {
+            bytes += one.bytes();
             replays.recorded.push(one);
         }
     }
@@ -131,12 +151,12 @@ fn record_shown(
 }
 
 /// How many more runs of each row are likely to fit, if `done` of them took so many bytes; the first is always tried.
-fn room(done: u32, bytes: usize) -> u32 {
+fn room(done: u32, bytes: usize, budget: usize) -> u32 {
     match done {
         0 => 1,
         _ => {
             let each = (bytes / done as usize).max(1);
-            u32::try_from((BUDGET - bytes) / each).unwrap_or(u32::MAX)
+            u32::try_from(budget.saturating_sub(bytes) / each).unwrap_or(u32::MAX)
         }
     }
 }
@@ -162,4 +182,17 @@ fn record_one(experiment: &Experiment, job: &Job<'_>) -> Result<Option<Recorded>
         run: job.run,
         json,
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_has_as_much_room_for_replays_as_its_tables_leave() {
+        assert_eq!(budget(0), MOST);
+        let left = budget(1_400_000);
+        assert!(left < MOST && left + 1_400_000 < PAGE);
+        assert_eq!(budget(PAGE), 0);
+    }
 }

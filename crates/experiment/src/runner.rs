@@ -128,13 +128,11 @@ pub fn execute(
     check::figures(experiment, &figures)?;
     folder.write_figures(&figures)?;
     progress.event(&ProgressEvent::Recording);
-    let record = || replays::record(experiment, &runs, options.seed, runs_per_row, progress);
-    let replays = threads.install(record)?.ok_or_else(|| interrupted(total))?;
-    let outcome = ExperimentOutcome {
+    let mut outcome = ExperimentOutcome {
         entry: experiment.entry,
         skipped: experiment.skipped.clone(),
-        folder: path,
-        command: config.command,
+        folder: path.clone(),
+        command: config.command.clone(),
         seed: options.seed,
         runs_per_row,
         jobs: thread_count,
@@ -145,8 +143,15 @@ pub fn execute(
         analysis,
         summary,
         figures,
-        replays,
+        replays: Replays::default(),
     };
+    let budget = replays::budget(report::html(&outcome).len());
+    let record = || {
+        let (runs, seed) = (&outcome.runs, options.seed);
+        replays::record(experiment, runs, seed, runs_per_row, budget, progress)
+    };
+    let replays = threads.install(record)?.ok_or_else(|| interrupted(total))?;
+    outcome.replays = replays;
     folder.write("report.html", &report::html(&outcome))?;
     Ok(outcome)
 }

@@ -41,6 +41,7 @@ pub(super) enum Centre {
     Quantile(f64),
     Least,
     Greatest,
+    Total,
 }
 
 /// 1 − the mean squared error over the variance of what came about.
@@ -87,6 +88,7 @@ impl<'a> Sample<'a> {
             Statistic::Median(field) => numbers(field, Centre::Median),
             Statistic::Least(field) => numbers(field, Centre::Least),
             Statistic::Greatest(field) => numbers(field, Centre::Greatest),
+            Statistic::Total(field) => numbers(field, Centre::Total),
             Statistic::Quantile { field, share } => numbers(field, Centre::Quantile(*share)),
             Statistic::Ratio { over, under } => {
                 let pairs = runs.filter_map(|run| pair(run, over, run, under));
@@ -142,7 +144,7 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// The value: part of a whole, mean, median, quantile, least, greatest, ratio of sums or of spreads, or when the mean curve settles; and whether what
+    /// The value: part of a whole, mean, median, quantile, least, greatest, sum, ratio of sums or of spreads, or when the mean curve settles; and whether what
     /// the metric waits for came about, always where it waits for nothing.
     pub(super) fn value(&self) -> (f64, Reached) {
         let value = match self {
@@ -156,6 +158,7 @@ impl<'a> Sample<'a> {
                 }
                 Centre::Least => numbers.iter().copied().fold(f64::INFINITY, f64::min),
                 Centre::Greatest => numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+                Centre::Total => numbers.iter().sum(),
             },
             Self::Pairs(pairs) => ratio_of_sums(pairs),
             // Without a spread to divide by there is no sample.
@@ -185,11 +188,11 @@ impl<'a> Sample<'a> {
         tolman_stats::quantile(self.spread()?, 0.5).ok()
     }
 
-    /// The numbers whose spread says something of the value, which it does not of the least and the greatest.
+    /// The numbers whose spread says something of the value, which it does not of the least, the greatest and the sum.
     fn spread(&self) -> Option<&[f64]> {
         match self {
             Self::Numbers {
-                centre: Centre::Quantile(_) | Centre::Least | Centre::Greatest,
+                centre: Centre::Quantile(_) | Centre::Least | Centre::Greatest | Centre::Total,
                 ..
             } => None,
             Self::Numbers { numbers, .. } => Some(numbers),
@@ -214,7 +217,9 @@ impl<'a> Sample<'a> {
             Self::Numbers { numbers, centre } => match centre {
                 Centre::Mean => tolman_stats::bca_interval(numbers, mean, RESAMPLES, LEVEL, rng),
                 Centre::Median => tolman_stats::median_interval(numbers, LEVEL),
-                Centre::Quantile(_) | Centre::Least | Centre::Greatest => return None,
+                Centre::Quantile(_) | Centre::Least | Centre::Greatest | Centre::Total => {
+                    return None;
+                }
             },
             Self::Spreads(_) | Self::Forecasts(_) => return None,
             Self::Pairs(pairs) => {

@@ -246,6 +246,8 @@ pub struct Row {
     pub own: bool,
     /// Which files its runs need that are not here, and where they come from; `None` if all is here.
     pub missing: Option<String>,
+    /// Whether it has no runs of its own, but those of all other rows.
+    pub(super) is_pooled: bool,
 }
 
 impl Row {
@@ -259,6 +261,15 @@ impl Row {
             paper_runs: None,
             own: false,
             missing: None,
+            is_pooled: false,
+        }
+    }
+
+    /// A row of the runs of all other rows. A run without a metric's field is left out.
+    pub fn of_all(name: impl Into<String>) -> Self {
+        Self {
+            is_pooled: true,
+            ..Self::new(name).runs(0)
         }
     }
 
@@ -456,6 +467,12 @@ impl Metric {
         Self::new(name, Statistic::Greatest(field.into()))
     }
 
+    /// The sum over all runs of the numeric field that bears the metric's name.
+    pub fn total(name: impl Into<String>) -> Self {
+        let field = name.into();
+        Self::new(field.clone(), Statistic::Total(field)).decimals(0)
+    }
+
     /// The percentage of runs in which the flag named `field` is set.
     pub fn percent(name: impl Into<String>, field: impl Into<String>) -> Self {
         let metric = Self::new(name, Statistic::Percent(field.into()));
@@ -599,6 +616,8 @@ pub enum Statistic {
     Least(String),
     /// The greatest of a numeric field, of which no interval is told.
     Greatest(String),
+    /// The sum of a numeric field, of which no interval is told.
+    Total(String),
     /// `whole` × the share of runs whose flag is set.
     Count {
         /// A field of [`Kind::Flag`](crate::Kind::Flag).
@@ -649,6 +668,7 @@ impl Statistic {
             | Self::Median(field)
             | Self::Least(field)
             | Self::Greatest(field)
+            | Self::Total(field)
             | Self::Quantile { field, .. }
             | Self::Multiple { field, .. } => vec![(field, NUMERIC)],
             Self::Ratio { over, under } | Self::RatioOfSpreads { over, under } => {

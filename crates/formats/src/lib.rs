@@ -1,7 +1,8 @@
 //! Other people's files, read into plain structs.
 //!
 //! [`RosMap`] is an occupancy grid as `map_server` of ROS writes it: a YAML file with the grid's scale and place, and a PGM
-//! picture beside it. [`RosMapHeader`] and [`GreyMap`] are the two files by themselves.
+//! picture beside it. [`RosMapHeader`] and [`GreyMap`] are the two files by themselves. [`G2o`] is a pose graph in the plane, read
+//! and written.
 //!
 //! [`CarmenReader`] reads logs of robots; what cannot be used of them stands in a [`LogReport`]. [`ReadTrajectory`] and [`tum`] are ways in
 //! time, [`ReadRelations`] what is known of them. [`dot`], [`graphml`], [`node_link_json`] and [`route_geojson`] write maps of places.
@@ -27,6 +28,7 @@ pub use tolman_robot as robot;
 
 mod carmen;
 mod fields;
+mod g2o;
 mod graph;
 mod log;
 mod ros_map;
@@ -38,6 +40,7 @@ pub use log::{
     KindCount, LogEntry, LogError, LogOdometry, LogReport, LogScan, LogTrouble, TroubleCount,
 };
 
+pub use g2o::{G2o, G2oEdge, G2oError, G2oFault, G2oFaultKind, G2oPose};
 pub use ros_map::{
     GreyMap, GreyMapError, MapCell, RosMap, RosMapError, RosMapHeader, RosMapHeaderError,
 };

@@ -58,6 +58,7 @@ mod map;
 mod map_file;
 mod mapper;
 mod matching;
+mod merge_certificate;
 mod observation;
 mod observer;
 mod opportunities;
@@ -67,6 +68,7 @@ mod projector;
 mod reference_graph;
 mod report;
 mod restructuring;
+mod self_check;
 mod signature;
 mod track;
 mod updater;
@@ -89,6 +91,10 @@ pub use map::{Diktiometry, DrawnPlace, Flaw};
 #[cfg(feature = "serde")]
 pub use map_file::{MapFile, MapFileError};
 pub use matching::Matcher;
+pub use merge_certificate::{
+    CertifiedMerges, JournalSpan, LookEvidence, LookPair, MergeCertificate, MergeCertificateError,
+    MergeProof, certify_merges, verify_merges,
+};
 pub use observation::{Exits, FirstPlace, MoveOutcome, ObservedMove};
 pub use observer::Observer;
 pub use opportunities::{Opportunity, OpportunityKind};
@@ -100,6 +106,7 @@ pub use reference_graph::{Excluded, Frame, ReferenceGraph, Relation};
 pub use report::{
     Contradiction, Culprit, PlanStep, Predicted, Restructured, StepReport, TrackReport,
 };
+pub use self_check::{MapState, SelfCheck};
 pub use signature::{Signature, SignatureError};
 pub use track::{Track, TrackEntry};
 
@@ -107,7 +114,7 @@ use counts::Expected;
 use estimator::{Rank, trusted_odometry};
 use indexing::{Candidate, Expectation, ViewIndex, expected, moved, plies};
 use looks::Similarity;
-use matching::{Choice, Situation, agrees, choose, remember, share_a_view, similarity};
+use matching::{Choice, Situation, agrees, alike, choose, remember, share_a_view, similarity};
 use opportunities::steps_along;
 use projector::Projection;
 use reference_graph::{Reached, search};

@@ -7,6 +7,7 @@
 //! - [`place_map`]: places as prototypes of what was seen, heard and rolled there.
 //! - [`place_graph`]: places and where they lie, learned while they correct the robot's pose.
 //! - [`pose_graph`]: poses joined by what was measured between them, made to agree.
+//! - [`audit`]: which closures of a pose graph are right, as far as its odometry and its other closures tell.
 //! - [`scan_map`]: places and walls learned from scans, each place once, and where on them a robot may stand.
 //! - [`scan_matching`]: the robot's way by scans matched to those before, and by places seen again.
 //! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the next.
@@ -31,6 +32,8 @@ pub use tolman_quantizers as quantizers;
 #[cfg(feature = "alloc")]
 pub use tolman_robot as robot;
 
+#[cfg(feature = "alloc")]
+pub mod audit;
 #[cfg(feature = "alloc")]
 pub mod cpm;
 #[cfg(feature = "alloc")]

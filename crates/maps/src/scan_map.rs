@@ -5,22 +5,30 @@
 //! 1. A [`ScanMap`] takes in [how far](Advance) the robot came and what it sees there. It fits the scan to the walls that it knows and so
 //!    corrects the position; then it draws the walls that are new on a [`WallGrid`], and finds the place or adds it.
 //! 2. [`Clearings`] say where the robot can stand and has not been: [where the map has gaps](WayToGap).
-//! 3. [`Standpoints`] are a lattice of positions on the finished map, with what is seen from each.
-//! 4. A [`StandpointBelief`] is what a robot that was put down somewhere believes of where it is.
+//! 3. A [`ScanChart`] is what is left when nothing more is learned: the [ground](GroundPlan), two bits a cell, the places and the links. A file holds its
+//!    [parts](ChartParts).
+//! 4. [`Standpoints`] are a lattice of positions on it; they say what is seen from each.
+//! 5. A [`StandpointBelief`] is what a robot that was put down somewhere believes of where it is.
 //!
 //! The frame's axes are the compass's. Positions are in metres from where the robot was put down.
 
 mod belief;
+mod chart;
 mod clearings;
 mod config;
 mod fit;
+mod ground_plan;
 mod map;
+mod ranked_bits;
+mod rays;
 mod standpoints;
 mod wall_grid;
 
 pub use belief::StandpointBelief;
+pub use chart::{ChartError, ChartParts, ScanChart};
 pub use clearings::{Clearings, WayToGap};
 pub use config::ScanMapConfig;
+pub use ground_plan::{Ground, GroundPlan};
 pub use map::{Advance, ScanMap, ScanPlace};
-pub use standpoints::Standpoints;
-pub use wall_grid::{GridRange, WallGrid};
+pub use standpoints::{StandpointViews, Standpoints};
+pub use wall_grid::WallGrid;

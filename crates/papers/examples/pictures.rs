@@ -267,6 +267,7 @@ fn sweep() -> Figure {
         rows: (1..6).map(|i| (25 * i).to_string()).collect(),
         shade: Shade::of("success %", values.concat()),
         values,
+        hatching: None,
     };
     Figure::new(
         "sweep",

@@ -3,7 +3,7 @@
 //! [`catalogue`] lists them as the experiments that `tolman experiment` knows. What a map or a run looks
 //! like is drawn in the folder of its paper: [`mslst::drawing`], [`cpm::drawing`],
 //! [`diktiometry::drawing`]; [`Recorder`] makes the replay of a run, [`Film`] that of any outing, [`plan_of_course`] the plan it is drawn over.
-//! [`data`] finds what other people measured, [`real`] reads their logs.
+//! [`data`] finds what other people measured, [`real`] reads their logs and graphs.
 
 extern crate alloc;
 

@@ -43,6 +43,12 @@ impl Decisions {
         });
     }
 
+    /// Returns how many actions there are in each state.
+    #[must_use]
+    pub const fn actions(&self) -> usize {
+        self.actions
+    }
+
     /// Returns how many states there are.
     #[must_use]
     pub fn len(&self) -> usize {

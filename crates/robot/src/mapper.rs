@@ -44,6 +44,12 @@ pub trait Mapper {
     fn certainty(&self) -> Option<f64> {
         None
     }
+
+    /// Returns how many bytes its map takes: places, links and all that they hold, by their number and size. What it was learned
+    /// from (journals, records), what follows from it, and memory kept free do not count. `None` if it does not say. O(map).
+    fn map_bytes(&self) -> Option<usize> {
+        None
+    }
 }
 
 impl<M: Mapper + ?Sized> Mapper for &mut M {
@@ -68,6 +74,10 @@ impl<M: Mapper + ?Sized> Mapper for &mut M {
 
     fn certainty(&self) -> Option<f64> {
         (**self).certainty()
+    }
+
+    fn map_bytes(&self) -> Option<usize> {
+        (**self).map_bytes()
     }
 }
 

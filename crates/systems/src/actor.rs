@@ -183,6 +183,10 @@ impl<B: Brain> Mapper for Actor<B> {
     fn belief(&self) -> Vec<Guess> {
         self.brain.belief()
     }
+
+    fn map_bytes(&self) -> Option<usize> {
+        self.brain.map_bytes()
+    }
 }
 
 impl<B, R> System<R> for Actor<B>

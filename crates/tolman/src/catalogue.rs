@@ -2,7 +2,7 @@ use tolman_experiment::Entry;
 
 use crate::Family;
 use crate::system::SystemEntry;
-use crate::systems::{CpmEntry, DiktiometryEntry, GngSlamEntry, MslstEntry};
+use crate::systems::{CpmEntry, DiktiometryEntry, GngSlamEntry, MslstBetterEntry, MslstEntry};
 
 /// What the command knows by name.
 #[derive(Clone, Debug)]
@@ -24,7 +24,13 @@ impl Catalogue {
     pub fn tolman() -> Self {
         Self {
             program: "tolman",
-            systems: vec![&MslstEntry, &CpmEntry, &DiktiometryEntry, &GngSlamEntry],
+            systems: vec![
+                &MslstEntry,
+                &MslstBetterEntry,
+                &CpmEntry,
+                &DiktiometryEntry,
+                &GngSlamEntry,
+            ],
             families: Family::all(),
             experiments: tolman_papers::catalogue().to_vec(),
         }

@@ -14,7 +14,6 @@ use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
 use tolman_systems::gngslam::{OfflineSlam, OfflineSlamConfig, OnlineSlam, OnlineSlamConfig};
 use tolman_systems::micromouse::SIDE;
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
-use tolman_systems::mslst::better::BetterConfig;
 use tolman_systems::mslst::{BetterMslst, Mslst, MslstConfig};
 
 use super::condition::Condition;
@@ -27,6 +26,7 @@ use crate::cpm::{self, epuck, epuck_course, patience, ring_measures, walker_conf
 use crate::diktiometry::{Office, OfficeConfig, PlaceCue, SurveyorConfig, mapper, office_robot};
 use crate::episode::layers;
 use crate::micromouse::brief;
+use crate::mslst::better_config;
 use crate::pioneer::{
     CAMERA_PIONEER, CORRIDOR_WIDTH, ENCODER_SD, LASER_PIONEER, body, calibrated, with_sensor_noise,
 };
@@ -93,8 +93,8 @@ const LESSON: usize = 300;
 /// How many colours the walls have where a camera looks at them.
 const COLOURS: u32 = 8;
 
-/// Time steps of a run at most, whatever becomes of it.
-const STEP_LIMIT: u32 = 100_000_000;
+/// Time steps until a contest [allows](Outing::allow) others.
+const NO_STEPS: u32 = 0;
 
 /// From wall to wall where a robot keeps away from what is near, as GNG-SLAM's does, m.
 const WIDE: f64 = 1.5;
@@ -149,6 +149,12 @@ impl Contestant {
         let slug = |name: &str| name.to_lowercase().replace(' ', "-");
         let mut all = Self::ALL.into_iter();
         all.find(|contestant| slug(contestant.name()) == slug(name))
+    }
+
+    /// Returns whether it learns a map: all but the baselines do.
+    #[must_use]
+    pub const fn learns(self) -> bool {
+        !matches!(self, Self::Baseline(_))
     }
 
     /// Returns the name of the robot that it drives.
@@ -276,11 +282,7 @@ impl Contestant {
                     ContestRobot::Own => with_sensor_noise(&calibrated(), ENCODER_SD),
                     ContestRobot::Pioneer => calibrated(),
                 };
-                let config = BetterConfig {
-                    diameter: 2.0 * robot.radius,
-                    corridor_width: course.corridor_width,
-                    ..BetterConfig::pioneer()
-                };
+                let config = better_config(course.corridor_width, &robot);
                 let stack = layers(&course, &robot)?;
                 let brain = BetterMslst::new(config, robot.ring);
                 let actor = Actor::seeded(brain, stack, seed);
@@ -349,13 +351,14 @@ impl Contestant {
         R: cpm_robot::Any + HasSimulated + 'static,
     {
         let mode = match self {
-            Self::Cpm => Mode::Paper(CpmConfig::online()),
+            // It cannot tell that its map grows without end: who sends it does.
+            Self::Cpm => Mode::Paper(CpmConfig {
+                most_traversals: patience(maze),
+                ..CpmConfig::online()
+            }),
             _ => Mode::Reckoned(CpmConfig::robust()),
         };
-        let config = CpmConfig {
-            most_traversals: patience(maze),
-            ..mode.config()
-        };
+        let config = mode.config();
         let walker = WalkerConfig {
             heading: mode.heading(),
             ..walker
@@ -450,7 +453,7 @@ where
     R: tolman_robot::SensesLandmarks + HasSimulated + 'static,
     S: tolman_robot::System<crate::run::Limited<R>, Failure: Into<BoxError>> + 'static,
 {
-    let outing = Box::new(Sent::new(course, robot, STEP_LIMIT, system));
+    let outing = Box::new(Sent::new(course, robot, NO_STEPS, system));
     Entered { outing, pitch }
 }
 

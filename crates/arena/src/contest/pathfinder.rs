@@ -55,6 +55,10 @@ impl<E> Mapper for Pathfinder<E> {
     fn visits(&self) -> Vec<Option<u32>> {
         self.learner.visits()
     }
+
+    fn map_bytes(&self) -> Option<usize> {
+        self.learner.map_bytes()
+    }
 }
 
 impl<R, E> System<R> for Pathfinder<E>

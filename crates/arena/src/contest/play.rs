@@ -1,6 +1,7 @@
 use alloc::borrow::Cow;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::sync::Arc;
+use core::time::Duration;
 
 use rand::{Rng, RngExt};
 use thiserror::Error;
@@ -19,7 +20,7 @@ use super::true_graph::TrueGraph;
 use super::wanderers::Sender;
 use super::whereabouts::{PlaceVisit, Squares, believed};
 use crate::course::Course;
-use crate::run::TaskEnd;
+use crate::run::{Stopwatch, TaskEnd};
 use crate::{BoxError, Outing};
 
 /// A contestant in a world.
@@ -39,6 +40,8 @@ pub struct Contest<'a> {
     pub starts: u32,
     /// The seed of all chance.
     pub seed: u64,
+    /// What measures how long the contestant thinks; `None` if nobody asks. Nothing else depends on it.
+    pub stopwatch: Option<Stopwatch>,
 }
 
 /// Why a contest cannot be held. That a system fails is a result, and no error.
@@ -112,6 +115,10 @@ pub struct LearnRecord {
     pub bumps: u32,
     /// Places of its map.
     pub places: usize,
+    /// Bytes of its map; `None` if it does not say.
+    pub map_bytes: Option<usize>,
+    /// How long it thought, the simulator aside, where that was measured.
+    pub thinking: Option<Duration>,
 }
 
 /// What a system makes of its own map.
@@ -145,6 +152,20 @@ impl LearnRecord {
             Claim::Wrong => 0.0,
             Claim::Undecided => 0.5,
         }
+    }
+
+    /// Returns the bytes of its map for each place; `None` of a map without places, and where it does not say.
+    #[must_use]
+    pub fn bytes_per_place(&self) -> Option<f64> {
+        let bytes = self.map_bytes.filter(|_| self.places > 0)?;
+        Some(bytes as f64 / self.places as f64)
+    }
+
+    /// Returns how long it thought for each time step, µs, the simulator aside; `None` where nobody measured it.
+    #[must_use]
+    pub fn us_per_step(&self) -> Option<f64> {
+        let thinking = self.thinking.filter(|_| self.steps > 0)?;
+        Some(1e6 * thinking.as_secs_f64() / f64::from(self.steps))
     }
 }
 
@@ -233,8 +254,12 @@ impl<'a> Contest<'a> {
         let entered = contestant.enter(self, schooling);
         let entered = entered.map_err(|source| self.enter_error(source))?;
         let mut bout = Bout::new(self, entered);
+        if let Some(stopwatch) = self.stopwatch {
+            bout.outing.measure(stopwatch);
+        }
         watch(&*bout.outing, Moment::Begun);
-        let learned = bout.learn(self.kidnapping(), &mut watch);
+        let mut learned = bout.learn(self.kidnapping(), &mut watch);
+        learned.thinking = self.stopwatch.map(|_| bout.outing.thinking());
         bout.shut_door()
             .map_err(|source| self.enter_error(source))?;
         let (mut found, mut homes) = (Vec::new(), Vec::new());
@@ -422,6 +447,8 @@ impl<'a> Bout<'a> {
         let from = self.outing.path().len() - usize::from(!self.is_lifted);
         self.is_lifted = false;
         let bumped = self.outing.bumped().len();
+        let cells = self.maze.reachable().count() as u32;
+        self.outing.allow(cells.saturating_mul(STEPS_A_CELL));
         let is_sent = matches!(task, Task::Reach(_));
         let (mut driven, mut until) = (0.0, from);
         // Metres driven when it last had made a cell's way, and actions since.
@@ -455,6 +482,8 @@ impl<'a> Bout<'a> {
                 Ok(Standing::UnderWay) => {}
                 Ok(Standing::Done) => break TaskEnd::Done,
                 Ok(Standing::GaveUp { why }) => break TaskEnd::GaveUp { why },
+                // It broke off amid an action, as it had to.
+                Err(_) if self.outing.is_out_of_time() => break TaskEnd::OutOfTime,
                 Err(error) => {
                     let why = error.to_string();
                     break TaskEnd::GaveUp { why };
@@ -550,6 +579,8 @@ impl<'a> Bout<'a> {
             steps: (path.len() - 1) as u32,
             bumps: driven.bumps,
             places: map.places.len(),
+            map_bytes: self.outing.map_bytes(),
+            thinking: None,
         }
     }
 
@@ -626,6 +657,10 @@ impl<'a> Bout<'a> {
 /// A system that has not got on by a cell in so many actions is stuck, and turns on the spot for ever.
 const IDLE: u32 = 500;
 
+/// A task takes so many time steps at most for each cell, however little is driven in them: an e-puck, the slowest, makes some 1200 in a cell,
+/// and may drive ten times through all.
+const STEPS_A_CELL: u32 = 20_000;
+
 /// A robot is at a place when it is nearer to it than this, in cells.
 pub(super) const NEAR: f64 = 0.75;
 
@@ -693,6 +728,7 @@ mod tests {
             condition: Condition::AsMade,
             starts: 1,
             seed: 3,
+            stopwatch: None,
         };
         contest.play(schooling, |_, _| {}).unwrap()
     }
@@ -710,6 +746,53 @@ mod tests {
                 let again = taught(contestant, "star", robot, &schooling);
                 assert_eq!(format!("{record:?}"), format!("{again:?}"));
             }
+        }
+    }
+
+    /// Ticks a millisecond whenever it is asked.
+    fn ticking() -> Duration {
+        use core::sync::atomic::{AtomicU64, Ordering};
+        static TICKS: AtomicU64 = AtomicU64::new(0);
+        Duration::from_millis(TICKS.fetch_add(1, Ordering::Relaxed))
+    }
+
+    #[test]
+    fn what_it_costs_is_measured_and_changes_nothing() {
+        let maze = drawn("star");
+        for contestant in Contestant::ALL {
+            let contest = Contest {
+                contestant,
+                robot: ContestRobot::Own,
+                maze: &maze,
+                name: "star",
+                condition: Condition::AsMade,
+                starts: 0,
+                seed: 3,
+                stopwatch: Some(ticking),
+            };
+            if matches!(
+                contestant,
+                Contestant::Baseline(_) | Contestant::GngSlamBetter
+            ) {
+                continue;
+            }
+            let record = contest.play(&Schooling::default(), |_, _| {}).unwrap();
+            let mut learned = record.learned.unwrap();
+            let (bytes, us) = (learned.bytes_per_place(), learned.us_per_step());
+            assert!(
+                bytes.is_some_and(|bytes| bytes > 1.0),
+                "{contestant:?} {bytes:?}"
+            );
+            assert!(us.is_some_and(|us| us > 0.0), "{contestant:?} {us:?}");
+            let stopwatch = None;
+            let again = Contest {
+                stopwatch,
+                ..contest
+            }
+            .play(&Schooling::default(), |_, _| {});
+            learned.thinking = None;
+            let again = again.unwrap().learned.unwrap();
+            assert_eq!(format!("{learned:?}"), format!("{again:?}"));
         }
     }
 
@@ -782,6 +865,7 @@ mod tests {
                 condition,
                 starts: 1,
                 seed: 3,
+                stopwatch: None,
             };
             contest.play(&schooling, |_, _| {}).unwrap()
         };
@@ -816,6 +900,7 @@ mod tests {
             condition: Condition::AsMade,
             starts: 20,
             seed: 5,
+            stopwatch: None,
         };
         let starts = contest(Contestant::Mslst).put_downs();
         assert_eq!(starts, contest(Contestant::CpmBetter).put_downs());

@@ -63,7 +63,9 @@ impl SurveyConfig {
 pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     let separation = office.separation();
     let mut config = Config::new(Config::corridor_actions(), separation);
-    config.place_radius = robot.place_radius;
+    // The map is in metres of the odometry.
+    config.shared_scale = robot.shared_share;
+    config.place_radius = robot.place_radius * (1.0 + robot.shared_share);
     // Corridors follow the axes of the compass, and nobody moves a wall.
     config.apart = Apart::Side;
     config.world = WorldKind::Static;

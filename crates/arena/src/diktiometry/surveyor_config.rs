@@ -18,6 +18,14 @@ pub struct SurveyorConfig {
     /// Largest error of odometry as a share of the distance, 0 … 0.5. Paper: "about 10% of distance
     /// travelled".
     pub odometry_share: f64,
+    /// Largest error of scale that all odometry of a run shares beside that, as a share of the
+    /// distance, 0 … 0.5: a calibration that is wrong, and told to be.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub shared_share: f64,
+    /// How likely odometry is wrong by four times its bound, 0 … 1, drawn as often as other errors. The mapper
+    /// is told none of it.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub outliers: f64,
     /// Largest error of the compass, rad.
     pub compass_bound: f64,
     /// Number of time steps that an error of odometry or compass stays the same, ≥ 1. The longer,
@@ -26,6 +34,15 @@ pub struct SurveyorConfig {
     pub hold_steps: u32,
     /// Largest distance from the middle of a place at which a control routine stops, m.
     pub place_radius: f64,
+}
+
+/// How many times its bound an outlier of odometry is wrong.
+const OUTLYING: f64 = 4.0;
+
+/// Whether there is no such error; files then leave it out.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it")]
+fn is_none(error: &f64) -> bool {
+    *error <= 0.0
 }
 
 /// What a robot tells places apart by.
@@ -69,6 +86,8 @@ impl SurveyorConfig {
                 colour_sd: 0.02,
             },
             odometry_share: 0.1,
+            shared_share: 0.0,
+            outliers: 0.0,
             compass_bound: 4_f64.to_radians(),
             hold_steps: 50,
             place_radius: 0.07,
@@ -117,6 +136,20 @@ impl SurveyorConfig {
         faults.compass.push(bounded(0.0, self.compass_bound));
         let distance = bounded(self.odometry_share, 0.0);
         faults.odometry_distance.push(distance);
+        if self.shared_share > 0.0 {
+            faults.odometry_distance.push(Fault::Bounded {
+                share: self.shared_share,
+                offset: 0.0,
+                steps: u32::MAX,
+            });
+        }
+        if self.outliers > 0.0 {
+            faults.odometry_distance.push(Fault::Lapse {
+                probability: self.outliers,
+                share: OUTLYING * self.odometry_share,
+                steps: self.hold_steps,
+            });
+        }
         pioneer
     }
 

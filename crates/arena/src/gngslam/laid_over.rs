@@ -15,11 +15,19 @@ impl LaidOver {
     /// of an empty map, or if there are not as many sites as places. O(places).
     #[must_use]
     pub fn of(map: &PlaceGraph, sites: &[Point]) -> Option<Self> {
-        let places = map.poses().poses();
-        if places.is_empty() || places.len() != sites.len() {
+        let places = map.poses().poses().iter();
+        Self::of_places(places.map(|pose| pose.position), sites)
+    }
+
+    /// Does the same with any map's places, by id.
+    #[must_use]
+    pub fn of_places(
+        places: impl ExactSizeIterator<Item = Point>,
+        sites: &[Point],
+    ) -> Option<Self> {
+        if places.len() == 0 || places.len() != sites.len() {
             return None;
         }
-        let places = places.iter().map(|pose| pose.position);
         let pairs: Vec<(Point, Point)> = places.zip(sites.iter().copied()).collect();
         let world_from_map = rigid_motion(&pairs);
         let off = |(place, site): &(Point, Point)| {

@@ -33,14 +33,14 @@ pub(super) fn dialog(outcome: &ExperimentOutcome) -> Markup {
 /// Which replays the page carries, and why not all; empty if no run is recorded.
 pub(super) fn carried(outcome: &ExperimentOutcome) -> String {
     let replays = &outcome.replays;
-    let megabytes = replays.budget / 1_000_000;
+    let megabytes = replays.budget as f64 / 1e6;
     match replays.of_each_row {
         _ if replays.tables.is_empty() => String::new(),
         0 if !replays.recorded.is_empty() => {
             "This page carries the replays of the runs that say most.".to_owned()
         }
         0 => format!(
-            "This page carries no replays: the first of each row alone would take more than {megabytes} MB."
+            "This page carries no replays: the first of each row alone would take more than the {megabytes:.1} MB that are left."
         ),
         runs if runs == outcome.runs_per_row => {
             "This page carries the replay of every run.".to_owned()

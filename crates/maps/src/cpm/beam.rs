@@ -91,10 +91,15 @@ impl Beam {
             .map_or(&self.begin, |best| &best.mapper)
     }
 
-    /// How likely the likeliest map is among all that it keeps, 0 … 1.
-    pub(super) fn certainty(&self) -> f64 {
-        let odds = self.hypotheses.iter().map(|other| libm::exp(-other.cost));
-        1.0 / odds.sum::<f64>().max(1.0)
+    /// How likely the likeliest map is among all that it keeps and that can be, with places at least `apart` m apart, 0 … 1.
+    pub(super) fn certainty(&self, apart: f64) -> f64 {
+        let can_be = |other: &&Hypothesis| {
+            let Mapper { map, at } = &other.mapper;
+            map.doubt(at.junction, apart).is_none()
+        };
+        let others = self.hypotheses.iter().skip(1).filter(can_be);
+        let odds = others.map(|other| libm::exp(-other.cost));
+        1.0 / (1.0 + odds.sum::<f64>())
     }
 
     pub(super) fn best_map_mut(&mut self) -> &mut CpMap {

@@ -3,6 +3,7 @@ use thiserror::Error;
 use super::beam::{Beam, Understood};
 use super::bearings::Bearings;
 use super::config::{CpMapperConfig, Mapping};
+use super::doubt::MapDoubt;
 use super::map::{CpMap, Port};
 use super::mapper::{Comparison, Mapper};
 use super::pattern::{Dictionary, DictionaryError};
@@ -111,6 +112,9 @@ pub enum CpmError {
     Dictionary(#[from] DictionaryError),
 }
 
+/// A map that is less likely among those that explain what was met, 0 … 1, is doubtful.
+const SURE: f64 = 0.5;
+
 /// Of one junction.
 pub(super) const MOST_PORTS: u32 = 1000;
 
@@ -158,14 +162,24 @@ impl CpMapper {
         self.knowledge.mapper().at
     }
 
-    /// Returns how likely the map is among all that explain what was met, 0 … 1, by dead reckoning and what fragments look like; `None` of a
-    /// mapper that keeps one hypothesis.
+    /// Returns how likely the map is among all that explain what was met, 0 … 1, by dead reckoning and what fragments look like, in a world
+    /// whose places are at least `apart` m apart; `None` of a mapper that keeps one hypothesis. O(width · places² · ports).
     #[must_use]
-    pub fn certainty(&self) -> Option<f64> {
+    pub fn certainty(&self, apart: f64) -> Option<f64> {
         match &self.knowledge {
             Knowledge::Map(_) => None,
-            Knowledge::Beam(beam) => Some(beam.certainty()),
+            Knowledge::Beam(beam) => Some(beam.certainty(apart)),
         }
+    }
+
+    /// Returns why the map is not to be believed in a world whose places are at least `apart` m apart; `None` if nothing speaks against it,
+    /// and of a mapper that keeps one hypothesis, which cannot tell. As [`certainty`](Self::certainty).
+    #[must_use]
+    pub fn doubt(&self, apart: f64) -> Option<MapDoubt> {
+        let certainty = self.certainty(apart)?;
+        let doubt = self.map().doubt(self.at().junction, apart);
+        let percent = 100.0 * certainty;
+        doubt.or_else(|| (certainty < SURE).then_some(MapDoubt::Unsure { percent }))
     }
 
     /// How many fragments were walked to their end.

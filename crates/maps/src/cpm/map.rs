@@ -243,6 +243,22 @@ impl CpMap {
         self.junctions.iter()
     }
 
+    /// Returns how many bytes fragments and junctions take, each with its id. O(fragments + junctions).
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let fragments = self.fragments().map(|(id, fragment)| {
+            size_of_val(&id) + size_of_val(fragment) + size_of_val(fragment.patterns.as_slice())
+        });
+        let junctions = self.junctions().map(|(id, junction)| {
+            let ways = junction
+                .bearings
+                .as_ref()
+                .map_or(0, |ways| size_of_val(ways.radians()));
+            size_of_val(&id) + size_of_val(junction) + size_of_val(junction.ports.as_slice()) + ways
+        });
+        fragments.sum::<usize>() + junctions.sum::<usize>()
+    }
+
     /// A fragment; none where it was merged into another.
     #[must_use]
     pub fn fragment(&self, id: FragmentId) -> Option<&Fragment> {

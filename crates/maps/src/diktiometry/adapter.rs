@@ -84,7 +84,7 @@ impl Observer {
         }
         let earlier = track.history.iter().rev().skip(1).take(SPAN);
         for entry in earlier {
-            let way = self.between_places(entry.since + moved);
+            let way = self.config.between_places(entry.since + moved);
             let from = self.map.paths.resolve(entry.place);
             let Some(from) = from.filter(|from| *from != to && way.is_bounded()) else {
                 continue;

@@ -340,8 +340,16 @@ pub enum GeometricMerge {
     Off,
     /// As the paper has it: the union of their estims has one mode.
     Estims,
-    /// The box of their difference is so narrow that two places cannot both be in it.
+    /// The box of their difference is so narrow that two places cannot both be in it. What two places have in common, and
+    /// histories that fit both, are then no ground on their own: in a spiral whose places look alike they made one of two.
     Narrow,
+}
+
+impl GeometricMerge {
+    /// Whether path constraints alone are a ground for a merge.
+    pub(super) const fn trusts_paths(self) -> bool {
+        !matches!(self, Self::Narrow)
+    }
 }
 
 /// What is advised.

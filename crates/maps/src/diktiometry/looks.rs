@@ -2,6 +2,7 @@
 ///
 /// Beyond the paper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Looks {
     /// Looks that were unlike all that were known when they were met.
     pub kinds: u32,
@@ -14,14 +15,16 @@ pub struct Looks {
     /// Those of them whose neighbours look alike, too.
     pub repeating: u32,
     /// Places before this id were held against all that look like them.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) noted: usize,
     /// The fewest kinds of looks so far that would do for a merge where geometry knows nothing.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) least_wanted: Option<usize>,
 }
 
 impl Looks {
     /// How many kinds of looks have to agree before the chance that all of them do by chance is below `error`; `None` if there are not
-    /// as many kinds. O(kinds).
+    /// as many kinds. O(kinds²).
     ///
     /// For places whose looks have nothing to do with their neighbours', how often two look alike, p, has a beta distribution by the pairs
     /// that were seen (Jeffreys' prior), and the chance of k in a row is the mean of pᵏ. Where looks repeat, room for room, those that
@@ -30,21 +33,39 @@ impl Looks {
     /// A true place may be many places of a map that is not yet folded, whose pairs are no evidence of their own: all
     /// pairs count for as many as the kinds of looks make.
     pub(super) fn enough(&self, error: f64) -> Option<usize> {
+        (1..=self.kinds as usize).find(|agreeing| self.chance(*agreeing) < error)
+    }
+
+    /// The chance that so many kinds of looks agree at two places; 1 where nothing is known of looks. O(agreeing).
+    pub(super) fn chance(&self, agreeing: usize) -> f64 {
         let kinds = f64::from(self.kinds);
         let pairs = f64::from(self.different).min(0.5 * kinds * (kinds - 1.0));
         if pairs < 1.0 {
-            return None;
+            return 1.0;
         }
         let alike = pairs * f64::from(self.deceiving) / f64::from(self.different);
         // Met once, it is no rule.
         let repeats = f64::from(self.repeating) / (f64::from(self.followed) + 2.0);
-        let (mut by_chance, mut by_rule) = (1.0, 1.0);
-        (1..=self.kinds as usize).find(|agreeing| {
-            let before = (*agreeing - 1) as f64;
+        let (mut by_chance, mut by_rule) = (1.0_f64, 1.0_f64);
+        for before in 0..agreeing {
+            let before = before as f64;
             by_chance *= (alike + 0.5 + before) / (pairs + 1.0 + before);
             by_rule *= repeats;
-            by_chance.max(by_rule) < error
-        })
+        }
+        by_chance.max(by_rule)
+    }
+
+    /// All that was counted.
+    pub(super) fn counts(&self) -> [u64; 5] {
+        let Self {
+            kinds,
+            different,
+            deceiving,
+            followed,
+            repeating,
+            ..
+        } = *self;
+        [kinds, different, deceiving, followed, repeating].map(u64::from)
     }
 
     /// Counts two places that geometry has told apart.

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use tolman_geom::Point;
 use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Position};
 
-use super::{Diktiometry, ObservedMove, ObservedMoveError, Observer, PlaceId, Track};
+use super::{Diktiometry, Identity, ObservedMove, ObservedMoveError, Observer, PlaceId, Track};
 
 /// An observer works on a log as on a robot: its observation is an [`ObservedMove`].
 ///
@@ -52,6 +52,15 @@ impl Mapper for Observer {
             weight: track.confidence,
         };
         self.tracks().iter().map(guess).collect()
+    }
+
+    /// Returns how likely the map is right by what speaks against it ([`SelfCheck`](super::SelfCheck)). By the paper's
+    /// rule of matching it does not ask.
+    fn certainty(&self) -> Option<f64> {
+        match self.config().matching.identity {
+            Identity::Certain => Some(self.self_check().certainty()),
+            Identity::Meets => None,
+        }
     }
 }
 

@@ -8,4 +8,4 @@ mod view;
 pub(super) use engine::{Choice, choose};
 pub use matcher::Matcher;
 pub(super) use matcher::Situation;
-pub(super) use view::{agrees, remember, share_a_view, similarity};
+pub(super) use view::{agrees, alike, remember, share_a_view, similarity};

@@ -181,7 +181,7 @@ impl Observer {
             let open = self.map.place(place).is_open(step.action);
             return Vec::from([(place, if open { CHANGED_EXIT } else { 1.0 })]);
         }
-        let moved = self.way(step);
+        let moved = self.config.way(step);
         let fits = |to: PlaceId| {
             self.motion(place, to)
                 .is_none_or(|known| known.meets(moved))
@@ -217,7 +217,7 @@ impl Observer {
         let apart = match ways {
             // As wide as odometry was on the way that is known, and where in the places it stopped.
             [Some(way_a), Some(way_b)] => {
-                let between = self.between_places(way_a - way_b);
+                let between = self.config.between_places(way_a - way_b);
                 between.norm().low() > 0.2 * way_a.norm().high()
             }
             _ => false,

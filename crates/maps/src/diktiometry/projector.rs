@@ -1,6 +1,6 @@
 use tolman_geom::{Interval, Point, PointBox};
 
-use super::{Action, CompassAxis, FrameId, ObservedMove, Observer, PlaceId, Track};
+use super::{Action, CompassAxis, Config, FrameId, ObservedMove, Observer, PlaceId, Track};
 
 /// Where a track would be after a move, before anything is recognized: the projector "predicts new states given old state
 /// estimates and control inputs".
@@ -22,7 +22,7 @@ pub(super) struct Projection {
 impl Observer {
     pub(super) fn project(&self, track: &Track, step: &ObservedMove) -> Projection {
         let (frame, position) = self.map.site(track.place);
-        let displacement = self.way(step);
+        let displacement = self.config.way(step);
         Projection {
             from: track.place,
             action: step.action,
@@ -33,14 +33,20 @@ impl Observer {
         }
     }
 
+    /// The points between which the robot went, in the frame of the place that was left.
+    pub(super) fn ends(&self, projection: &Projection) -> [Point; 2] {
+        let (_, start) = self.map.site(projection.from);
+        [start, projection.position].map(PointBox::middle)
+    }
+}
+
+impl Config {
     /// The displacement between the points of the places at a move's ends: what odometry says, and that a straight corridor leads
     /// straight. A robot that seems to have left it was carried, and odometry alone counts.
     pub(super) fn way(&self, step: &ObservedMove) -> PointBox {
         let way = self.between_places(step.odometry.position);
-        let (Some(axis), Ok(line)) = (
-            self.config.leads(step.action),
-            Interval::about(0.0, self.config.across),
-        ) else {
+        let (Some(axis), Ok(line)) = (self.leads(step.action), Interval::about(0.0, self.across))
+        else {
             return way;
         };
         let cut = match axis {
@@ -52,15 +58,9 @@ impl Observer {
 
     /// The robot's displacement is the places' up to where in the places it stopped.
     pub(super) fn between_places(&self, robot: PointBox) -> PointBox {
-        let Ok(stops) = Interval::about(0.0, 2.0 * self.config.place_radius) else {
+        let Ok(stops) = Interval::about(0.0, 2.0 * self.place_radius) else {
             return robot; // Its radius was checked to be a number, and not negative.
         };
         robot + PointBox::new(stops, stops)
-    }
-
-    /// The points between which the robot went, in the frame of the place that was left.
-    pub(super) fn ends(&self, projection: &Projection) -> [Point; 2] {
-        let (_, start) = self.map.site(projection.from);
-        [start, projection.position].map(PointBox::middle)
     }
 }

@@ -158,6 +158,13 @@ impl MslstGraph {
         0..self.nodes.len() as u32
     }
 
+    /// Returns how many bytes nodes and edges take. O(nodes).
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let edges = |node: &Node| size_of_val(node.edges.as_slice());
+        size_of_val(self.nodes.as_slice()) + self.nodes.iter().map(edges).sum::<usize>()
+    }
+
     /// How many nodes there are. The dummy node is none of them.
     #[must_use]
     pub const fn len(&self) -> usize {

@@ -71,6 +71,47 @@ struct Residual {
     share: f64,
 }
 
+/// What is left out lies farther than what matters by this much at least, m: no rounding brings it back.
+const SLACK: f64 = 1e-6;
+
+/// How far from the robot surfaces can matter to an outline, m.
+struct Reach {
+    points: f64,
+    arcs: f64,
+}
+
+impl Reach {
+    /// Where surfaces are looked for within `gate` of a point, or of where an arc ends.
+    fn of(outline: &Outline, gate: f64) -> Self {
+        let points = outline.points.iter();
+        let points = points.map(|point| point.position.coords.norm() + gate_of(point, gate));
+        let arcs = outline.arcs.iter();
+        let arcs = arcs.map(|arc| arc.mount.position.coords.norm() + arc.range + arc_gate(gate));
+        Self {
+            points: points.fold(0.0, f64::max),
+            arcs: arcs.fold(0.0, f64::max),
+        }
+    }
+}
+
+/// A point's surface is looked for within this distance, m: what is far is seen vaguely.
+fn gate_of(point: &OutlinePoint, gate: f64) -> f64 {
+    gate + 2.0 * point.deviation
+}
+
+/// An arc's within this, m.
+const fn arc_gate(gate: f64) -> f64 {
+    gate.max(0.15)
+}
+
+/// Those of `surfaces` that lie within `radius` of where the robot is, in their order.
+fn near<'a>(surfaces: &[&'a Surface], pose: Pose, radius: f64) -> Vec<&'a Surface> {
+    let within = (radius + SLACK) * (radius + SLACK);
+    let surfaces = surfaces.iter().copied();
+    let is_near = |surface: &&Surface| (surface.position() - pose.position).norm_squared() < within;
+    surfaces.filter(is_near).collect()
+}
+
 /// Returns where a robot is that was predicted at `predicted`, with this covariance, and sees `outline`; `None` if the covariance is
 /// none. O(rounds · outline · surfaces).
 pub(super) fn fit(
@@ -113,10 +154,13 @@ pub(super) fn fit(
 }
 
 fn residuals(outline: &Outline, surfaces: &[&Surface], pose: Pose, gate: f64) -> Vec<Residual> {
+    let reach = Reach::of(outline, gate);
+    let surfaces = near(surfaces, pose, reach.points.max(reach.arcs));
     let points = outline.points.iter();
-    let points = points.filter_map(|point| of_point(point, surfaces, pose, gate));
+    let points = points.filter_map(|point| of_point(point, &surfaces, pose, gate));
+    let within = near(&surfaces, pose, reach.arcs);
     let arcs = outline.arcs.iter();
-    let arcs = arcs.filter_map(|arc| of_arc(arc, surfaces, pose, gate));
+    let arcs = arcs.filter_map(|arc| of_arc(arc, &within, pose, gate));
     points.chain(arcs).collect()
 }
 
@@ -130,8 +174,7 @@ fn of_point(
     let there = pose.transform(point.position);
     let normal = point.normal.map(|normal| pose.heading.rotate(normal));
     let mut nearest: Option<&Surface> = None;
-    // What is far is seen vaguely.
-    let reach = gate + 2.0 * point.deviation;
+    let reach = gate_of(point, gate);
     let mut within = reach * reach;
     for surface in surfaces {
         let squared = (surface.position() - there).norm_squared();
@@ -159,10 +202,12 @@ fn of_point(
 
 /// The share of an outline's points that lie where the map has surfaces, but none alike.
 fn contradicted(outline: &Outline, surfaces: &[&Surface], pose: Pose) -> f64 {
+    let gate = FIRST_GATE * 0.5;
+    let surfaces = near(surfaces, pose, Reach::of(outline, gate).points);
     let is_contradicted = |point: &&OutlinePoint| {
         let there = pose.transform(point.position);
         let normal = point.normal.map(|normal| pose.heading.rotate(normal));
-        let reach = FIRST_GATE * 0.5 + 2.0 * point.deviation;
+        let reach = gate_of(point, gate);
         let near = |surface: &&&Surface| {
             surface.colour().is_some() == point.colour.is_some()
                 && (surface.position() - there).norm() < reach
@@ -190,14 +235,19 @@ fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Optio
     let ear = pose.compose(arc.mount);
     let axis = ear.heading.unit();
     let cone = libm::cos(arc.half_width + CONE_SLACK);
+    // What lies farther is no match, and hides none.
+    let farthest = arc.range + arc_gate(gate) + SLACK;
     let mut nearest: Option<(f64, Vector, &Surface)> = None;
     for surface in surfaces {
         let towards = surface.position() - ear.position;
+        let squared = towards.norm_squared();
+        if squared > farthest * farthest {
+            continue;
+        }
         let ahead = towards.dot(&axis);
         if ahead <= 0.0 || ahead > arc.max_range || surface.normal().dot(&towards) > 0.0 {
             continue;
         }
-        let squared = towards.norm_squared();
         if ahead * ahead >= cone * cone * squared
             && nearest
                 .as_ref()
@@ -207,7 +257,7 @@ fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Optio
         }
     }
     let (range, towards, surface) = nearest?;
-    if (arc.range - range).abs() > gate.max(0.15) {
+    if (arc.range - range).abs() > arc_gate(gate) {
         return None;
     }
     let deviation = 0.02 + 0.01 * range;
@@ -257,4 +307,58 @@ fn likelihood(outline: &Outline, residuals: &[Residual]) -> f64 {
         |residual: &Residual| residual.share * (worst - (residual.off * residual.off).min(worst));
     let saved: f64 = residuals.iter().map(saved).sum();
     0.5 * INDEPENDENT * (saved - worst * of)
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec;
+
+    use proptest::prelude::*;
+    use tolman_geom::{Heading, Point};
+
+    use super::super::surfaces::Surfaces;
+    use super::*;
+
+    /// Walls 2 m away all round, each point looked at from the middle, and a sonar that hears the one ahead.
+    fn room() -> Outline {
+        let point = |number: u32| {
+            let heading = Heading::from_radians(f64::from(number) * 0.26);
+            OutlinePoint {
+                position: Point::from(heading.unit() * 2.0),
+                normal: Some(-heading.unit()),
+                deviation: 0.02,
+                colour: Some([0.5, 0.3]),
+            }
+        };
+        Outline {
+            points: (0..24).map(point).collect(),
+            arcs: vec![Sounding {
+                mount: Pose::IDENTITY,
+                half_width: 0.2,
+                max_range: 5.0,
+                range: 2.0,
+            }],
+            faced: Vec::new(),
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_far_changes_no_fit(x in -0.3..0.3, y in -0.3..0.3, turn in -0.2..0.2, away in 5.0..50.0) {
+            let outline = room();
+            let (mut near, mut all) = (Surfaces::default(), Surfaces::default());
+            near.add(0, Pose::IDENTITY, &outline);
+            all.add(0, Pose::IDENTITY, &outline);
+            all.add(1, Pose::new(Point::new(away, -away), Heading::EAST), &outline);
+            let predicted = Pose::new(Point::new(x, y), Heading::from_radians(turn));
+            let covariance = Matrix3::from_diagonal(&Vector3::new(0.1, 0.1, 0.1));
+            let fitted = |surfaces: &Surfaces| {
+                let surfaces: Vec<&Surface> = surfaces.all().collect();
+                fit(&outline, &surfaces, predicted, &covariance)
+            };
+            let fitted = [fitted(&near), fitted(&all)];
+            prop_assert!(fitted[0].as_ref().is_some_and(|fit| fit.share > 0.5));
+            prop_assert_eq!(&fitted[0], &fitted[1]);
+        }
+    }
 }

@@ -163,6 +163,22 @@ impl PlaceGraph {
         self
     }
 
+    /// Returns how many bytes places, poses and what joins them take. O(places).
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let outlines = self.places.iter().map(|outline| {
+            size_of_val(outline)
+                + size_of_val(outline.points.as_slice())
+                + size_of_val(outline.arcs.as_slice())
+                + size_of_val(outline.faced.as_slice())
+        });
+        outlines.sum::<usize>()
+            + size_of_val(self.graph.poses())
+            + size_of_val(self.graph.edges())
+            + self.links.len() * size_of::<(u32, u32)>()
+            + self.surfaces.bytes()
+    }
+
     /// Returns what is seen from each place, by id.
     #[must_use]
     pub fn places(&self) -> &[Outline] {

@@ -27,6 +27,12 @@ pub(super) struct Surface {
     pub(super) place: u32,
 }
 
+impl Surfaces {
+    pub(super) fn bytes(&self) -> usize {
+        self.pieces.len() * size_of::<(Key, Surface)>()
+    }
+}
+
 impl Surface {
     pub(super) fn position(&self) -> Point {
         Point::from(self.position)

@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 
 use rand::{Rng, RngExt};
 use tolman_geom::Point;
-use tolman_quantizers::{Gng, Network, Quantizer, UnitId};
+use tolman_quantizers::{Edge, Gng, Network, Quantizer, UnitId};
 use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Picture, Position};
 
 use super::{FeatureSpace, FeatureTable, PlaceMapConfig, PlaceMapError, PlaceRecord};
@@ -121,6 +121,14 @@ impl PlaceMap {
     #[must_use]
     pub fn network(&self) -> &Network<f32> {
         self.gng.network()
+    }
+
+    /// Returns how many bytes nodes with their features and links take. O(links).
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let network = self.network();
+        let features = network.len() * network.dimension() * size_of::<f32>();
+        features + network.edges().count() * size_of::<Edge>()
     }
 
     /// Returns the node nearest to a record: where the map takes it to have been recorded. O(nodes × values).

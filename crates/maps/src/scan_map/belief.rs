@@ -4,13 +4,13 @@ use alloc::vec::Vec;
 use tolman_geom::{Heading, Point, Vector};
 use tolman_robot::Scan;
 
-use super::{Standpoints, WallGrid};
+use super::Standpoints;
 
 /// What a robot believes of where it is: a Bayes filter over the [`Standpoints`] of its map.
 #[derive(Clone, Debug)]
 pub struct StandpointBelief {
     /// The probability of each standpoint.
-    mass: Vec<f64>,
+    mass: Vec<f32>,
     /// How often in a row nothing it believes in has fitted what it saw.
     surprises: u32,
 }
@@ -26,13 +26,13 @@ const GOOD: f64 = 0.6;
 /// What the map does not show fits as a place does that is not the right one, but like it.
 const UNSHOWN: f64 = 2.0;
 /// Standpoints less probable than that are not followed.
-const NEGLIGIBLE: f64 = 1e-9;
+const NEGLIGIBLE: f32 = 1e-9;
 /// What the probability of a way through a wall is worth.
 const THROUGH_A_WALL: f64 = 0.01;
 /// A scan fits nowhere where it is off by so much, mean square.
 const SURPRISE: f64 = 3.0;
 /// How likely the landmark of the goal is not sensed where the map has it: near its border.
-const UNSENSED: f64 = 0.05;
+const UNSENSED: f32 = 0.05;
 /// It begins anew after so many such scans in a row.
 const MOST_SURPRISES: u32 = 3;
 
@@ -41,21 +41,21 @@ impl StandpointBelief {
     #[must_use]
     pub fn anywhere(on: &Standpoints) -> Self {
         Self {
-            mass: vec![1.0 / on.len().max(1) as f64; on.len()],
+            mass: vec![1.0 / on.len().max(1) as f32; on.len()],
             surprises: 0,
         }
     }
 
     /// Returns the probability of each standpoint, by number.
     #[must_use]
-    pub fn probabilities(&self) -> &[f64] {
+    pub fn probabilities(&self) -> &[f32] {
         &self.mass
     }
 
     /// Returns the most probable standpoint; the first of equals.
     #[must_use]
     pub fn likeliest(&self) -> Option<u32> {
-        let likelier = |best: (u32, f64), next: (u32, f64)| {
+        let likelier = |best: (u32, f32), next: (u32, f32)| {
             if next.1 > best.1 { next } else { best }
         };
         let numbered = (0..).zip(self.mass.iter().copied());
@@ -68,29 +68,32 @@ impl StandpointBelief {
         let Some(best) = self.likeliest() else {
             return 0.0;
         };
-        let centre: Point = on.positions()[best as usize];
-        let near = on.positions().iter().zip(&self.mass);
-        let near = near.filter(|(at, _)| (*at - centre).norm() <= radius);
-        near.map(|(_, mass)| mass).sum()
+        let Some(centre) = on.position(best) else {
+            return 0.0;
+        };
+        let near = on.positions().zip(&self.mass);
+        let near = near.filter(|(at, _): &(Point, &f32)| (at - centre).norm() <= radius);
+        near.map(|(_, mass)| f64::from(*mass)).sum()
     }
 
     /// Follows a robot that came `moved` along the compass's axes, m, give or take `sd`. O(standpoints believed in).
-    pub fn moved(&mut self, on: &Standpoints, grid: &WallGrid, moved: Vector, sd: Vector) {
+    pub fn moved(&mut self, on: &Standpoints, moved: Vector, sd: Vector) {
+        let ground = on.chart().ground();
         let mut after = vec![0.0; self.mass.len()];
-        for (from, mass) in on.positions().iter().zip(&self.mass) {
+        for (from, mass) in on.positions().zip(&self.mass) {
             if *mass < NEGLIGIBLE {
                 continue;
             }
             for (offset, share) in spread(sd) {
                 let to = from + moved + offset;
-                let passes = if grid.sees(*from, to) {
+                let passes = if ground.sees(from, to) {
                     1.0
                 } else {
                     THROUGH_A_WALL
                 };
                 for (number, part) in on.around(to) {
                     if let Some(number) = number {
-                        after[number as usize] += mass * share * part * passes;
+                        after[number as usize] += mass * (share * part * passes) as f32;
                     }
                 }
             }
@@ -98,21 +101,21 @@ impl StandpointBelief {
         self.mass = after;
     }
 
-    /// Weighs what it believes by what a scan shows. O(standpoints believed in · beams).
+    /// Weighs what it believes by what a scan shows. O(standpoints believed in · beams · range).
     pub fn saw(&mut self, on: &Standpoints, heading: Heading, scan: &Scan) {
         let Some(north) = on.northward(scan, heading) else {
             return;
         };
         let mut best = f64::INFINITY;
-        for (number, mass) in (0..).zip(&mut self.mass) {
+        for (cell, mass) in on.cells().zip(&mut self.mass) {
             if *mass < NEGLIGIBLE {
                 *mass = 0.0;
                 continue;
             }
-            let misfit = on.misfit(number, &north, RANGE_SD, OUTLIER);
+            let misfit = on.misfit(cell, &north, RANGE_SD, OUTLIER);
             best = best.min(misfit.unwrap_or(f64::INFINITY));
             let misfit = misfit.unwrap_or(UNSHOWN);
-            *mass *= libm::exp(-0.5 * INDEPENDENT_BEAMS * misfit.max(GOOD));
+            *mass *= libm::exp(-0.5 * INDEPENDENT_BEAMS * misfit.max(GOOD)) as f32;
         }
         // Where the map shows nothing that could fit, it is as surprised.
         self.surprises = if best > SURPRISE {
@@ -125,8 +128,8 @@ impl StandpointBelief {
 
     /// Weighs what it believes by the landmark of the goal, which the robot does not sense. O(standpoints).
     pub fn missed_the_goal(&mut self, on: &Standpoints) {
-        for (number, mass) in (0..).zip(&mut self.mass) {
-            if on.senses_goal(number) {
+        for number in on.sensing_goal() {
+            if let Some(mass) = self.mass.get_mut(*number as usize) {
                 *mass *= UNSENSED;
             }
         }
@@ -134,10 +137,10 @@ impl StandpointBelief {
     }
 
     fn normalize(&mut self, on: &Standpoints) {
-        let sum: f64 = self.mass.iter().sum();
+        let sum: f64 = self.mass.iter().copied().map(f64::from).sum();
         if sum > 0.0 && self.surprises < MOST_SURPRISES {
             for mass in &mut self.mass {
-                *mass /= sum;
+                *mass = (f64::from(*mass) / sum) as f32;
             }
         } else {
             *self = Self::anywhere(on);

@@ -34,6 +34,10 @@ impl<'a> Clearings<'a> {
         Self { grid, radius }
     }
 
+    pub(super) const fn grid(&self) -> &'a WallGrid {
+        self.grid
+    }
+
     /// Returns whether the robot can stand there.
     #[must_use]
     pub fn stands(&self, at: Point) -> bool {
@@ -79,7 +83,7 @@ impl<'a> Clearings<'a> {
         gap.is_some()
     }
 
-    /// Returns which cells the robot can stand in and come to from any of the places, by slot. O(cells).
+    /// Returns which cells the robot can stand in and come to from any of the places, by slot of the grid. O(cells).
     pub(super) fn reached(&self, places: impl IntoIterator<Item = Point>) -> Vec<bool> {
         let starts = places.into_iter().map(index_of);
         let starts: Vec<GridIndex> = starts

@@ -2,10 +2,11 @@ use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use tolman_geom::{Heading, Point, Vector};
-use tolman_robot::{Landmark, MapLink, MapPlace, MapView, Scan};
+use tolman_robot::{Landmark, MapView, Scan};
 
+use super::chart::view;
 use super::fit::fit;
-use super::{Clearings, ScanMapConfig, WallGrid};
+use super::{Clearings, ScanChart, ScanMapConfig, WallGrid};
 
 /// Places that are merged while the map grows, the links gone between them, and the walls that scans met.
 ///
@@ -27,8 +28,12 @@ pub struct ScanMap {
     agreement: f64,
 }
 
+/// Points where the landmark of the goal was sensed are kept so far apart at least, m.
+const SPACING_OF_GOAL: f64 = 0.02;
+
 /// A place of a [`ScanMap`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ScanPlace {
     /// Where the robot stood when it came there first.
     pub position: Point,
@@ -89,14 +94,14 @@ impl ScanMap {
         self.draw(seen);
         self.enter(seen.landmark);
         if seen.landmark == Some(Landmark::Goal) {
-            self.goal.push(self.position);
+            self.sense_goal(self.position);
         }
     }
 
     /// Notes that the robot stands at a landmark on its way, `moved` from where it was observed last.
     pub fn pass(&mut self, moved: Vector, landmark: Landmark) {
         if landmark == Landmark::Goal {
-            self.goal.push(self.position + moved);
+            self.sense_goal(self.position + moved);
         }
     }
 
@@ -142,19 +147,43 @@ impl ScanMap {
         Clearings::new(&self.grid, self.config.radius)
     }
 
+    /// Returns how many bytes places, links, walls and the landmark's positions take. O(1).
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.places.as_slice())
+            + self.links.len() * size_of::<[u32; 2]>()
+            + size_of_val(self.stands.as_slice())
+            + size_of_val(self.goal.as_slice())
+            + self.grid.bytes()
+    }
+
     /// Returns places and links as any scorer and any drawing can read them. O(places + links).
     #[must_use]
     pub fn view(&self) -> MapView {
-        let place = |(id, place): (u32, &ScanPlace)| MapPlace {
-            id,
-            position: Some(place.position),
-            landmark: place.landmark,
-        };
-        let both_ways =
-            |[a, b]: &[u32; 2]| [MapLink { from: *a, to: *b }, MapLink { from: *b, to: *a }];
-        MapView {
-            places: (0..).zip(&self.places).map(place).collect(),
-            links: self.links.iter().flat_map(both_ways).collect(),
+        view(&self.places, self.links())
+    }
+
+    /// Returns what is left of it when nothing more is learned. O(cells + places + links).
+    #[must_use]
+    pub fn chart(&self) -> ScanChart {
+        ScanChart::of(self)
+    }
+
+    /// The links, each once, the lower id first, in order.
+    pub(super) fn links(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
+        self.links.iter().copied()
+    }
+
+    /// The robot stands clear of walls by so much, m.
+    pub(super) const fn radius(&self) -> f64 {
+        self.config.radius
+    }
+
+    /// Notes where the goal's landmark was sensed, unless it was sensed right there before.
+    fn sense_goal(&mut self, at: Point) {
+        let is_new = |known: &Point| (at - known).norm() >= SPACING_OF_GOAL;
+        if self.goal.iter().all(is_new) {
+            self.goal.push(at);
         }
     }
 

@@ -1,35 +1,42 @@
-use alloc::vec;
 use alloc::vec::Vec;
 
 use tolman_geom::{Heading, Point};
 use tolman_robot::{Ring, Scan};
 
-use super::wall_grid::{GridIndex, GridRange, index_of, middle};
-use super::{ScanMap, WallGrid};
+use super::ranked_bits::RankedBits;
+use super::rays::{RANGE_UNIT, Rays, UNKNOWN};
+use super::wall_grid::{GridIndex, index_of, middle};
+use super::{Clearings, ScanChart, WallGrid};
 
 /// A lattice of positions where a robot can stand on a map, and what its beams would meet from each.
+///
+/// It takes about two bits for each position on the lattice. What is seen from one is worked out when it is asked for.
 #[derive(Clone, Debug)]
 pub struct Standpoints {
+    chart: ScanChart,
     ring: Ring,
-    first: GridIndex,
+    rays: Rays,
+    /// Column and row of the first lattice cell, in cells of the lattice.
+    first: [i32; 2],
     columns: i32,
-    /// The number of the standpoint of each lattice cell, in rows.
-    numbers: Vec<u32>,
-    positions: Vec<Point>,
-    is_goal: Vec<bool>,
-    senses_goal: Vec<bool>,
+    /// The lattice cells that have a standpoint, in rows.
+    stands: RankedBits,
+    /// Numbers of those where the landmark of the goal is sensed, in order.
+    goals: Vec<u32>,
+    /// Numbers of those so near to where it was sensed that it is sensed there, too.
+    sensing_goal: Vec<u32>,
+}
+
+/// What is seen from each standpoint: for whoever asks for all of it often. A byte a beam.
+#[derive(Clone, Debug)]
+pub struct StandpointViews {
+    ring: Ring,
     /// Ranges from each, beam 0 to the north, in [`RANGE_UNIT`]s; [`UNKNOWN`] where the map does not say.
     ranges: Vec<u8>,
 }
 
 /// Cells of the grid from one standpoint to the next.
 const EVERY: i32 = 2;
-/// Steps in which ranges are kept, m.
-const RANGE_UNIT: f64 = 0.01;
-/// No range.
-const UNKNOWN: u8 = u8::MAX;
-/// No standpoint.
-const NOWHERE: u32 = u32::MAX;
 /// By how much the goal reaches beyond where its landmark was sensed, m.
 const GOAL_MARGIN: f64 = 0.05;
 /// Nearer than that to where the goal was sensed it is sensed, too, m.
@@ -39,80 +46,175 @@ impl Standpoints {
     /// From one to the next, m.
     pub const SPACING: f64 = EVERY as f64 * WallGrid::CELL;
 
-    /// Returns those of a map that lead to where its robot has been, for scans by `ring`. O(cells + standpoints · beams).
+    /// Returns those of a map that lead to where its robot has been, for scans by `ring`. O(cells).
     #[must_use]
-    pub fn of(map: &ScanMap, ring: Ring) -> Self {
-        let grid = map.grid();
-        let [first, end] = grid.bounds();
-        let columns = (end[0] - first[0]) / EVERY + 1;
-        let rows = (end[1] - first[1]) / EVERY + 1;
-        let mut lattice = Self {
-            ring: Ring::full(ring.beams, ring.max_range),
-            first,
-            columns,
-            numbers: vec![NOWHERE; (columns * rows) as usize],
-            positions: Vec::new(),
-            is_goal: Vec::new(),
-            senses_goal: Vec::new(),
-            ranges: Vec::new(),
+    pub fn of(chart: ScanChart, ring: Ring) -> Self {
+        let grid = chart.ground().grid();
+        let lattice = Lattice::over(grid.bounds());
+        let stands = stands(&chart, &chart.clearings(&grid), &lattice);
+        let ring = Ring::full(ring.beams, ring.max_range);
+        let mut standpoints = Self {
+            chart,
+            ring,
+            rays: Rays::of(ring),
+            first: lattice.first,
+            columns: lattice.columns,
+            stands,
+            goals: Vec::new(),
+            sensing_goal: Vec::new(),
         };
-        let places = map.places().iter().map(|place| place.position);
-        let reached = map.clearings().reached(places);
-        let goal = bounds(map.goal());
-        for row in (first[1]..end[1]).step_by(EVERY as usize) {
-            for column in (first[0]..end[0]).step_by(EVERY as usize) {
-                let index = [column, row];
-                if grid.slot(index).is_some_and(|slot| reached[slot])
-                    && let Some(slot) = lattice.slot(index)
-                {
-                    lattice.numbers[slot] = lattice.positions.len() as u32;
-                    lattice.add(grid, middle(index), goal);
-                    let sensed = |at: &Point| (at - middle(index)).norm() < SENSES_GOAL;
-                    lattice.senses_goal.push(map.goal().iter().any(sensed));
-                }
-            }
-        }
-        lattice
+        standpoints.mark_goal();
+        standpoints
+    }
+
+    /// Returns the map.
+    #[must_use]
+    pub const fn chart(&self) -> &ScanChart {
+        &self.chart
     }
 
     /// Returns how many there are.
     #[must_use]
-    pub fn len(&self) -> usize {
-        self.positions.len()
+    pub const fn len(&self) -> usize {
+        self.stands.len()
     }
 
     /// Returns whether there are none.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.positions.is_empty()
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
     }
 
     /// Returns where they lie, by number.
-    #[must_use]
-    pub fn positions(&self) -> &[Point] {
-        &self.positions
+    pub fn positions(&self) -> impl Iterator<Item = Point> + '_ {
+        self.stands.slots().map(|slot| middle(self.index(slot)))
     }
 
-    /// Returns whether one lies where the landmark of the goal is sensed.
+    /// Returns where one lies; `None` if there are not so many. O(log cells).
     #[must_use]
-    pub fn is_goal(&self, number: u32) -> bool {
-        self.is_goal[number as usize]
+    pub fn position(&self, number: u32) -> Option<Point> {
+        let slot = self.stands.slot(number)?;
+        Some(middle(self.index(slot)))
     }
 
-    /// Returns whether the landmark of the goal was sensed so near to one that it is sensed there, too.
+    /// Returns the numbers of those where the landmark of the goal is sensed, in order.
     #[must_use]
-    pub fn senses_goal(&self, number: u32) -> bool {
-        self.senses_goal[number as usize]
+    pub fn goals(&self) -> &[u32] {
+        &self.goals
     }
 
     /// Returns the one whose cell of the lattice a point lies in.
     #[must_use]
     pub fn at(&self, point: Point) -> Option<u32> {
-        let [column, row] = index_of(point);
-        self.number([column, row])
+        self.number(lattice_of(index_of(point)))
     }
 
-    /// Writes into `scan` what a robot at one would see that faces along `heading`: nothing in reach where the map does not say.
+    /// Returns what is seen from each. O(standpoints · beams · range).
+    #[must_use]
+    pub fn views(&self) -> StandpointViews {
+        let seen = |slot| self.rays.ranges(self.chart.ground(), self.index(slot));
+        StandpointViews {
+            ring: self.ring,
+            ranges: self.stands.slots().flat_map(seen).collect(),
+        }
+    }
+
+    /// Returns those that lie round a point, with the share that each has of it.
+    pub(super) fn around(&self, point: Point) -> [(Option<u32>, f64); 4] {
+        let scaled = (point - middle([0, 0])) / Self::SPACING;
+        let corner = [libm::floor(scaled.x), libm::floor(scaled.y)];
+        let [right, up] = [scaled.x - corner[0], scaled.y - corner[1]];
+        let number = |column: i32, row: i32| {
+            self.number([corner[0] as i32 + column, corner[1] as i32 + row])
+        };
+        [
+            (number(0, 0), (1.0 - right) * (1.0 - up)),
+            (number(1, 0), right * (1.0 - up)),
+            (number(0, 1), (1.0 - right) * up),
+            (number(1, 1), right * up),
+        ]
+    }
+
+    /// Returns the numbers of those so near to where the landmark of the goal was sensed that it is sensed there, too.
+    pub(super) fn sensing_goal(&self) -> &[u32] {
+        &self.sensing_goal
+    }
+
+    /// Returns the cells of those, by number.
+    pub(super) fn cells(&self) -> impl Iterator<Item = GridIndex> + '_ {
+        self.stands.slots().map(|slot| self.index(slot))
+    }
+
+    /// Returns the mean square of how far a scan's ranges differ from those expected in a cell, each in `sd`s and at most
+    /// `outlier` of them; `None` where the map does not say what is seen there. `north` is the scan, beam 0 to the north.
+    /// O(beams · range).
+    pub(super) fn misfit(
+        &self,
+        cell: GridIndex,
+        north: &[f64],
+        sd: f64,
+        outlier: f64,
+    ) -> Option<f64> {
+        let expected = self.rays.ranges(self.chart.ground(), cell);
+        let (mut sum, mut known) = (0.0, 0_u32);
+        for (seen, expected) in north.iter().zip(expected) {
+            if expected == UNKNOWN {
+                continue;
+            }
+            let off = ((seen - f64::from(expected) * RANGE_UNIT).abs() / sd).min(outlier);
+            sum += off * off;
+            known += 1;
+        }
+        (2 * known >= self.ring.beams).then(|| sum / f64::from(known))
+    }
+
+    /// Returns a scan's ranges, beam 0 to the north; `None` if another ring made them.
+    pub(super) fn northward(&self, scan: &Scan, heading: Heading) -> Option<Vec<f64>> {
+        let is_read = !scan.ranges.is_empty() && scan.ranges.len() == self.ring.beams as usize;
+        is_read.then(|| scan.northward(heading))
+    }
+
+    /// Finds out where the landmark of the goal is sensed.
+    fn mark_goal(&mut self) {
+        let points = self.chart.goal();
+        let bounds = bounds(points);
+        let is_within = |at: Point| {
+            bounds.is_some_and(|[low, high]| {
+                (low.x..=high.x).contains(&at.x) && (low.y..=high.y).contains(&at.y)
+            })
+        };
+        let is_near = |at: Point| {
+            let near = |goal: &Point| (goal - at).norm() < SENSES_GOAL;
+            points.iter().any(near)
+        };
+        let numbered = || (0..).zip(self.positions());
+        let goals = numbered().filter(|(_, at)| is_within(*at));
+        let sensing = numbered().filter(|(_, at)| is_near(*at));
+        let goals = goals.map(|(number, _)| number).collect();
+        let sensing = sensing.map(|(number, _)| number).collect();
+        (self.goals, self.sensing_goal) = (goals, sensing);
+    }
+
+    fn number(&self, lattice: [i32; 2]) -> Option<u32> {
+        let [column, row] = [0, 1].map(|axis| lattice[axis] - self.first[axis]);
+        let inside = (0..self.columns).contains(&column) && row >= 0;
+        let slot = inside.then(|| row as usize * self.columns as usize + column as usize)?;
+        self.stands.number(slot)
+    }
+
+    /// The cell of the grid in which the standpoint of a slot lies.
+    fn index(&self, slot: usize) -> GridIndex {
+        let columns = self.columns as usize;
+        let [column, row] = [slot % columns, slot / columns];
+        [
+            (self.first[0] + column as i32) * EVERY,
+            (self.first[1] + row as i32) * EVERY,
+        ]
+    }
+}
+
+impl StandpointViews {
+    /// Writes into `scan` what a robot at a standpoint would see that faces along `heading`: nothing in reach where the map does not say.
     /// The scan's ring must be a full circle of as many beams.
     pub fn scan(&self, number: u32, heading: Heading, scan: &mut Scan) {
         let beams = self.ring.beams as usize;
@@ -128,74 +230,47 @@ impl Standpoints {
             };
         }
     }
+}
 
-    /// Returns those that lie round a point, with the share that each has of it.
-    pub(super) fn around(&self, point: Point) -> [(Option<u32>, f64); 4] {
-        let origin = middle(self.first);
-        let scaled = (point - origin) / Self::SPACING;
-        let corner = [libm::floor(scaled.x), libm::floor(scaled.y)];
-        let [right, up] = [scaled.x - corner[0], scaled.y - corner[1]];
-        let number = |column: i32, row: i32| {
-            let cell = [corner[0] as i32 + column, corner[1] as i32 + row];
-            self.number([0, 1].map(|axis| self.first[axis] + cell[axis] * EVERY))
-        };
-        [
-            (number(0, 0), (1.0 - right) * (1.0 - up)),
-            (number(1, 0), right * (1.0 - up)),
-            (number(0, 1), (1.0 - right) * up),
-            (number(1, 1), right * up),
-        ]
-    }
+/// The lattice over a grid. Where it lies does not depend on how far the grid reaches.
+struct Lattice {
+    first: [i32; 2],
+    columns: i32,
+    rows: i32,
+}
 
-    /// Returns the mean square of how far a scan's ranges differ from those expected at one, each in `sd`s and at most
-    /// `outlier` of them; `None` where the map does not say what is seen there. `north` is the scan, beam 0 to the north.
-    pub(super) fn misfit(&self, number: u32, north: &[f64], sd: f64, outlier: f64) -> Option<f64> {
-        let beams = self.ring.beams as usize;
-        let expected = &self.ranges[number as usize * beams..][..beams];
-        let (mut sum, mut known) = (0.0, 0_u32);
-        for (seen, expected) in north.iter().zip(expected) {
-            if *expected == UNKNOWN {
-                continue;
-            }
-            let off = ((seen - f64::from(*expected) * RANGE_UNIT).abs() / sd).min(outlier);
-            sum += off * off;
-            known += 1;
-        }
-        (2 * known as usize >= beams).then(|| sum / f64::from(known))
-    }
-
-    /// Returns a scan's ranges, beam 0 to the north; `None` if another ring made them.
-    pub(super) fn northward(&self, scan: &Scan, heading: Heading) -> Option<Vec<f64>> {
-        let is_read = !scan.ranges.is_empty() && scan.ranges.len() == self.ring.beams as usize;
-        is_read.then(|| scan.northward(heading))
-    }
-
-    fn add(&mut self, grid: &WallGrid, at: Point, goal: Option<[Point; 2]>) {
-        self.positions.push(at);
-        self.is_goal.push(goal.is_some_and(|[low, high]| {
-            (low.x..=high.x).contains(&at.x) && (low.y..=high.y).contains(&at.y)
-        }));
-        for beam in 0..self.ring.beams {
-            let bearing = Heading::NORTH.turned(self.ring.bearing(beam));
-            let range = match grid.range(at, bearing, self.ring.max_range) {
-                GridRange::Wall(range) => (range / RANGE_UNIT) as u8,
-                GridRange::Clear => (self.ring.max_range / RANGE_UNIT).min(254.0) as u8,
-                GridRange::Unknown => UNKNOWN,
-            };
-            self.ranges.push(range);
+impl Lattice {
+    fn over([first, end]: [GridIndex; 2]) -> Self {
+        let first = lattice_of(first);
+        let size = |axis: usize| (end[axis] - first[axis] * EVERY).max(0) / EVERY + 1;
+        Self {
+            first,
+            columns: size(0),
+            rows: size(1),
         }
     }
+}
 
-    fn number(&self, index: GridIndex) -> Option<u32> {
-        let number = *self.numbers.get(self.slot(index)?)?;
-        (number != NOWHERE).then_some(number)
-    }
+/// Which cells of the lattice the robot can come to from where it has been.
+fn stands(chart: &ScanChart, clearings: &Clearings<'_>, lattice: &Lattice) -> RankedBits {
+    let reached = clearings.reached(chart.places().iter().map(|place| place.position));
+    let columns = lattice.columns as usize;
+    RankedBits::new(columns * lattice.rows as usize, |slot| {
+        let [column, row] = [slot % columns, slot / columns].map(|count| count as i32);
+        let index = [
+            (lattice.first[0] + column) * EVERY,
+            (lattice.first[1] + row) * EVERY,
+        ];
+        clearings
+            .grid()
+            .slot(index)
+            .is_some_and(|slot| reached[slot])
+    })
+}
 
-    fn slot(&self, index: GridIndex) -> Option<usize> {
-        let [column, row] = [0, 1].map(|axis| (index[axis] - self.first[axis]).div_euclid(EVERY));
-        let inside = (0..self.columns).contains(&column) && row >= 0;
-        inside.then(|| (row * self.columns + column) as usize)
-    }
+/// The cell of the lattice in which a cell of the grid lies.
+fn lattice_of(index: GridIndex) -> [i32; 2] {
+    index.map(|along| along.div_euclid(EVERY))
 }
 
 /// The box round where the goal was sensed, low and high corner.

@@ -5,6 +5,8 @@ use core::f64::consts::TAU;
 use tolman_geom::{Heading, Point, Vector};
 use tolman_robot::Scan;
 
+use super::Ground;
+
 /// Where walls were met and where beams passed, on a square grid that grows.
 ///
 /// A cell is a wall while beams ended in it often enough beside those that passed. Each cell knows how far the nearest
@@ -45,6 +47,12 @@ impl WallGrid {
     pub const CELL: f64 = 0.05;
     /// How far from a wall its distance is known, m.
     pub const REACH: f64 = 0.35;
+
+    /// Returns how many bytes its cells take. O(1).
+    #[must_use]
+    pub const fn bytes(&self) -> usize {
+        size_of_val(self.cells.as_slice())
+    }
 
     /// Adds what a scan shows from a position, its beams turned by `heading`. A beam that met nothing passed all the way.
     /// O(cells within the ring's range).
@@ -95,35 +103,53 @@ impl WallGrid {
             .is_some_and(|cell| cell.hits > 0 || cell.passes > 0)
     }
 
-    /// Returns how far a beam from `from` goes before it meets a wall, m; `None` where it meets none within `range`, or leaves what is known
-    /// before it does.
-    #[must_use]
-    pub fn range(&self, from: Point, bearing: Heading, range: f64) -> GridRange {
-        let step = bearing.unit() * (0.5 * Self::CELL);
-        let steps = (range / (0.5 * Self::CELL)) as u32;
-        let mut at = from;
-        for count in 1..=steps {
-            at += step;
-            match self.cell(index_of(at)) {
-                Some(cell) if cell.wall == 0 => {
-                    return GridRange::Wall(f64::from(count) * 0.5 * Self::CELL);
-                }
-                Some(cell) if cell.passes > 0 || cell.hits > 0 => {}
-                _ => return GridRange::Unknown,
-            }
-        }
-        GridRange::Clear
-    }
-
     /// Returns whether no wall stands on the straight line between two points. O(distance).
     #[must_use]
     pub fn sees(&self, from: Point, to: Point) -> bool {
-        let way = to - from;
-        let steps = libm::ceil(way.norm() / (0.5 * Self::CELL)).max(1.0);
-        (0..=steps as u32).all(|step| {
-            let at = from + way * (f64::from(step) / steps);
-            self.cell(index_of(at)).is_none_or(|cell| cell.wall > 0)
-        })
+        sees(from, to, |at| self.is_wall(at))
+    }
+
+    /// Returns a grid of cells between these bounds that hold what `ground` says, each wall as seen once. O(cells).
+    pub(super) fn of(bounds: [GridIndex; 2], ground: impl Fn(GridIndex) -> Ground) -> Self {
+        let [first, end] = bounds;
+        let [columns, rows] = [0, 1].map(|axis| end[axis] - first[axis]);
+        let mut grid = Self {
+            first,
+            columns,
+            rows,
+            cells: vec![GridCell::UNSEEN; columns as usize * rows as usize],
+        };
+        let reach = reach_of_wall();
+        for index in grid.indices() {
+            let Some(slot) = grid.slot(index) else {
+                continue;
+            };
+            match ground(index) {
+                Ground::Unknown => {}
+                Ground::Floor => grid.cells[slot].passes = 1,
+                Ground::Wall => {
+                    grid.cells[slot].hits = 1;
+                    grid.stamp(index, &reach);
+                }
+            }
+        }
+        grid
+    }
+
+    /// All cells, in rows.
+    pub(super) fn indices(&self) -> impl Iterator<Item = GridIndex> + use<> {
+        let [first, end] = self.bounds();
+        let row = move |row| (first[0]..end[0]).map(move |column| [column, row]);
+        (first[1]..end[1]).flat_map(row)
+    }
+
+    /// What a cell holds.
+    pub(super) fn ground(&self, index: GridIndex) -> Ground {
+        match self.cell(index) {
+            Some(cell) if cell.is_wall() => Ground::Wall,
+            Some(cell) if cell.passes > 0 => Ground::Floor,
+            _ => Ground::Unknown,
+        }
     }
 
     /// Notes that the robot has been at a point: ground within `reach` m and in sight needs no further visit.
@@ -211,22 +237,16 @@ impl WallGrid {
         let was_wall = self.cells[slot].is_wall();
         self.cells[slot].hits = self.cells[slot].hits.saturating_add(1);
         if !was_wall && self.cells[slot].is_wall() {
-            self.stamp(index);
+            self.stamp(index, &reach_of_wall());
         }
     }
 
     /// Tells the cells round a wall how near it is.
-    fn stamp(&mut self, wall: GridIndex) {
-        let reach = (Self::REACH / Self::CELL) as i32;
-        for row in -reach..=reach {
-            for column in -reach..=reach {
-                let distance = libm::hypot(f64::from(column), f64::from(row)) * Self::CELL;
-                if distance <= Self::REACH
-                    && let Some(slot) = self.slot([wall[0] + column, wall[1] + row])
-                {
-                    let cell = &mut self.cells[slot];
-                    cell.wall = cell.wall.min((distance / DISTANCE_UNIT) as u8);
-                }
+    fn stamp(&mut self, wall: GridIndex, reach: &[([i32; 2], u8)]) {
+        for ([column, row], distance) in reach {
+            if let Some(slot) = self.slot([wall[0] + column, wall[1] + row]) {
+                let cell = &mut self.cells[slot];
+                cell.wall = cell.wall.min(*distance);
             }
         }
     }
@@ -245,9 +265,10 @@ impl WallGrid {
                 self.cells[slot].wall = FAR;
             }
         }
+        let distances = reach_of_wall();
         for index in around(gone, 2 * reach) {
             if self.cell(index).is_some_and(GridCell::is_wall) {
-                self.stamp(index);
+                self.stamp(index, &distances);
             }
         }
     }
@@ -285,17 +306,6 @@ impl WallGrid {
     }
 }
 
-/// What a beam would meet on a [`WallGrid`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum GridRange {
-    /// A wall, so many metres away.
-    Wall(f64),
-    /// Nothing within range.
-    Clear,
-    /// It leaves what is known first.
-    Unknown,
-}
-
 impl GridCell {
     const UNSEEN: Self = Self {
         hits: 0,
@@ -307,6 +317,25 @@ impl GridCell {
     const fn is_wall(&self) -> bool {
         self.hits > 0 && self.hits as u32 * PASSES_A_HIT >= self.passes as u32
     }
+}
+
+/// The cells round a wall, and how far they are from it.
+fn reach_of_wall() -> Vec<([i32; 2], u8)> {
+    let reach = (WallGrid::REACH / WallGrid::CELL) as i32;
+    let row = |row: i32| (-reach..=reach).map(move |column| [column, row]);
+    let near = (-reach..=reach).flat_map(row).filter_map(|offset| {
+        let [column, row] = offset.map(f64::from);
+        let distance = libm::hypot(column, row) * WallGrid::CELL;
+        (distance <= WallGrid::REACH).then_some((offset, (distance / DISTANCE_UNIT) as u8))
+    });
+    near.collect()
+}
+
+/// Whether no wall stands on the straight line between two points, two of which are tried a cell.
+pub(super) fn sees(from: Point, to: Point, is_wall: impl Fn(Point) -> bool) -> bool {
+    let way = to - from;
+    let steps = libm::ceil(way.norm() / (0.5 * WallGrid::CELL)).max(1.0);
+    (0..=steps as u32).all(|step| !is_wall(from + way * (f64::from(step) / steps)))
 }
 
 /// The cell in which a point lies.

@@ -6,6 +6,7 @@
 
 extern crate alloc;
 
+mod certificates;
 #[cfg(feature = "serde")]
 mod files;
 mod learning;

@@ -1,6 +1,6 @@
 //! A heat map of all systems in all worlds, and what worlds cost by their size.
 
-use tolman_draw::{Axis, Chart, Figure, HeatMap, Line, LinePoint, Series, Shade};
+use tolman_draw::{Axis, Chart, Figure, Hatching, HeatMap, Line, LinePoint, Series, Shade};
 use tolman_experiment::{BoxError, Record, Run};
 
 use super::records::{HomeRun, LearnRun, LocateRun, SizeRun};
@@ -24,21 +24,27 @@ fn heat_map(
     worlds: &[ArenaWorld],
     runs: &[Run],
 ) -> Result<Option<Figure>, BoxError> {
-    let (what, title) = match task {
-        ArenaTask::Learn => ("right maps, %", "Right maps"),
-        ArenaTask::Home => ("came to the goal, %", "Came to the goal"),
-        ArenaTask::Locate => ("found itself, %", "Found itself"),
+    let (what, title, hatched) = match task {
+        ArenaTask::Learn => ("right maps, %", "Right maps", "abstained"),
+        ArenaTask::Home => ("came to the goal, %", "Came to the goal", "abstained"),
+        ArenaTask::Locate => ("found itself, %", "Found itself", "did not say"),
     };
     let names = worlds.iter().map(ArenaWorld::name).chain([ALL]);
     let names: Vec<&str> = names.collect();
-    let mut values = Vec::new();
+    let (mut values, mut abstained) = (Vec::new(), Vec::new());
     for contestant in contestants(task) {
-        let mut of_row = Vec::new();
-        for world in &names {
-            of_row.push(percent(runs, table, task, &row_name(contestant, world))?);
-        }
-        values.push(of_row);
+        let rows = names.iter().map(|world| row_name(contestant, world));
+        let ends = rows.map(|row| ends(runs, table, task, &row));
+        let ends: Vec<Vec<End>> = ends.collect::<Result<_, _>>()?;
+        values.push(
+            ends.iter()
+                .map(|of| 100.0 * share(of, End::Right))
+                .collect(),
+        );
+        let shares = ends.iter().map(|of| share(of, End::Abstained));
+        abstained.push(shares.collect());
     }
+    let values: Vec<Vec<f64>> = values;
     if values.iter().flatten().all(|value| !value.is_finite()) {
         return Ok(None);
     }
@@ -49,6 +55,10 @@ fn heat_map(
         rows: contestants(task).map(|c| c.name().to_owned()).collect(),
         values,
         shade: Shade::new(what, 0.0, 100.0),
+        hatching: Some(Hatching {
+            title: hatched.to_owned(),
+            shares: abstained,
+        }),
     };
     let drawing = map.drawing(format!(
         "{title} of each system in each family of worlds, in percent."
@@ -59,31 +69,58 @@ fn heat_map(
         format!("{title}: every system in every kind of world"),
         drawing,
     );
-    Ok(Some(
-        figure
-            .caption("Who abstained counts as not right.")
-            .table(table),
-    ))
+    let caption = format!(
+        "Percent of all runs of a row. Hatched is the share that {hatched}, a dash where all did; 0 is tried and failed; an empty cell was not tried."
+    );
+    Ok(Some(figure.caption(caption).table(table)))
 }
 
-/// The share of a row's runs that are right, in percent; not a number without runs.
-fn percent(runs: &[Run], table: &str, task: ArenaTask, row: &str) -> Result<f64, BoxError> {
-    let flags: Vec<bool> = match task {
+/// How a run ended, as a heat map shows it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum End {
+    Right,
+    Wrong,
+    Abstained,
+}
+
+impl End {
+    const fn of(is_right: bool, has_abstained: bool) -> Self {
+        match (is_right, has_abstained) {
+            (true, _) => Self::Right,
+            (false, true) => Self::Abstained,
+            (false, false) => Self::Wrong,
+        }
+    }
+}
+
+/// How the runs of a row ended.
+fn ends(runs: &[Run], table: &str, task: ArenaTask, row: &str) -> Result<Vec<End>, BoxError> {
+    Ok(match task {
         ArenaTask::Learn => {
-            let of_row = LearnRun::of_row(runs, table, row)?;
-            of_row.iter().map(|run| run.right).collect()
+            let of_row = LearnRun::of_row(runs, table, row)?.into_iter();
+            of_row
+                .map(|run| End::of(run.right, run.abstained))
+                .collect()
         }
         ArenaTask::Home => {
-            let of_row = HomeRun::of_row(runs, table, row)?;
-            of_row.iter().map(|run| run.success).collect()
+            let of_row = HomeRun::of_row(runs, table, row)?.into_iter();
+            of_row
+                .map(|run| End::of(run.success, run.abstained))
+                .collect()
         }
         ArenaTask::Locate => {
-            let of_row = LocateRun::of_row(runs, table, row)?;
-            of_row.iter().map(|run| run.right).collect()
+            let of_row = LocateRun::of_row(runs, table, row)?.into_iter();
+            of_row
+                .map(|run| End::of(run.right, run.abstained))
+                .collect()
         }
-    };
-    let right = flags.iter().filter(|flag| **flag).count() as f64;
-    Ok(100.0 * right / flags.len() as f64)
+    })
+}
+
+/// The share of runs that ended so; not a number without runs.
+fn share(ends: &[End], end: End) -> f64 {
+    let count = ends.iter().filter(|one| **one == end).count();
+    count as f64 / ends.len() as f64
 }
 
 fn by_size(runs: &[Run]) -> Result<Option<Figure>, BoxError> {

@@ -4,6 +4,7 @@
 mod figures;
 mod records;
 mod rows;
+mod verdicts;
 mod worlds;
 
 use std::sync::Mutex;
@@ -19,6 +20,7 @@ use self::records::{HomeRun, LearnRun, LocateRun};
 use self::rows::{ALL, Held, RowName};
 use crate::Film;
 
+pub use verdicts::{PoolJudgement, PoolRound, VerdictPool};
 pub use worlds::{ArenaWorld, DrawnWorld};
 
 /// What the catalogue says of it.

@@ -37,6 +37,8 @@ record! {
         driven: Option<f64> => lower("metres / corridors"),
         /// Time steps in which it touched something.
         bumps: Option<u32> => lower("bumps"),
+        /// Bytes of its map for each of its places, without what it was learned from.
+        bytes_per_place: Option<f64> => lower("bytes / place").decimals(0),
         /// How it ended, and why.
         why: String => neither("end"),
     }
@@ -167,6 +169,7 @@ impl LearnRun {
             brier: Some(error * error),
             driven: Some(learned.driven),
             bumps: Some(learned.bumps),
+            bytes_per_place: learned.bytes_per_place(),
             why: match &learned.end {
                 TaskEnd::Done => "done".to_owned(),
                 TaskEnd::GaveUp { why } => why.clone(),
@@ -269,6 +272,7 @@ pub(super) fn learn(name: &str) -> Table {
         )
         .metric(Metric::mean(LearnRun::driven))
         .metric(Metric::mean(LearnRun::bumps))
+        .metric(Metric::mean(LearnRun::bytes_per_place))
 }
 
 pub(super) fn home(name: &str) -> Table {

@@ -49,6 +49,7 @@ impl DrawnWorld {
             condition: Condition::AsMade,
             starts: self.starts,
             seed: self.seed,
+            stopwatch: None,
         }
     }
 }
@@ -107,13 +108,23 @@ impl ArenaWorld {
     /// # Errors
     /// If the family cannot draw it.
     pub fn draw(&self, master_seed: u64, number: u32) -> Result<DrawnWorld, BoxError> {
+        let size = match number.is_multiple_of(2) {
+            true => FamilySize::Small,
+            false => FamilySize::Middle,
+        };
         let seed = run_seed(master_seed, self.name(), number);
+        self.draw_sized(seed, number, size)
+    }
+
+    /// Returns drawing `number` of a size by a seed of its own; of a file, whatever its size.
+    pub(super) fn draw_sized(
+        &self,
+        seed: u64,
+        number: u32,
+        size: FamilySize,
+    ) -> Result<DrawnWorld, BoxError> {
         let (name, maze) = match self {
             Self::Family(family) => {
-                let size = match number.is_multiple_of(2) {
-                    true => FamilySize::Small,
-                    false => FamilySize::Middle,
-                };
                 let rng = &mut ChaCha8Rng::seed_from_u64(seed);
                 let maze = (family.draw)(family.size(size), rng)?;
                 (format!("{} {number}", family.name), maze)

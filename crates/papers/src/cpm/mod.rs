@@ -8,6 +8,7 @@ pub mod drawing;
 mod episodes;
 mod explored;
 mod figures;
+mod fresh;
 mod localization;
 mod mazes;
 mod places;
@@ -20,6 +21,7 @@ use alloc::collections::BTreeMap;
 use serde::Serialize;
 use tolman_sim::robots::EpuckConfig;
 
+use tolman_arena::contest::Schooling;
 use tolman_arena::course::Course;
 use tolman_arena::cpm::{TrialRecord, epuck, learn};
 use tolman_arena::diktiometry::EpuckSurveyConfig;
@@ -33,6 +35,7 @@ use detector::DETECTOR;
 use dictionary::{DICTIONARY, DictionaryRun};
 use episodes::EPISODES;
 use explored::EXPLORED;
+use fresh::{FRESH, FreshRow};
 use localization::{Known, LOCALIZATION};
 use places::PLACES;
 use real::{FIGURE_11, Real};
@@ -60,6 +63,9 @@ struct Cpm {
     trials: Vec<Trials>,
     /// What the robot learned of the courses.
     known: Known,
+    fresh: Vec<FreshRow>,
+    /// What robots learned before they are sent into fresh worlds.
+    schooling: Schooling,
     master_seed: u64,
 }
 
@@ -74,6 +80,7 @@ struct Config<'a, R, D> {
     detector: D,
     dictionary: DictionaryRun,
     mazes: BTreeMap<&'a str, String>,
+    fresh: &'a [FreshRow],
 }
 
 /// Reads the mazes, and lets the robot learn.
@@ -98,7 +105,9 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     let mut tables: Vec<Table> = trials.iter().map(|trials| trials.table.clone()).collect();
     tables.push(episodes::table(&courses));
     tables.push(places::table(&courses));
+    let fresh = if papers { fresh::rows() } else { Vec::new() };
     if papers {
+        tables.push(fresh::table(&fresh, options));
         let aliased = trials::aliased(options);
         tables.push(aliased.table.clone());
         trials.push(aliased);
@@ -114,6 +123,8 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         patterns,
         trials,
         known: Known::default(),
+        fresh,
+        schooling: Schooling::default(),
         master_seed: options.seed,
     };
     Ok(Experiment::new(ENTRY, tables, cpm.config()?, cpm))
@@ -157,6 +168,11 @@ impl Cpm {
         self.trials.iter().find(|trials| trials.table.name == table)
     }
 
+    fn fresh(&self, job: &Job<'_>) -> Result<&FreshRow, BoxError> {
+        let row = self.fresh.iter().find(|row| row.row == job.row);
+        row.ok_or_else(|| format!("there is no row {:?}", job.row).into())
+    }
+
     fn course(&self, name: &str) -> Result<&Course, BoxError> {
         let course = self.courses.iter().find(|course| course.name == name);
         course.ok_or_else(|| format!("there is no row {name:?}").into())
@@ -179,6 +195,7 @@ impl Cpm {
             detector: detector::config(),
             dictionary: DictionaryRun::of(&self.patterns),
             mazes: mazes.collect(),
+            fresh: &self.fresh,
         })?)
     }
 }
@@ -191,6 +208,7 @@ impl Procedure for Cpm {
                 let known = &self.known;
                 known.run(&self.courses, &self.patterns, self.master_seed, job)
             }
+            FRESH => self.fresh(job)?.run(&self.schooling, job.seed),
             EPISODES => episodes::run(self.course(job.row)?, &self.patterns, job),
             PLACES => places::run(self.course(job.row)?, job),
             DICTIONARY => dictionary::run(&self.learning, job),
@@ -211,7 +229,7 @@ impl Procedure for Cpm {
             return replay::of_round_trip(&self.real, job).map(Some);
         }
         // Those are as those of figure 9, and those are no trials.
-        if [EPISODES, EXPLORED].contains(&job.table) {
+        if [EPISODES, EXPLORED, FRESH].contains(&job.table) {
             return Ok(None);
         }
         let Some((course, mode)) = self.cast(job)? else {

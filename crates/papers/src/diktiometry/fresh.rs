@@ -9,7 +9,10 @@ use tolman_arena::diktiometry::{
     Office, OfficeConfig, PlaceCue, Survey, SurveyConfig, SurveyorConfig, blocks,
 };
 use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record, require};
-use tolman_maps::diktiometry::Use;
+use tolman_maps::diktiometry::{
+    CertifiedMerges, Identity, JournalLength, MergeCertificate, MergeProof, Use, certify_merges,
+    verify_merges,
+};
 use tolman_maze::drawings::{eight, ladder_of, office, ring, spiral};
 use tolman_maze::{GenerateError, Maze};
 use tolman_systems::stream;
@@ -142,6 +145,14 @@ pub(super) fn rows() -> Vec<FreshRow> {
             robot: |robot| robot.hold_steps = u32::MAX,
             ..five_scripted
         },
+        FreshRow {
+            row: "5x5 constant error, split told",
+            robot: |robot| {
+                robot.hold_steps = u32::MAX;
+                (robot.odometry_share, robot.shared_share) = (0.02, 0.1);
+            },
+            ..five_scripted
+        },
         seven(),
         seven().papers_rule("7x7 passive (paper's rule)"),
         seven_scripted,
@@ -154,6 +165,13 @@ pub(super) fn rows() -> Vec<FreshRow> {
             worlds: LARGE_WORLDS,
             draw: |rng| Ok(blocks(20, WALLED_UP, rng)),
             ..seven().heed(1.0).by_exits()
+        },
+        FreshRow {
+            row: "outliers 1 %",
+            moves: 5000,
+            draw: |rng| Ok(blocks(10, WALLED_UP, rng)),
+            robot: |robot| robot.outliers = 0.01,
+            ..seven_scripted
         },
         painted("ladder 7", |rng| ladder_of(7, rng)),
         painted("ladder 11", |rng| ladder_of(11, rng)),
@@ -185,8 +203,23 @@ record! {
         link_recall: f64 => higher("link recall").share().decimals(3),
         /// Share of the map's links that lead where their action truly leads.
         link_precision: f64 => higher("link precision").share().decimals(4),
+        /// Merges proven by bounds, each checked against the journal.
+        geometric_certificates: Option<usize> => neither("proofs by bounds"),
+        /// Those of them that join two true places.
+        false_geometric: Option<usize> => lower("false proofs by bounds"),
+        /// Merges by looks, each with its chance, checked against the journal.
+        look_certificates: Option<usize> => neither("proofs by looks"),
+        /// Those of them that join two true places.
+        false_looks: Option<usize> => lower("false proofs by looks"),
+        /// Sum of the chances that those say they are false by.
+        stated_chances: Option<f64> => neither("false ones as stated").decimals(4),
+        /// Merges of which there is neither.
+        unproven: Option<usize> => lower("merges without proof"),
     }
 }
+
+/// The name of the row of all runs.
+const ALL_RUNS: &str = "all runs";
 
 impl FreshRun {
     fn relations(&self) -> Result<(), String> {
@@ -207,8 +240,19 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
     Table::of::<FreshRun>(FRESH, "Fresh worlds: each run another drawing")
         .metric(Metric::percent("right_percent", FreshRun::right))
         .metric(Metric::percent("right_of_visited_percent", FreshRun::right_of_visited))
-        .metrics_from(FreshRun::purity)
+        .metric(Metric::mean(FreshRun::purity))
+        .metric(Metric::mean(FreshRun::places_over_true))
+        .metric(Metric::mean(FreshRun::seen))
+        .metric(Metric::mean(FreshRun::link_recall))
+        .metric(Metric::mean(FreshRun::link_precision))
+        .metric(Metric::total(FreshRun::geometric_certificates))
+        .metric(Metric::total(FreshRun::false_geometric))
+        .metric(Metric::total(FreshRun::look_certificates))
+        .metric(Metric::total(FreshRun::false_looks))
+        .metric(Metric::total(FreshRun::stated_chances).decimals(4))
+        .metric(Metric::total(FreshRun::unproven))
         .rows(rows.iter().map(|row| Row::new(row.row).runs(runs(row))))
+        .row(Row::of_all(ALL_RUNS))
         .note(
             "Each run draws its own world from its seed, the same for all rows of a kind. 5x5, 7x7 and 20x20 are blocks with a quarter of \
              the ways walled up, all places alike; 700, 3000 and 6000 moves. Doorways: a fifth of the passages, walls of eight colours. Ladders \
@@ -259,7 +303,8 @@ impl FreshRow {
 
     /// Surveys a world.
     pub(super) fn run(&self, seed: u64) -> Result<Fields, BoxError> {
-        let (office, config) = self.draw(seed)?;
+        let (office, mut config) = self.draw(seed)?;
+        config.mapper.journal = JournalLength::All;
         let survey = Survey::new(&office, config, seed)?.finish()?;
         let score = survey.score();
         let places = office.places(&[]).len();
@@ -272,7 +317,52 @@ impl FreshRow {
             seen,
             link_recall: score.link_recall,
             link_precision: score.link_precision,
+            ..FreshRun::default()
         };
-        Ok(run.fields()?)
+        // The paper's rule proves nothing.
+        let config = survey.observer().config();
+        match config.matching.identity {
+            Identity::Certain => Ok(run.certified(&survey)?.fields()?),
+            Identity::Meets => Ok(run.fields()?),
+        }
+    }
+}
+
+impl FreshRun {
+    /// Counts what is proven of the map's merges, once it has been checked, and what of that is false.
+    fn certified(self, survey: &Survey) -> Result<Self, BoxError> {
+        let config = survey.observer().config();
+        let journal = survey.observer().journal().ok_or("no journal is kept")?;
+        let CertifiedMerges {
+            certificates,
+            unproven,
+        } = certify_merges(config, journal)?;
+        verify_merges(config, journal, &certificates)?;
+        let site = |visit: usize| survey.visits()[visit].site;
+        let mut run = Self {
+            geometric_certificates: Some(0),
+            false_geometric: Some(0),
+            look_certificates: Some(0),
+            false_looks: Some(0),
+            stated_chances: Some(0.0),
+            unproven: Some(unproven.len()),
+            ..self
+        };
+        for MergeCertificate { visits, proof, .. } in &certificates {
+            let [one, other] = visits.map(site);
+            let wrong = usize::from(one != other);
+            let (all, bad) = match proof {
+                MergeProof::Bounds(_) => {
+                    (&mut run.geometric_certificates, &mut run.false_geometric)
+                }
+                MergeProof::Looks(evidence) => {
+                    run.stated_chances = run.stated_chances.map(|sum| sum + evidence.chance);
+                    (&mut run.look_certificates, &mut run.false_looks)
+                }
+            };
+            *all = all.map(|count| count + 1);
+            *bad = bad.map(|count| count + wrong);
+        }
+        Ok(run)
     }
 }

@@ -1,7 +1,5 @@
 //! The paper's outlook (section 6): the same search, without rollouts, with thick walls, wheels that slip and noisy sensors.
 
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Braided, Maze};
 
 use super::check_score;
@@ -9,6 +7,7 @@ use tolman_arena::micromouse::noisy::{self, NoisyConfig, NoisyEnd};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Fields, Job, Options, Record, Row, Run, Table, record, require};
 use tolman_systems::micromouse::noisy::PoseSource;
+use tolman_systems::stream;
 
 /// The name of the table.
 pub(super) const NOISE: &str = "noise";
@@ -29,6 +28,9 @@ const MAZES: u32 = 200;
 
 /// The same for a first look.
 const QUICK: u32 = 20;
+
+/// The stream of a run's seed that its maze is drawn by.
+const MAZE_STREAM: u64 = 41;
 
 record! {
     /// A maze that the mouse solved, or not, among thick walls.
@@ -68,8 +70,8 @@ pub(super) fn table(options: &Options) -> Table {
         .metrics_from(NoiseRun::arrived)
         .rows(mice().map(|mouse| Row::new(mouse.row).runs(runs)))
         .note(
-            "One run a maze of 12 × 12 cells, half-braided, on the continuous simulator; 16x16 are as large, by particle filter, with so many times \
-             ordinary noise. Noise 1: wheels slip by up to \
+            "One run a maze of 12 × 12 cells, half-braided, drawn by the run's seed, on the continuous simulator; 16x16 are as large, by particle filter, \
+             with so many times ordinary noise. Noise 1: wheels slip by up to \
              10 % and drift by 0.2 rad/m; three range sensors are off by 3 mm and 2 %. Steps and score are of the runs that \
              arrived, the error is where the mouse thinks it is against where it is.",
         )
@@ -103,13 +105,14 @@ fn mice() -> impl Iterator<Item = Mouse> {
     small.chain(larger)
 }
 
-fn maze(number: u32, side: u16) -> Result<Maze, BoxError> {
+/// Returns the maze of a run, whose seed is the same in all rows.
+fn maze(seed: u64, side: u16) -> Result<Maze, BoxError> {
     let braided = Braided {
         width: side,
         height: side,
         share: 0.5,
     };
-    let mut maze = braided.generate(&mut ChaCha8Rng::seed_from_u64(number.into()))?;
+    let mut maze = braided.generate(&mut stream(seed, MAZE_STREAM))?;
     maze.set_goals(maze.grid().middle().collect());
     Ok(maze)
 }
@@ -119,7 +122,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let mouse = mice()
         .find(|mouse| mouse.row == job.row)
         .ok_or("there is no such row")?;
-    let trial = noisy::send(&maze(job.run, mouse.side)?, &mouse.config, job.seed)?;
+    let trial = noisy::send(&maze(job.seed, mouse.side)?, &mouse.config, job.seed)?;
     let runs = match trial.end {
         NoisyEnd::Arrived { run_1, run_2 } => Some((run_1, run_2)),
         _ => None,

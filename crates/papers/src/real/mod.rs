@@ -1,7 +1,12 @@
-//! Logs of real robots, and a small one of the project's own simulator: how right the ways are that are found in them.
+//! Logs and graphs of real robots, and a small log of the project's own simulator: how right the ways are that are found in logs, and audits of
+//! pose graphs with false closures.
 
+mod audit;
 mod drawing;
+mod false_closures;
 mod figures;
+mod gnc;
+mod graph;
 mod log;
 mod relations;
 mod small;
@@ -12,17 +17,20 @@ mod trajectories;
 use serde::Serialize;
 use tolman_draw::Figure;
 use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run};
+use tolman_maps::audit::AuditConfig;
 use tolman_maps::scan_matching::ScanMatchingConfig;
 use tolman_systems::places::PlacesConfig;
 
 pub use drawing::{MapPicture, ros_map};
+pub use graph::{GraphFile, GraphFileError};
 pub use log::{LogSystem, MappedLog, RobotLog};
 
 /// What the catalogue says of it.
 pub(super) const ENTRY: Entry = Entry {
     name: "real",
-    title: "Logs of real robots: where scans, places and closures say they went",
-    source: "R. Kümmerle et al.: On Measuring the Accuracy of SLAM Algorithms, 2009, for the relations",
+    title: "Logs and graphs of real robots",
+    source: "N. Sünderhauf, P. Protzel: Towards a Robust Back-End for Pose Graph SLAM, 2012, for the kinds of false closures; R. Kümmerle et al.: On Measuring the Accuracy of \
+             SLAM Algorithms, 2009, for the relations",
     runs: 5,
     quick_runs: 1,
     open,
@@ -33,6 +41,7 @@ pub(super) const ENTRY: Entry = Entry {
 struct Real {
     small: small::Small,
     relations: relations::Intel,
+    graphs: audit::Graphs,
 }
 
 /// What the runs depend on.
@@ -40,12 +49,13 @@ struct Real {
 struct Config {
     scan_matching: ScanMatchingConfig,
     places: PlacesConfig,
+    audit: AuditConfig,
 }
 
-/// Says which logs are here and sets the tables up.
+/// Says which logs and graphs are here and sets the tables up.
 ///
 /// # Errors
-/// If the caller names mazes, which have no place here, or a log that is here cannot be read.
+/// If the caller names mazes, which have no place here, or a log or graph that is here cannot be read.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
     if !options.mazes.is_empty() {
         return Err("logs know no mazes: leave --maze out".into());
@@ -53,14 +63,26 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     let config = toml::Table::try_from(Config {
         scan_matching: ScanMatchingConfig::indoor(),
         places: PlacesConfig::indoor(),
+        audit: AuditConfig::standard(),
     })?;
     let real = Real {
         small: small::Small::read()?,
         relations: relations::Intel::default(),
+        graphs: audit::Graphs::find()?,
     };
-    let tables = vec![small::table(), relations::table(), trajectories::table()];
-    let missing = [relations::missing(), trajectories::missing()];
-    let skipped = missing.into_iter().flatten().next();
+    let tables = vec![
+        small::table(),
+        relations::table(),
+        trajectories::table(),
+        audit::table(&real.graphs, options),
+    ];
+    let missing = [
+        relations::missing(),
+        trajectories::missing(),
+        real.graphs.missing(),
+    ];
+    let missing: Vec<String> = missing.into_iter().flatten().collect();
+    let skipped = (!missing.is_empty()).then(|| missing.join(" "));
     Ok(Experiment::new(ENTRY, tables, config, real).skipped(skipped))
 }
 
@@ -70,6 +92,7 @@ impl Procedure for Real {
             small::NAME => self.small.run(job),
             relations::NAME => self.relations.run(job),
             trajectories::NAME => trajectories::run(job),
+            audit::NAME => self.graphs.run(job),
             table => Err(format!("there is no table {table}").into()),
         }
     }

@@ -31,6 +31,15 @@ pub enum Fault {
         /// For how many readings one draw holds, at least 1.
         steps: u32,
     },
+    /// An error beyond all bounds, now and then: the value times 1 ± `share`, drawn anew after every `steps` readings.
+    Lapse {
+        /// How likely a draw is one, 0 … 1.
+        probability: f64,
+        /// The share gained or lost.
+        share: f64,
+        /// For how many readings one draw holds, at least 1.
+        steps: u32,
+    },
     /// Wheels that slip: the value times a factor uniform in 1 ± `share`, as Webots has it.
     Slip {
         /// The largest share gained or lost.
@@ -94,6 +103,15 @@ impl Fault {
                 ("offset", offset, size),
                 ("steps", f64::from(steps), 1.0..=f64::from(u32::MAX)),
             ],
+            Self::Lapse {
+                probability,
+                share,
+                steps,
+            } => vec![
+                probable(probability),
+                ("share", share, size),
+                ("steps", f64::from(steps), 1.0..=f64::from(u32::MAX)),
+            ],
             Self::Slip { share } => vec![("share", share, size)],
             Self::Quantization { step } => vec![("step", step, f64::MIN_POSITIVE..=f64::MAX)],
             Self::DropOut { probability } | Self::Stuck { probability, .. } => {
@@ -154,6 +172,16 @@ impl Fault {
             } => {
                 let [a, b] = past.drawn(steps, draws);
                 value.change(|number| number * (1.0 + share * a) + offset * b);
+            }
+            Self::Lapse {
+                probability,
+                share,
+                steps,
+            } => {
+                let [a, b] = past.drawn(steps, draws);
+                if 0.5 * (b + 1.0) < probability {
+                    value.change(|number| number * (1.0 + share.copysign(a)));
+                }
             }
             Self::Slip { share } => {
                 value.change(|number| number * (1.0 + share * (2.0 * draws.uniform() - 1.0)));

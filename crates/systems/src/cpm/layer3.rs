@@ -1,7 +1,8 @@
+use core::f64::consts::PI;
 use core::ops::ControlFlow;
 
 use rand::Rng;
-use tolman_geom::{Interval, IntervalError, PointBox, Pose};
+use tolman_geom::{Heading, Interval, IntervalError, PointBox, Pose};
 use tolman_maps::cpm::{
     Bearings, CpMap, CpmError, DeadReckoning, Junction, MapUpdate, PatternId, Plan, PlanLeg, Port,
     Sighting, Traversal, Turn,
@@ -299,11 +300,14 @@ fn motion<B: CpmRobot>(
     }
     let to = walker.pose();
     let left = walker.departed();
+    // In a bend the robot may look along the way in or the way out: the way it came by says where it came from.
+    let behind = walker.branches().first().copied().unwrap_or(PI);
+    let came = to.heading.turned(behind + PI);
     let displacement = PointBox::about((to.position - from.position).into(), POSITION_MARGIN)?;
-    let about = |pose: Pose| Interval::about(pose.heading.radians(), HEADING_MARGIN);
+    let about = |heading: Heading| Interval::about(heading.radians(), HEADING_MARGIN);
     Ok(Some(DeadReckoning {
         displacement,
-        departure: about(left)?,
-        arrival: about(to)?,
+        departure: about(left.heading)?,
+        arrival: about(came)?,
     }))
 }

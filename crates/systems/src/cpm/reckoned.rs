@@ -2,6 +2,7 @@ use tolman_geom::{Pose, Twist};
 use tolman_robot::epuck::{EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds};
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
 
+use super::calibration::{Reading, WheelCalibration};
 use super::robot::CpmRobot;
 
 /// A body with dead reckoning by its encoders.
@@ -14,12 +15,30 @@ pub(super) struct Reckoned<B> {
     pub(super) driven: f64,
     /// Time steps made.
     pub(super) steps: u32,
+    /// How its wheels roll, with what the robot senses as that has it; `None` where the encoders are trusted as they are.
+    pub(super) calibrated: Option<Calibrated>,
+}
+
+/// A robot's wheels, and what it senses by them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Calibrated {
+    pub(super) wheels: WheelCalibration,
+    sensing: EpuckSensing,
+}
+
+impl Calibrated {
+    /// Of a robot that senses this before its first step.
+    pub(super) const fn new(wheels: WheelCalibration, sensing: EpuckSensing) -> Self {
+        Self { wheels, sensing }
+    }
 }
 
 impl<B: CpmRobot> Reckoned<B> {
-    /// Its heading is known better.
-    pub(super) fn correct(&mut self, turn: f64) {
-        self.pose.heading = self.pose.heading.turned(turn);
+    /// The walls say that its heading is another.
+    pub(super) fn correct(&mut self, reading: Reading) {
+        if let Some(Calibrated { wheels, .. }) = &mut self.calibrated {
+            self.pose.heading = self.pose.heading.turned(wheels.read(reading));
+        }
     }
 }
 
@@ -29,13 +48,22 @@ impl<B: CpmRobot> Robot for Reckoned<B> {
     type Error = B::Error;
 
     fn sensing(&self) -> &EpuckSensing {
-        self.body.sensing()
+        match &self.calibrated {
+            Some(calibrated) => &calibrated.sensing,
+            None => self.body.sensing(),
+        }
     }
 
     fn step(&mut self, command: &WheelSpeeds) -> Result<(), B::Error> {
-        self.body.step(command)?;
+        match &mut self.calibrated {
+            Some(Calibrated { wheels, sensing }) => {
+                self.body.step(&wheels.command(command))?;
+                *sensing = wheels.sense(self.body.sensing());
+            }
+            None => self.body.step(command)?,
+        }
         self.steps += 1;
-        if let Some(turns) = self.body.sensing().encoders {
+        if let Some(turns) = self.sensing().encoders {
             let roll = |turn: f64| turn * WHEEL_RADIUS;
             let Twist { linear, angular } =
                 Twist::of_wheels(roll(turns.left), roll(turns.right), TRACK);

@@ -3,7 +3,9 @@ use core::ops::ControlFlow;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_maps::cpm::{CpMap, CpmError, Junction, JunctionId, Location, Plan, Port, Sign};
+use tolman_maps::cpm::{
+    CpMap, CpmError, Junction, JunctionId, Location, MapDoubt, Plan, Port, Sign,
+};
 use tolman_robot::{
     Goal, Guess, MapLink, MapPlace, MapView, Mapper, Position, Standing, System, Task,
 };
@@ -45,6 +47,10 @@ pub struct Cpm {
     /// The walks on its map.
     trail: Trail,
     standing: Stance,
+    /// Maps that it gave up since they could not be.
+    given_up: u32,
+    /// Walks, one after the other, in which its map could not be.
+    doubtful: u32,
     rng: ChaCha8Rng,
 }
 
@@ -56,11 +62,20 @@ enum Stance {
     /// It is finding out where.
     Searching(Box<(RestingWalker, Relocalization)>),
     /// At the place where its map has it.
-    AtPlace(RestingWalker),
+    AtPlace(Box<RestingWalker>),
 }
 
 /// Places at which a robot that is lost has to know where it is; after them it goes on where it most likely is.
 const MOST_PLACES: u32 = 12;
+
+/// Two places of corridors are not nearer to each other than this, in corridors' widths.
+const APART: f64 = 0.5;
+
+/// A map that could not be for so many walks is given up.
+const MOST_DOUBTFUL: u32 = 50;
+
+/// So many maps are given up before the robot does.
+const MOST_MAPS: u32 = 2;
 
 impl Cpm {
     /// Returns a robot without a map that knows these `patterns` from a learning maze (section 4.1). All random
@@ -82,6 +97,8 @@ impl Cpm {
             layer: None,
             trail: Trail::default(),
             standing: Stance::Anywhere,
+            given_up: 0,
+            doubtful: 0,
             rng: ChaCha8Rng::seed_from_u64(seed),
         }
     }
@@ -167,9 +184,10 @@ impl Cpm {
         let mut walker = Walker::new(robot, self.walker.clone());
         let patterns = self.patterns.clone();
         let layer = Layer3::begin(&mut walker, patterns, self.novelty, self.config)?;
-        self.trail = Trail::from(layer.explorer().mapper.at());
+        self.trail.begin(layer.explorer().mapper.at());
+        self.doubtful = 0;
         self.layer = Some(layer);
-        self.standing = Stance::AtPlace(walker.rest());
+        self.standing = Stance::AtPlace(Box::new(walker.rest()));
         Ok(Standing::UnderWay)
     }
 
@@ -215,7 +233,7 @@ impl Cpm {
                         self.on = here.map;
                     }
                 }
-                self.standing = Stance::AtPlace(walker);
+                self.standing = Stance::AtPlace(Box::new(walker));
                 Ok(if is_sure && is_like {
                     Standing::Done
                 } else {
@@ -244,7 +262,7 @@ impl Cpm {
         };
         let mut walker = Walker::wake(robot, self.walker.clone(), resting);
         let flow = layer.advance(&mut walker, aim, &mut self.rng)?;
-        self.standing = Stance::AtPlace(walker.rest());
+        self.standing = Stance::AtPlace(Box::new(walker.rest()));
         let done = match flow {
             ControlFlow::Break(done) => done,
             ControlFlow::Continue(step) => {
@@ -252,20 +270,63 @@ impl Cpm {
                     let at = layer.explorer().mapper.at();
                     self.trail.walked(step.leg.turn, at, arrival);
                 }
-                return Ok(Standing::UnderWay);
+                return Ok(self.heed());
             }
         };
         layer.optimize()?;
+        let walked = layer.explorer().mapper.traversals();
+        let is_found = done == Done::Reached && aim != Aim::Explore;
+        if let Some(doubt) = self.doubt().filter(|_| !is_found) {
+            return Ok(self.begin_anew(doubt));
+        }
         Ok(match done {
             Done::Reached => Standing::Done,
             Done::NotThere => {
                 Standing::gave_up("it has been everywhere, and the landmark is not there")
             }
             Done::OutOfPatience => Standing::gave_up(format!(
-                "it has walked {} fragments, as many as it may",
-                layer.explorer().mapper.traversals()
+                "it has walked {walked} fragments, as many as it may"
             )),
         })
+    }
+
+    /// Returns why its map is not to be believed, as far as it can tell.
+    fn doubt(&self) -> Option<MapDoubt> {
+        self.explorer()?.mapper.doubt(self.apart())
+    }
+
+    /// How far apart two places are at least, m.
+    fn apart(&self) -> f64 {
+        APART * self.walker.corridor_width
+    }
+
+    /// After a walk: counts those in which the map could not be. One whose places grow without end is given up.
+    fn heed(&mut self) -> Standing {
+        let doubt = self.explorer().and_then(|Explorer { mapper, .. }| {
+            mapper.map().twice_at(mapper.at().junction, self.apart())
+        });
+        let Some(doubt) = doubt else {
+            self.doubtful = 0;
+            return Standing::UnderWay;
+        };
+        self.doubtful += 1;
+        match self.doubtful < MOST_DOUBTFUL {
+            true => Standing::UnderWay,
+            false => self.begin_anew(doubt),
+        }
+    }
+
+    /// Gives up a map that is not to be believed, and begins another where the robot stands; after some it gives up itself.
+    fn begin_anew(&mut self, doubt: MapDoubt) -> Standing {
+        if self.given_up >= MOST_MAPS || !self.known.is_empty() {
+            return Standing::gave_up(format!("its map is doubtful: {doubt}"));
+        }
+        self.given_up += 1;
+        if let Some(layer) = self.layer.take() {
+            self.patterns = layer.patterns().clone();
+        }
+        self.standing = Stance::Anywhere;
+        Standing::UnderWay
     }
 
     /// Drives one fragment of a plan. A robot that comes elsewhere than its map has there is lost.
@@ -274,16 +335,20 @@ impl Cpm {
         robot: &mut R,
         resting: RestingWalker,
         plan: &Plan,
+        goal: Goal,
     ) -> CpmResult<Standing, R> {
         let (Some(layer), Some(leg)) = (&mut self.layer, plan.legs.first()) else {
-            self.standing = Stance::AtPlace(resting);
+            self.standing = Stance::AtPlace(Box::new(resting));
             return Ok(Standing::Done);
         };
         let mut walker = Walker::wake(robot, self.walker.clone(), resting);
         let sighting = Layer3::drive(&mut walker, leg)?;
         if layer.expected(leg) == Some(sighting) {
             layer.explorer_mut().mapper.place(leg.arrive)?;
-            self.standing = Stance::AtPlace(walker.rest());
+            self.standing = Stance::AtPlace(Box::new(walker.rest()));
+        } else if sighting.landmark.map(Goal::Landmark) == Some(goal) {
+            // Elsewhere than it thought, but where it was sent.
+            return Ok(Standing::Done);
         }
         Ok(Standing::UnderWay)
     }
@@ -305,10 +370,10 @@ impl Cpm {
         goal: Goal,
     ) -> CpmResult<Standing, R> {
         match (self.plan(goal), goal) {
-            (Some(plan), _) => self.drive(robot, resting, &plan),
+            (Some(plan), _) => self.drive(robot, resting, &plan, goal),
             (None, Goal::Landmark(landmark)) => self.pursue(robot, resting, Aim::Find(landmark)),
             (None, Goal::Place(place)) => {
-                self.standing = Stance::AtPlace(resting);
+                self.standing = Stance::AtPlace(Box::new(resting));
                 Ok(Standing::gave_up(format!(
                     "it knows no way to place {place}"
                 )))
@@ -358,7 +423,11 @@ impl Mapper for Cpm {
     }
 
     fn certainty(&self) -> Option<f64> {
-        self.explorer()?.mapper.certainty()
+        self.explorer()?.mapper.certainty(self.apart())
+    }
+
+    fn map_bytes(&self) -> Option<usize> {
+        self.layer.as_ref().map(|layer| layer.map().bytes())
     }
 
     fn visits(&self) -> Vec<Option<u32>> {
@@ -395,8 +464,8 @@ impl<R: CpmRobot> System<R> for Cpm {
                 self.standing = Stance::AtPlace(resting);
                 Ok(Standing::Done)
             }
-            (Stance::AtPlace(resting), Task::Explore) => self.pursue(robot, resting, Aim::Explore),
-            (Stance::AtPlace(resting), Task::Reach(goal)) => self.reach(robot, resting, goal),
+            (Stance::AtPlace(resting), Task::Explore) => self.pursue(robot, *resting, Aim::Explore),
+            (Stance::AtPlace(resting), Task::Reach(goal)) => self.reach(robot, *resting, goal),
             (lost, task) => {
                 self.standing = lost;
                 if self.layer.is_none() && task != Task::Localize {

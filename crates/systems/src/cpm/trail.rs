@@ -4,6 +4,8 @@ use tolman_maps::cpm::{CpMap, MapUpdate, Port, Turn};
 /// places become one, has other names for them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Trail {
+    /// Places that it came to before a map that it has given up.
+    forgotten: usize,
     /// Where the walks begin that can be retraced from one another.
     bases: Vec<Base>,
 }
@@ -24,11 +26,16 @@ struct TrailStep {
 }
 
 impl Trail {
-    /// Returns the trail of a robot that begins at a port.
-    pub(super) fn from(at: Port) -> Self {
+    /// Begins at a port of a new map. Where the robot was before has no names there.
+    pub(super) fn begin(&mut self, at: Port) {
         let walks = Vec::new();
-        let bases = vec![Base { at, walks }];
-        Self { bases }
+        self.forgotten += self.count();
+        self.bases = vec![Base { at, walks }];
+    }
+
+    /// How many places the robot came to on its map.
+    fn count(&self) -> usize {
+        self.bases.iter().map(|base| 1 + base.walks.len()).sum()
     }
 
     /// Adds a walk that led to the port `then`.
@@ -45,7 +52,7 @@ impl Trail {
 
     /// Returns the places that the robot came to, each as the map has it now. O(walks · log fragments).
     pub(super) fn places(&self, map: &CpMap) -> Vec<Option<u32>> {
-        let mut places = Vec::new();
+        let mut places = vec![None; self.forgotten];
         let known = |at: Port| map.junction(at.junction).map(|_| at.junction.0);
         for base in &self.bases {
             let mut at = Some(base.at);

@@ -8,7 +8,8 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::cpm::{Bearings, Sighting};
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
 
-use super::reckoned::Reckoned;
+use super::calibration::{Reading, WheelCalibration};
+use super::reckoned::{Calibrated, Reckoned};
 use super::robot::CpmRobot;
 use super::walker_config::{HeadingBy, WalkerConfig};
 
@@ -40,6 +41,7 @@ pub struct RestingWalker {
     forward: Forward,
     pose: Pose,
     driven: f64,
+    wheels: WheelCalibration,
 }
 
 /// One observation.
@@ -139,6 +141,22 @@ fn count_from(direction: f64, ways: &mut [f64]) {
     }
 }
 
+/// How far ways are turned out of the robot's axes, rad, where they lead along two axes: what tells in the middle of a crossing, which has no
+/// walls. `None` of fewer than three.
+fn askew_of(segments: &Segments) -> Option<f64> {
+    let (mut sine, mut cosine, mut count) = (0.0, 0.0, 0.0);
+    for way in segments.spaces() {
+        let (sin, cos) = libm::sincos(4.0 * way);
+        (sine, cosine, count) = (sine + sin, cosine + cos, count + 1.0);
+    }
+    let agreement = libm::hypot(sine, cosine);
+    (count >= 3.0 && agreement > 0.8 * count).then(|| libm::atan2(sine, cosine) / 4.0)
+}
+
+/// Standard deviations of a heading that is read off walls, and off the ways out of a crossing, rad.
+const BY_WALLS: f64 = 0.02;
+const BY_WAYS: f64 = 0.1;
+
 /// Rounds of looking for a junction's middle.
 const ROUNDS: u32 = 4;
 
@@ -168,6 +186,11 @@ const SPREAD: u32 = 20;
 /// A wall that reads more than this on average is nearer than any beside the middle of a corridor: the robot was off its path.
 const TOO_NEAR: f64 = 220.0;
 
+/// Before it sets off a robot that has walls to tell by turns round until it knows how far its wheels roll to this standard deviation, as a
+/// share, or has turned round so often.
+const CALIBRATED: f64 = 3e-3;
+const MOST_TURNS: u32 = 12;
+
 /// Near enough to the middle, m.
 const NEAR: f64 = 0.015;
 
@@ -179,17 +202,23 @@ impl<B: CpmRobot> Walker<B> {
             forward: Forward::new(config.pilot.forward),
             pose: Pose::IDENTITY,
             driven: 0.0,
+            wheels: WheelCalibration::UNKNOWN,
         };
         Self::wake(body, config, resting)
     }
 
     /// Goes on with the robot, which has not been moved since the walker was given its [rest](Self::rest).
     pub fn wake(body: B, config: WalkerConfig, resting: RestingWalker) -> Self {
+        let calibrated = match config.heading {
+            HeadingBy::Encoders => None,
+            HeadingBy::Walls => Some(Calibrated::new(resting.wheels, *body.sensing())),
+        };
         let reckoned = Reckoned {
             body,
             pose: resting.pose,
             driven: resting.driven,
             steps: 0,
+            calibrated,
         };
         Self {
             pilot: Pilot::resume(reckoned, config.pilot.clone(), resting.forward),
@@ -204,6 +233,7 @@ impl<B: CpmRobot> Walker<B> {
             forward: *self.pilot.forward(),
             pose: self.pose(),
             driven: self.driven(),
+            wheels: self.wheels(),
             memory: self.memory,
         }
     }
@@ -221,6 +251,18 @@ impl<B: CpmRobot> Walker<B> {
     /// Where it believes to be, in the frame in which it began.
     pub const fn pose(&self) -> Pose {
         self.pilot.robot().pose
+    }
+
+    /// What is known of how its wheels roll.
+    fn wheels(&self) -> WheelCalibration {
+        let calibrated = &self.pilot.robot().calibrated;
+        calibrated.map_or(WheelCalibration::UNKNOWN, |calibrated| calibrated.wheels)
+    }
+
+    /// Returns the standard deviation of how far it has driven, as a share; 0 where its encoders are trusted as they are.
+    pub fn uncertainty(&self) -> f64 {
+        let calibrated = &self.pilot.robot().calibrated;
+        calibrated.map_or(0.0, |calibrated| calibrated.wheels.uncertainty())
     }
 
     /// Microseconds since the robot was switched on.
@@ -294,6 +336,7 @@ impl<B: CpmRobot> Walker<B> {
     ) -> WalkResult<Walk, B> {
         // It may have been carried here.
         self.pilot.stand()?;
+        self.calibrate()?;
         let begun = self.pose().position;
         self.memory.trail.clear();
         self.memory.trail.push(begun);
@@ -418,12 +461,12 @@ impl<B: CpmRobot> Walker<B> {
         let view = self.look()?;
         let landmark = self.pilot.robot().landmark();
         course.left = course.left.filter(|left| landmark == Some(*left));
+        let is_under_way = self.is_beyond(course, driven, PLACE);
         if let Some(landmark) = landmark
-            && course.left.is_none()
+            && (course.left.is_none() || is_under_way && self.tells_neighbours())
         {
             return Ok(Some(Ahead::Landmark(landmark)));
         }
-        let is_under_way = self.is_beyond(course, driven, PLACE);
         match view.segments.place() {
             PlaceKind::Junction => {
                 let middle = self.pose().transform(self.middle_of(&view));
@@ -441,6 +484,11 @@ impl<B: CpmRobot> Walker<B> {
             course.track.push((self.pose().position, seen));
         }
         Ok(None)
+    }
+
+    /// Whether a landmark that is seen beyond the place with the same one is that of another place. Ours: the paper's robot has one goal.
+    fn tells_neighbours(&self) -> bool {
+        self.config.heading == HeadingBy::Walls
     }
 
     /// Whether the place that a course leads from lies more than so many corridors' widths back, where the robot has driven so far, m.
@@ -626,18 +674,39 @@ impl<B: CpmRobot> Walker<B> {
         self.memory.observations += 1;
         let profile = Profile::of(&sweep, self.config.alignment)?;
         let segments = profile.segments(&self.config.segments)?;
-        self.true_up(&profile);
+        self.true_up(&profile, &segments);
         Ok(View { profile, segments })
     }
 
+    /// Turns round until it knows how far its wheels roll, if it has a heading to tell that by.
+    fn calibrate(&mut self) -> WalkResult<(), B> {
+        for _ in 0..MOST_TURNS {
+            if self.uncertainty() <= CALIBRATED {
+                break;
+            }
+            let sweep = self.pilot.sweep()?;
+            let profile = Profile::of(&sweep, self.config.alignment)?;
+            let segments = profile.segments(&self.config.segments)?;
+            self.true_up(&profile, &segments);
+        }
+        Ok(())
+    }
+
     /// Takes the drift out of the heading: walls stand at right angles, along the axes in which the robot began.
-    fn true_up(&mut self, profile: &Profile) {
-        if self.config.heading == HeadingBy::Walls
-            && let Some(askew) = profile.askew(&self.config.pilot.curve)
-        {
+    fn true_up(&mut self, profile: &Profile, segments: &Segments) {
+        if self.config.heading == HeadingBy::Encoders {
+            return;
+        }
+        let by_walls = profile.askew(&self.config.pilot.curve);
+        let seen = match by_walls {
+            Some(askew) => Some((askew, BY_WALLS)),
+            None => askew_of(segments).map(|askew| (askew, BY_WAYS)),
+        };
+        if let Some((askew, deviation)) = seen {
             let walls = self.pose().heading.radians() + askew;
-            let off = walls - libm::round(walls / FRAC_PI_2) * FRAC_PI_2;
-            self.pilot.robot_mut().correct(-off);
+            let off = libm::round(walls / FRAC_PI_2) * FRAC_PI_2 - walls;
+            let reading = Reading { off, deviation };
+            self.pilot.robot_mut().correct(reading);
         }
     }
 

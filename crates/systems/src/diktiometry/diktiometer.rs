@@ -2,7 +2,8 @@ use core::error::Error;
 
 use thiserror::Error as ThisError;
 use tolman_maps::diktiometry::{
-    Config, FirstPlace, ObservedMove, ObservedMoveError, Observer, PlaceId, StartError,
+    Config, Diktiometry, FirstPlace, Frame, Link, ObservedMove, ObservedMoveError, Observer, Place,
+    PlaceId, Signature, StartError,
 };
 use tolman_robot::{
     Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
@@ -19,7 +20,8 @@ use super::{
 /// Each action is one control routine, from a place to the next. Its tasks:
 ///
 /// - **Explore**: the [`Planner`](super::Planner)'s walk, until nothing is left to try at any place
-///   that the map leads to.
+///   that the map leads to, and nothing speaks against the map. It gives up a map that has spoken
+///   against itself for 300 moves.
 /// - **Reach** a place: the map's plan, made anew after every routine. It gives up if the map knows
 ///   no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
@@ -169,11 +171,51 @@ impl<E> Mapper for Diktiometer<E> {
         self.observer().map_or_else(Vec::new, Mapper::belief)
     }
 
+    fn certainty(&self) -> Option<f64> {
+        self.observer()?.certainty()
+    }
+
+    fn map_bytes(&self) -> Option<usize> {
+        self.observer().map(|observer| bytes(observer.map()))
+    }
+
     fn visits(&self) -> Vec<Option<u32>> {
         let paths = self.observer().map(|observer| &observer.map().paths);
         let now = |place: &PlaceId| Some(paths?.resolve(*place)?.0);
         self.visited.iter().map(now).collect()
     }
+}
+
+/// The bytes that standing places, links and frames take, but for the grids of where the robot has been.
+fn bytes(map: &Diktiometry) -> usize {
+    let place = |place: &Place| {
+        let histories = place.histories.iter();
+        size_of_val(place)
+            + size_of_val(place.estims.as_slice())
+            + place.views.iter().map(view_bytes).sum::<usize>()
+            + size_of_val(place.outgoing.as_slice())
+            + size_of_val(place.incoming.as_slice())
+            + size_of_val(place.blocked.as_slice())
+            + histories
+                .map(|one| size_of_val(one.as_slice()))
+                .sum::<usize>()
+            + size_of_val(place.notes.as_slice())
+    };
+    let link = |link: &Link| size_of_val(link) + size_of_val(link.then.as_slice());
+    let frame = |frame: &Frame| {
+        size_of_val(frame)
+            + size_of_val(frame.places.as_slice())
+            + size_of_val(frame.relations.as_slice())
+    };
+    let standing = map.reference.frames().iter();
+    let standing = standing.filter(|frame| !frame.places.is_empty());
+    map.paths.places().map(|(_, one)| place(one)).sum::<usize>()
+        + map.paths.links().map(|(_, one)| link(one)).sum::<usize>()
+        + standing.map(frame).sum::<usize>()
+}
+
+fn view_bytes(view: &Signature) -> usize {
+    size_of_val(view) + view.columns() * view.rows() * size_of::<f64>()
 }
 
 impl<R, E> System<R> for Diktiometer<E>

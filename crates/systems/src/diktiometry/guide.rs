@@ -3,7 +3,7 @@ use alloc::format;
 use core::ops::ControlFlow;
 
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::diktiometry::{Action, Config, Observer, PlaceId};
+use tolman_maps::diktiometry::{Action, Config, Identity, Observer, PlaceId};
 use tolman_maze::Direction;
 use tolman_planners::path_to;
 use tolman_robot::{Goal, Landmark, Standing, Task};
@@ -22,7 +22,17 @@ pub(super) struct Guide {
     walk: ChaCha8Rng,
     /// Where each landmark was sensed last, by the name the place had then.
     landmarks: BTreeMap<Landmark, PlaceId>,
+    /// Number of moves so far.
+    moves: u32,
+    /// Since which of them the map has spoken against itself.
+    at_odds: Option<u32>,
 }
+
+/// The map is asked what speaks against it after every so many moves.
+const CHECKED: u32 = 10;
+
+/// A map that has spoken against itself for so many moves is given up: most that fold do sooner.
+const PATIENCE: u32 = 300;
 
 /// What is known of where the rover stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,6 +78,8 @@ impl Guide {
             planner: Planner::new(heed),
             walk: stream(seed, WALK_STREAM),
             landmarks: BTreeMap::new(),
+            moves: 0,
+            at_odds: None,
         }
     }
 
@@ -142,6 +154,11 @@ impl Guide {
         self.under_way = None;
         let history = mapping.observer().config().tracks.history;
         self.whereabouts = before.after_a_move(history);
+        self.moves = self.moves.saturating_add(1);
+        if self.moves.is_multiple_of(CHECKED) {
+            let is_sound = self.observer().is_none_or(is_sound);
+            self.at_odds = (!is_sound).then(|| self.at_odds.unwrap_or(self.moves));
+        }
         Ok(())
     }
 
@@ -151,6 +168,7 @@ impl Guide {
             return Next::Break(Standing::Done);
         }
         match task {
+            Task::Explore if self.is_out_of_patience() => self.give_the_map_up(),
             Task::Explore | Task::Localize => self.wander(),
             Task::Reach(Goal::Place(id)) => self.reach(PlaceId(id)),
             Task::Reach(Goal::Landmark(landmark)) => self.seek(landmark, here),
@@ -163,7 +181,7 @@ impl Guide {
             return false;
         };
         match task {
-            Task::Explore => is_explored(observer),
+            Task::Explore => is_explored(observer) && is_sound(observer),
             Task::Localize => self.whereabouts == Whereabouts::Followed && is_sure(observer),
             Task::Reach(Goal::Landmark(landmark)) => here == Some(landmark),
             Task::Reach(Goal::Place(id)) => {
@@ -171,6 +189,18 @@ impl Guide {
                 self.whereabouts.has_moved() && place == Some(observer.place())
             }
         }
+    }
+
+    fn is_out_of_patience(&self) -> bool {
+        self.at_odds
+            .is_some_and(|since| self.moves - since >= PATIENCE)
+    }
+
+    fn give_the_map_up(&self) -> Next {
+        let complaint = self
+            .observer()
+            .and_then(|observer| observer.self_check().complaint());
+        give_up(&complaint.unwrap_or_default())
     }
 
     /// Takes the next step of the planner's walk.
@@ -242,10 +272,14 @@ impl Guide {
             return String::new();
         };
         let place = observer.place().0;
-        match (self.whereabouts, observer.tracks().len()) {
+        let at = match (self.whereabouts, observer.tracks().len()) {
             (Whereabouts::Unknown, _) => "between places".to_owned(),
             (_, 1) => format!("at place {place}"),
             (_, tracks) => format!("at place {place}, or at one of {} others", tracks - 1),
+        };
+        match self.at_odds.and_then(|_| observer.self_check().complaint()) {
+            Some(complaint) => format!("{at}; {complaint}"),
+            None => at,
         }
     }
 }
@@ -265,6 +299,12 @@ fn leave_corridor<V: Rover>(rover: &mut V, back: Option<Direction>) -> Result<()
 fn give_up(why: &str) -> Next {
     let why = why.to_owned();
     Next::Break(Standing::GaveUp { why })
+}
+
+/// Returns whether nothing speaks against the map. By the paper's rule of matching, nothing ever does.
+fn is_sound(observer: &Observer) -> bool {
+    observer.config().matching.identity == Identity::Meets
+        || observer.self_check().complaint().is_none()
 }
 
 /// Returns whether nothing is left to try at any place that a plan leads to. O(places + links ·

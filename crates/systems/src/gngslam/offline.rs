@@ -158,6 +158,10 @@ impl Mapper for OfflineSlam {
         here.map(guess).into_iter().collect()
     }
 
+    fn map_bytes(&self) -> Option<usize> {
+        self.learned().map(PlaceMap::bytes)
+    }
+
     fn visits(&self) -> Vec<Option<u32>> {
         match &self.learned {
             None => vec![None; self.records.len()],

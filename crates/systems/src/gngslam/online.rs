@@ -559,6 +559,10 @@ impl Mapper for OnlineSlam {
     fn belief(&self) -> Vec<Guess> {
         self.map.belief()
     }
+
+    fn map_bytes(&self) -> Option<usize> {
+        Some(self.map.bytes())
+    }
 }
 
 impl<R> System<R> for OnlineSlam

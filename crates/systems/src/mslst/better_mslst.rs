@@ -2,6 +2,7 @@ use alloc::sync::Arc;
 
 use rand::Rng;
 use tolman_control::RingError;
+use tolman_maps::scan_map::ScanChart;
 use tolman_maze::Direction;
 use tolman_robot::{Guess, MapView, Mapper, Ring, Standing, Task};
 
@@ -38,6 +39,28 @@ impl BetterMslst {
         }
     }
 
+    /// Returns what it has learned so far. O(map).
+    #[must_use]
+    pub fn chart(&self) -> ScanChart {
+        match &self.phase {
+            Phase::Exploration(explorer) | Phase::Explored(explorer, _) => {
+                explorer.learned().chart()
+            }
+            Phase::Navigation(navigator) => navigator.chart().clone(),
+        }
+    }
+
+    /// Returns how many places it knows.
+    #[must_use]
+    pub fn place_count(&self) -> usize {
+        match &self.phase {
+            Phase::Exploration(explorer) | Phase::Explored(explorer, _) => {
+                explorer.learned().places().len()
+            }
+            Phase::Navigation(navigator) => navigator.chart().places().len(),
+        }
+    }
+
     /// The phase under way.
     fn brain(&self) -> &dyn Brain<Observation = RolledStep, Error = core::convert::Infallible> {
         match &self.phase {
@@ -48,7 +71,7 @@ impl BetterMslst {
 
     /// Makes the map of `explorer` ready. O(standpoints · tries · steps · beams).
     fn navigator(&self, explorer: &BetterExplorer) -> Result<Box<BetterNavigator>, RingError> {
-        let map = BetterMap::of(explorer.learned().clone(), self.ring, &self.config)?;
+        let map = BetterMap::of(explorer.learned().chart(), self.ring, &self.config)?;
         Ok(Box::new(BetterNavigator::new(Arc::new(map))))
     }
 
@@ -111,6 +134,10 @@ impl Mapper for BetterMslst {
 
     fn belief(&self) -> Vec<Guess> {
         self.brain().belief()
+    }
+
+    fn map_bytes(&self) -> Option<usize> {
+        self.brain().map_bytes()
     }
 }
 

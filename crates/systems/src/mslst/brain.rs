@@ -122,6 +122,10 @@ impl Mapper for Mslst {
     fn belief(&self) -> Vec<Guess> {
         self.brain().belief()
     }
+
+    fn map_bytes(&self) -> Option<usize> {
+        self.learned().map(|map| map.bytes())
+    }
 }
 
 impl Brain for Mslst {

@@ -33,6 +33,14 @@ pub struct GrowthRecord {
 }
 
 impl MslstMap {
+    /// Returns how many bytes states and graph take. O(states + nodes).
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let models = self.states.models().iter();
+        let states = models.map(|model| size_of_val(model.as_slice()));
+        states.sum::<usize>() + self.graph.bytes()
+    }
+
     /// Returns the graph as places without positions; the destination nodes have the landmark of the goal.
     /// O(nodes + edges).
     #[must_use]

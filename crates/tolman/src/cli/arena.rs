@@ -1,15 +1,20 @@
 //! `tolman arena`: systems in worlds of every kind, judged by the truth.
 
+mod verdicts;
+
+use core::time::Duration;
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::OnceLock;
+use std::time::Instant;
 
 use anyhow::anyhow;
 use clap::builder::PossibleValue;
 use rayon::prelude::*;
 use serde::Serialize;
 use tolman_arena::contest::{
-    Condition, Contest, ContestError, ContestRecord, ContestRobot, Contestant, LocateOutcome,
-    Located, Schooling,
+    Condition, Contest, ContestError, ContestRecord, ContestRobot, Contestant, LearnRecord,
+    LocateOutcome, Located, Schooling,
 };
 use tolman_papers::arena::{ArenaWorld, DrawnWorld};
 
@@ -28,6 +33,8 @@ Example:
   tolman arena --system cpm-better --family office --worlds 4
   tolman arena --system cpm-better --family ladder --condition wheels-5
   tolman arena mazes/forks.maze mazes/cpm-1.maze --system all
+  tolman arena --system mslst --cost
+  tolman arena --system micromouse --own-verdict --worlds 3
   tolman arena --system diktiometry-better --robot laser-pioneer --worlds 1")]
 pub(super) struct Arguments {
     /// Mazes, or folders of mazes, in place of the families
@@ -50,9 +57,9 @@ pub(super) struct Arguments {
         conflicts_with = "mazes"
     )]
     family: String,
-    /// How many worlds of each family: small and middle ones in turns
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..))]
-    worlds: u32,
+    /// How many worlds of each family: small and middle ones in turns; 2, or with --own-verdict at most 40 [default: 2]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    worlds: Option<u32>,
     /// How often a robot is put down in each world to find out where it is, and as often to go to the goal
     #[arg(long, value_name = "N", default_value_t = 1)]
     starts: u32,
@@ -62,6 +69,22 @@ pub(super) struct Arguments {
     /// Write a line of JSON for each world instead of the table
     #[arg(long)]
     json: bool,
+    /// Measure how long a system thinks for each time step of learning, the simulator aside: one world after the other
+    #[arg(long)]
+    cost: bool,
+    /// Judge what systems make of their own maps by 100 right and 100 wrong ones: worlds become harder while most maps are right
+    #[arg(long, conflicts_with_all = ["mazes", "json", "cost", "condition", "starts"])]
+    own_verdict: bool,
+}
+
+/// Worlds of each family, and at most as many where maps are drawn for own verdicts.
+const WORLDS: u32 = 2;
+const MOST_WORLDS: u32 = 40;
+
+/// Returns the time since it was first asked.
+fn stopwatch() -> Duration {
+    static BEGAN: OnceLock<Instant> = OnceLock::new();
+    BEGAN.get_or_init(Instant::now).elapsed()
 }
 
 #[derive(Clone, Copy)]
@@ -98,6 +121,10 @@ struct Line<'a> {
     purity: Option<f64>,
     link_recall: Option<f64>,
     metres_over_corridors: Option<f64>,
+    bytes_per_place: Option<f64>,
+    /// Only where it was measured, as it is never the same.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    us_per_step: Option<f64>,
     found: Vec<&'static str>,
     home_over_shortest: Vec<Option<f64>>,
 }
@@ -112,6 +139,9 @@ pub(super) fn carry_out(
         Robot::LaserPioneer => ContestRobot::Pioneer,
     };
     let contestants = contestants(&arguments.system)?;
+    if arguments.own_verdict {
+        return verdicts::judge(arguments, &contestants, robot, &arguments.kinds(app)?, out);
+    }
     let condition = condition(&arguments.condition)?;
     let worlds = arguments.worlds(app)?;
     let jobs: Vec<(Contestant, &DrawnWorld)> = contestants
@@ -119,16 +149,18 @@ pub(super) fn carry_out(
         .flat_map(|contestant| worlds.iter().map(|world| (*contestant, world)))
         .collect();
     let schooling = Schooling::default();
-    let held: Result<Vec<ContestRecord>, ContestError> = jobs
-        .par_iter()
-        .map(|(contestant, world)| {
-            let contest = Contest {
-                condition,
-                ..world.contest(*contestant, robot)
-            };
-            contest.play(&schooling, |_, _| {})
-        })
-        .collect();
+    let play = |(contestant, world): &(Contestant, &DrawnWorld)| {
+        let contest = Contest {
+            condition,
+            stopwatch: arguments.cost.then_some(stopwatch),
+            ..world.contest(*contestant, robot)
+        };
+        contest.play(&schooling, |_, _| {})
+    };
+    let held: Result<Vec<ContestRecord>, ContestError> = match arguments.cost {
+        true => jobs.iter().map(play).collect(),
+        false => jobs.par_iter().map(play).collect(),
+    };
     let held = held.map_err(|error| Failure::from(anyhow::Error::from(error)))?;
     if arguments.json {
         for ((contestant, world), record) in jobs.iter().zip(&held) {
@@ -137,7 +169,46 @@ pub(super) fn carry_out(
         }
         return Ok(());
     }
+    if arguments.cost {
+        costs(&contestants, &worlds, &held, out)?;
+        return Ok(());
+    }
     table(&contestants, robot, &worlds, &held, out)
+}
+
+/// What learning costs each system: the means over the worlds in which it drove.
+fn costs(
+    contestants: &[Contestant],
+    worlds: &[DrawnWorld],
+    held: &[ContestRecord],
+    out: &mut dyn Write,
+) -> std::io::Result<()> {
+    writeln!(
+        out,
+        "{:18} {:>6} {:>12} {:>10} {:>13}",
+        "system", "worlds", "time steps", "µs a step", "bytes a place"
+    )?;
+    for (contestant, records) in contestants.iter().zip(held.chunks(worlds.len().max(1))) {
+        let learned: Vec<&LearnRecord> = records.iter().flat_map(|r| &r.learned).collect();
+        let steps: u64 = learned.iter().map(|one| u64::from(one.steps)).sum();
+        let thinking: Duration = learned.iter().filter_map(|one| one.thinking).sum();
+        let bytes: usize = learned.iter().filter_map(|one| one.map_bytes).sum();
+        let places: usize = learned.iter().map(|one| one.places).sum();
+        let ratio = |part: f64, whole: f64| match whole > 0.0 {
+            true => format!("{:.1}", part / whole),
+            false => "–".to_owned(),
+        };
+        writeln!(
+            out,
+            "{:18} {:>6} {:>12} {:>10} {:>13}",
+            contestant.name(),
+            learned.len(),
+            steps,
+            ratio(1e6 * thinking.as_secs_f64(), steps as f64),
+            ratio(bytes as f64, places as f64),
+        )?;
+    }
+    Ok(())
 }
 
 fn contestants(name: &str) -> Result<Vec<Contestant>, Failure> {
@@ -166,14 +237,22 @@ fn condition(name: &str) -> Result<Condition, Failure> {
 }
 
 impl Arguments {
-    fn worlds(&self, app: &App<'_>) -> Result<Vec<DrawnWorld>, Failure> {
-        let (kinds, count) = match (self.mazes.is_empty(), self.family.as_str()) {
+    fn kinds(&self, app: &App<'_>) -> Result<Vec<ArenaWorld>, Failure> {
+        Ok(match (self.mazes.is_empty(), self.family.as_str()) {
             (false, _) => {
                 let files = ArenaWorld::of_files(&self.mazes);
-                (files.map_err(anyhow::Error::from_boxed).or_bad_input()?, 1)
+                files.map_err(anyhow::Error::from_boxed).or_bad_input()?
             }
-            (true, "all") => (ArenaWorld::families(), self.worlds),
-            (true, name) => (vec![ArenaWorld::Family(*app.family(name)?)], self.worlds),
+            (true, "all") => ArenaWorld::families(),
+            (true, name) => vec![ArenaWorld::Family(*app.family(name)?)],
+        })
+    }
+
+    fn worlds(&self, app: &App<'_>) -> Result<Vec<DrawnWorld>, Failure> {
+        let kinds = self.kinds(app)?;
+        let count = match self.mazes.is_empty() {
+            true => self.worlds.unwrap_or(WORLDS),
+            false => 1,
         };
         let mut worlds = Vec::new();
         for kind in &kinds {
@@ -211,6 +290,8 @@ fn line<'a>(
         right_of_visited: judged.map(|judged| judged.is_right_of_visited),
         purity: judged.and_then(|judged| judged.purity),
         link_recall: judged.map(|judged| judged.link_recall),
+        bytes_per_place: learned.and_then(LearnRecord::bytes_per_place),
+        us_per_step: learned.and_then(LearnRecord::us_per_step),
         metres_over_corridors: learned.map(|learned| learned.driven),
         found: found.collect(),
         home_over_shortest: record.homes.iter().map(|home| home.over_shortest).collect(),
@@ -241,7 +322,7 @@ fn table(
     for (contestant, records) in contestants.iter().zip(held.chunks(worlds.len().max(1))) {
         let count = |is: &dyn Fn(&ContestRecord) -> bool| records.iter().filter(|r| is(r)).count();
         let judged = |record: &ContestRecord| record.learned.as_ref().map(|l| l.judgement);
-        let learns = !matches!(contestant, Contestant::Baseline(_));
+        let learns = contestant.learns();
         let of = |is: &dyn Fn(&ContestRecord) -> bool| match learns {
             true => count(is).to_string(),
             false => "–".to_owned(),

@@ -4,6 +4,7 @@
 //! returns a [`Failure`] if there is something to complain about.
 
 mod arena;
+mod audit;
 mod bar;
 mod called;
 mod completions;
@@ -68,10 +69,11 @@ Examples:
   tolman mouse mazes/grid --worst 3
   tolman arena --system cpm-better --family office
   tolman map --log logs/office.clf.gz --out office
+  tolman audit mazes/graphs/rooms.g2o --out audited # exits 1
   tolman experiment baselines --quick
 
-Exit codes: 0 done as asked; 1 failed: a robot did not arrive, a maze was not solved, no way is known, or an
-error; 2 bad input; 3 a table disagrees with the paper (only with `experiment --check`); 130 interrupted.
+Exit codes: 0 done as asked; 1 failed: a robot did not arrive, a maze was not solved, no way is known, a closure is
+refuted, or an error; 2 bad input; 3 a table disagrees with the paper (only with `experiment --check`); 130 interrupted.
 Results are written to stdout, progress and errors to stderr.";
 
 #[derive(Subcommand)]
@@ -82,6 +84,7 @@ enum Verb {
     Score(score::Arguments),
     Systems(systems::Arguments),
     Arena(arena::Arguments),
+    Audit(audit::Arguments),
     Run(run::Arguments),
     Replay(replay::Arguments),
     Demo(demo::Arguments),
@@ -195,6 +198,7 @@ impl Verb {
             Self::Score(arguments) => score::carry_out(&arguments, out),
             Self::Systems(_) => systems::carry_out(app, out),
             Self::Arena(arguments) => arena::carry_out(app, &arguments, out),
+            Self::Audit(arguments) => audit::carry_out(&arguments, out),
             Self::Run(arguments) => run::carry_out(&arguments, out),
             Self::Replay(arguments) => replay::carry_out(&arguments, out),
             Self::Demo(arguments) => demo::carry_out(&arguments, out),

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use tolman_arena::course::{Course, Terrain};
 use tolman_arena::cpm::{
     Layout, SimulatedEpuck, TrueFragments, epuck, epuck_course, epuck_course_on,
-    is_whole_map_right, learn, patience, ring_measures, walker_config,
+    is_whole_map_right, learn, ring_measures, walker_config,
 };
 use tolman_arena::pioneer::{CoursePioneer, LASER_PIONEER, body, calibrated};
 use tolman_arena::{BoxError, HasSimulated, Outing, Sent};
@@ -79,12 +79,7 @@ impl SystemEntry for CpmEntry {
         setup.anew(self.name())?;
         let names = PRESETS.map(|(name, _)| name);
         let mode = setup.settings.preset(names.into_iter().zip(modes()))?;
-        let mut config = mode.config();
-        // Nobody has counted the corridors of a free world.
-        if let Terrain::Maze(file) = setup.terrain {
-            config.most_traversals = patience(&file.maze);
-        }
-        let config = setup.settings.over(&config)?;
+        let config = setup.settings.over(&mode.config())?;
         let mode = mode.with(config);
         let ground = Ground::of(setup, mode, Start::Marked)?;
         let walker = ground.walker.clone();

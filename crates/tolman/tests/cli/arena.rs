@@ -90,3 +90,33 @@ fn what_is_unknown_is_refused() {
     tolman(&["arena", "--robot", "dog"]).refused(2, &["dog", "laser-pioneer"]);
     tolman(&["arena", "nowhere.maze"]).refused(2, &["nowhere.maze"]);
 }
+
+#[test]
+fn what_a_system_costs_is_measured_where_it_is_asked() {
+    let arguments = ["arena", "--system", "micromouse", "--family", "star"];
+    let table = tolman(&[&arguments[..], &["--cost"]].concat()).done();
+    assert!(
+        table.contains("µs a step") && table.contains("bytes a place"),
+        "{table}"
+    );
+    let json = tolman(&[&arguments[..], &["--json"]].concat()).done();
+    assert!(json.contains("bytes_per_place") && !json.contains("us_per_step"));
+}
+
+#[test]
+fn what_a_system_makes_of_its_maps_is_judged_by_right_and_wrong_ones() {
+    let arguments = [
+        "arena",
+        "--system",
+        "micromouse",
+        "--family",
+        "star",
+        "--own-verdict",
+        "--worlds",
+        "2",
+    ];
+    let table = tolman(&arguments).done();
+    assert!(table.contains("worlds: "), "{table}");
+    assert!(table.contains("too few: 100 right"), "{table}");
+    assert_eq!(tolman(&arguments).done(), table);
+}

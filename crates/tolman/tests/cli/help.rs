@@ -37,6 +37,7 @@ fn every_verb_explains_itself() {
         &["pitch", "score"],
         &["learn"],
         &["arena"],
+        &["audit"],
         &["drive"],
         &["systems"],
         &["maze", "distinct"],

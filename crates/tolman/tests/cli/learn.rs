@@ -79,6 +79,6 @@ fn what_is_no_map_is_refused() {
     let wrong = [&LEARN[..], &["--set", "memory=much"]].concat();
     tolman_in(&folder, &wrong).refused(2, &["memory=much"]);
     let other = [&LEARN[..2], &["mlsts"], &LEARN[3..]].concat();
-    tolman_in(&folder, &other).refused(2, &["no system mlsts", "mslst, cpm"]);
+    tolman_in(&folder, &other).refused(2, &["no system mlsts", "mslst, mslst-better, cpm"]);
     assert!(!folder.join("map.json").exists());
 }

@@ -6,6 +6,7 @@
 )]
 
 mod arena;
+mod audit;
 mod cpm;
 mod experiment;
 mod gngslam;
@@ -18,6 +19,7 @@ mod maze;
 #[cfg(unix)]
 mod mms_host;
 mod mouse;
+mod mslst_better;
 mod replay;
 mod run;
 mod survey;

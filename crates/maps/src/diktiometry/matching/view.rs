@@ -19,7 +19,7 @@ pub(crate) fn similarity(a: &Place, b: &Place, percepts: &Percepts) -> Similarit
 }
 
 /// Whether two signatures may be views of one place.
-fn alike(view: &Signature, other: &Signature, kind: &SignatureKind) -> bool {
+pub(crate) fn alike(view: &Signature, other: &Signature, kind: &SignatureKind) -> bool {
     let offsets = match kind.rotation {
         ViewRotation::Aligned => 1,
         ViewRotation::Free => kind.columns,

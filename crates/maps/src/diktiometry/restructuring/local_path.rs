@@ -11,7 +11,7 @@ use crate::diktiometry::{Action, Config, Diktiometry, Link, LinkId, PlaceId, Use
 
 /// "If two places have nearly identical incoming and outgoing action link sets (greater than a large fraction go to the
 /// same place via equivalent actions), then the places should be merged. The places also should have been visited often
-/// enough." Where an action certainly leads to different places from the two, they are not one. O(degree²).
+/// enough." No ground where proofs are asked for. Where an action certainly leads to different places from the two, they are not one. O(degree²).
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     let limits = &config.restructuring;
     if limits.local_merge == Use::Off {
@@ -32,7 +32,7 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     let shared = of_a.iter().filter(|end| of_b.contains(end)).count();
     let union = of_a.len() + of_b.len() - shared;
     if union > 0 && shared as f64 >= limits.links[0] * union as f64 {
-        return Verdict::Propose;
+        return Verdict::propose_if(limits.geometric_merge.trusts_paths());
     }
     // Of the actions done at both: how many may end at one place?
     let outs = || map.paths.outgoing(pair.a);

@@ -37,7 +37,8 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
         long.count()
     };
     let count = consistent(pair.a, pair.b) + consistent(pair.b, pair.a);
-    Verdict::propose_if(count >= config.restructuring.histories)
+    let limits = &config.restructuring;
+    Verdict::propose_if(limits.geometric_merge.trusts_paths() && count >= limits.histories)
 }
 
 /// How many pairs of places there are along a history that ended at the one and, with the same actions, could have ended at the

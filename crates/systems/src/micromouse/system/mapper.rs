@@ -38,6 +38,10 @@ impl<S: Search> Mapper for MazeMouse<S> {
         map
     }
 
+    fn map_bytes(&self) -> Option<usize> {
+        Some(self.walls.bytes())
+    }
+
     fn belief(&self) -> Vec<Guess> {
         let at = Position::Place(self.id(self.at));
         vec![Guess { at, weight: 1.0 }]

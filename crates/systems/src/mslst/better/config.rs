@@ -1,7 +1,11 @@
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
 use crate::mslst::ROBOT_UNIT;
 
 /// What the better system reckons with.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct BetterConfig {
     /// Diameter of the robot, m.
     pub diameter: f64,
@@ -20,11 +24,27 @@ pub struct BetterConfig {
     /// Ranges below which the layers refuse to go on, m.
     pub buffer: f64,
     /// What it does without, to see what that is worth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub without: Option<BetterPart>,
 }
 
+/// Reason why a [`BetterConfig`] is none of a robot.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{field} is {value}, expected {least} to {most}")]
+pub struct BetterConfigError {
+    /// The field.
+    pub field: &'static str,
+    /// What it holds.
+    pub value: f64,
+    /// The least it may hold.
+    pub least: f64,
+    /// The most it may hold.
+    pub most: f64,
+}
+
 /// A part of the better system that can be left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum BetterPart {
     /// Positions are corrected by the walls; without it they are what the wheels say.
     Fit,
@@ -57,6 +77,44 @@ impl BetterConfig {
         }
     }
 
+    /// Refuses values that no robot has.
+    ///
+    /// # Errors
+    /// [`BetterConfigError`] with the first of them.
+    pub fn check(&self) -> Result<(), BetterConfigError> {
+        const SHARE: [f64; 2] = [0.0, 1.0];
+        let Motors {
+            turn_per_command,
+            turn_sd,
+            way_per_command,
+            way_sd,
+        } = self.motors;
+        let fields = [
+            ("diameter", self.diameter, [0.05, 5.0]),
+            ("odometry_sd", self.odometry_sd, SHARE),
+            ("slide_sd", self.slide_sd, [0.0, 5.0]),
+            ("motors.turn_per_command", turn_per_command, [0.01, 7.0]),
+            ("motors.turn_sd", turn_sd, SHARE),
+            ("motors.way_per_command", way_per_command, [0.01, 10.0]),
+            ("motors.way_sd", way_sd, SHARE),
+            ("corridor_width", self.corridor_width, [0.05, 20.0]),
+            ("action_way", self.action_way, [0.01, 10.0]),
+            ("action_sd", self.action_sd, SHARE),
+            ("buffer", self.buffer, [0.0, 10.0]),
+        ];
+        let is_off =
+            |(_, value, [least, most]): &(&str, f64, [f64; 2])| !(*least..=*most).contains(value);
+        match fields.into_iter().find(is_off) {
+            Some((field, value, [least, most])) => Err(BetterConfigError {
+                field,
+                value,
+                least,
+                most,
+            }),
+            None => Ok(()),
+        }
+    }
+
     /// Returns whether it has a part.
     #[must_use]
     pub fn has(&self, part: BetterPart) -> bool {
@@ -65,7 +123,8 @@ impl BetterConfig {
 }
 
 /// What motors do, as far as a plan reckons with it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Motors {
     /// Turn in a time step of the command 1, rad.
     pub turn_per_command: f64,

@@ -185,6 +185,10 @@ impl Mapper for BetterExplorer {
         };
         self.map.at().map(guess).into_iter().collect()
     }
+
+    fn map_bytes(&self) -> Option<usize> {
+        Some(self.map.bytes())
+    }
 }
 
 impl Brain for BetterExplorer {

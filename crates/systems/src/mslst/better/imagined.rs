@@ -3,7 +3,7 @@ use core::convert::Infallible;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Pose, Vector};
-use tolman_maps::scan_map::{Clearings, Standpoints};
+use tolman_maps::scan_map::{Clearings, StandpointViews, Standpoints};
 use tolman_robot::{LaserSensing, Ring, Robot, TurnTranslate};
 
 use super::Motors;
@@ -12,6 +12,7 @@ use super::Motors;
 /// its own do.
 pub(super) struct Imagined<'a> {
     standpoints: &'a Standpoints,
+    views: StandpointViews,
     clearings: &'a Clearings<'a>,
     motors: Motors,
     rng: ChaCha8Rng,
@@ -35,6 +36,7 @@ impl<'a> Imagined<'a> {
     ) -> Self {
         Self {
             standpoints,
+            views: standpoints.views(),
             clearings,
             motors,
             rng,
@@ -57,7 +59,7 @@ impl<'a> Imagined<'a> {
             return;
         };
         if let Some(scan) = &mut self.sensing.scan {
-            self.standpoints.scan(number, self.pose.heading, scan);
+            self.views.scan(number, self.pose.heading, scan);
         }
     }
 

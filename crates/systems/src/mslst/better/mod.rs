@@ -3,6 +3,7 @@
 //! - [`BetterExplorer`] learns: it merges places while its map grows, and goes where the map has gaps until it has none.
 //! - [`BetterMap`] is what it has learned, made ready: the robot tries every action in thought from everywhere it can stand, and so
 //!   knows what the ways to the goal cost a robot that misses.
+//! - [`BetterMapFile`] keeps what it has learned.
 //! - [`BetterNavigator`] navigates: it believes in places rather than in strings of states, and does what costs least on average over all it believes.
 //!
 //! Its layers see scans [straightened](tolman_control::straightened): by a laser that errs by 2 % Orient turns to and fro.
@@ -78,7 +79,7 @@
 //! let mut learning = Actor::seeded(BetterExplorer::new(config), layers()?, 1);
 //! while learning.act(&mut robot, Task::Explore)? == Standing::UnderWay {}
 //! let learned = learning.into_brain().into_learned();
-//! let map = Arc::new(BetterMap::of(learned, ring, &config)?);
+//! let map = Arc::new(BetterMap::of(learned.chart(), ring, &config)?);
 //!
 //! // Put down elsewhere, it finds out where it is and goes to the goal.
 //! robot.pose.position = Point::new(0.5, 0.4);
@@ -91,14 +92,17 @@
 //! ```
 
 mod config;
+mod costs;
 mod explorer;
 mod imagined;
 mod map;
+mod map_file;
 mod navigator;
 mod reckoning;
 mod rehearsal;
 
-pub use config::{BetterConfig, BetterPart, Motors};
+pub use config::{BetterConfig, BetterConfigError, BetterPart, Motors};
 pub use explorer::BetterExplorer;
 pub use map::BetterMap;
+pub use map_file::{BetterMapFile, BetterMapFileError};
 pub use navigator::BetterNavigator;

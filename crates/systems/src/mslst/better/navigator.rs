@@ -3,11 +3,10 @@ use core::convert::Infallible;
 
 use rand::{Rng, RngExt};
 use tolman_geom::Heading;
-use tolman_maps::scan_map::StandpointBelief;
+use tolman_maps::scan_map::{ScanChart, StandpointBelief};
 use tolman_maze::Direction;
 use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, Task};
 
-use super::map::HOPELESS;
 use super::reckoning::Reckoning;
 use super::rehearsal::facing;
 use super::{BetterMap, BetterPart};
@@ -42,12 +41,17 @@ impl BetterNavigator {
         }
     }
 
+    /// Returns the map it goes by.
+    #[must_use]
+    pub fn chart(&self) -> &ScanChart {
+        self.map.chart()
+    }
+
     fn look(&mut self, seen: &RolledStep) {
         let (moved, sd) = self.reckoning.take();
         let map = &*self.map;
         if moved != tolman_geom::Vector::zeros() {
-            self.belief
-                .moved(&map.standpoints, map.scans.grid(), moved, sd);
+            self.belief.moved(&map.standpoints, moved, sd);
         }
         if let (Some(scan), Some(heading)) = (&seen.step.scan, seen.step.heading) {
             self.heading = heading;
@@ -67,12 +71,12 @@ impl BetterNavigator {
             false => self.belief.likeliest(),
         };
         let mut costs = [0.0; 4];
-        for (number, mass) in (0..).zip(self.belief.probabilities()) {
-            let has_say = *mass > NO_SAY / self.map.standpoints.len() as f64;
+        let probabilities = self.belief.probabilities().iter().copied();
+        for (number, mass) in (0..).zip(probabilities.map(f64::from)) {
+            let has_say = mass > NO_SAY / self.map.standpoints.len() as f64;
             if has_say && only.is_none_or(|only| only == number) {
                 for action in Direction::ALL {
-                    let cost = self.map.cost(number, axis, action).min(f64::from(HOPELESS));
-                    costs[action.index()] += mass * cost;
+                    costs[action.index()] += mass * self.map.cost(number, axis, action);
                 }
             }
         }
@@ -102,21 +106,26 @@ impl Mapper for BetterNavigator {
     }
 
     fn map(&self) -> MapView {
-        self.map.scans.view()
+        self.map.chart().view()
     }
 
     fn belief(&self) -> Vec<Guess> {
-        let positions = self.map.standpoints.positions().iter();
-        let guesses = positions.zip(self.belief.probabilities());
-        let guesses = guesses.filter(|(_, mass)| **mass > NO_SAY);
+        let positions = self.map.standpoints.positions();
+        let probabilities = self.belief.probabilities().iter().copied();
+        let guesses = positions.zip(probabilities.map(f64::from));
+        let guesses = guesses.filter(|(_, mass)| *mass > NO_SAY);
         let mut guesses: Vec<Guess> = guesses
             .map(|(at, weight)| Guess {
-                at: Position::Point(*at),
-                weight: *weight,
+                at: Position::Point(at),
+                weight,
             })
             .collect();
         guesses.sort_by(|a, b| b.weight.total_cmp(&a.weight));
         guesses
+    }
+
+    fn map_bytes(&self) -> Option<usize> {
+        Some(self.map.scans.bytes())
     }
 }
 

@@ -3,8 +3,8 @@ use core::ops::ControlFlow;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use tolman_control::{Drive, RingError, Stack, heading_of};
-use tolman_geom::{Heading, Pose, Vector};
-use tolman_maps::scan_map::{Clearings, Standpoints};
+use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_maps::scan_map::Standpoints;
 use tolman_maze::Direction;
 use tolman_planners::Decisions;
 use tolman_robot::Ring;
@@ -28,7 +28,6 @@ const LONGEST_ACTION: u32 = 40;
 /// # Errors
 /// If the layers cannot read the ring.
 pub(super) fn rehearse(
-    clearings: &Clearings<'_>,
     standpoints: &Standpoints,
     ring: Ring,
     config: &BetterConfig,
@@ -39,16 +38,18 @@ pub(super) fn rehearse(
         true => config.motors,
         false => config.motors.exact(),
     };
-    let mut robot = Imagined::new(standpoints, clearings, ring, motors, stream(0, 2));
+    let grid = standpoints.chart().ground().grid();
+    let clearings = standpoints.chart().clearings(&grid);
+    let mut robot = Imagined::new(standpoints, &clearings, ring, motors, stream(0, 2));
     let mut rng = stream(0, 3);
     let mut decisions = Decisions::between(Direction::ALL.len());
-    for number in 0..standpoints.len() as u32 {
+    for (number, position) in (0..).zip(standpoints.positions()) {
         for axis in AXES {
             for action in Direction::ALL {
                 let mut ends = [state(number, axis_of(axis)); TRIES as usize];
                 let mut steps = 0;
                 for end in &mut ends {
-                    robot.put(about(standpoints, number, axis, &mut rng));
+                    robot.put(about(position, axis, &mut rng));
                     // It fails with no robot of metal.
                     let Ok(_) = drive.carry_out(&mut robot, action, |_| ControlFlow::Continue(()));
                     steps += robot.steps;
@@ -81,10 +82,10 @@ fn axis_of(direction: Direction) -> usize {
 }
 
 /// A pose near a standpoint, about along an axis.
-fn about(standpoints: &Standpoints, number: u32, axis: Direction, rng: &mut ChaCha8Rng) -> Pose {
+fn about(standpoint: Point, axis: Direction, rng: &mut ChaCha8Rng) -> Pose {
     let mut off = |most: f64| rng.random_range(-most..=most);
     let half = 0.5 * Standpoints::SPACING;
     let offset = Vector::new(off(half), off(half));
     let heading = heading_of(axis).turned(off(ASKEW));
-    Pose::new(standpoints.positions()[number as usize] + offset, heading)
+    Pose::new(standpoint + offset, heading)
 }

@@ -1,0 +1,89 @@
+//! The better MSLST's map of the Large maze: how much memory it takes, and that it comes back from its file.
+#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
+
+extern crate alloc;
+
+use alloc::sync::Arc;
+use std::sync::OnceLock;
+
+use tolman_arena::course::Course;
+use tolman_arena::episode::{self, Trial, random_start};
+use tolman_arena::mslst::{BetterLearned, better_config, learn_better};
+use tolman_arena::pioneer::{ENCODER_SD, body, calibrated, with_sensor_noise};
+use tolman_arena::run::TaskEnd;
+use tolman_arena::{Mind, pioneer};
+use tolman_sim::robots::LaserPioneerConfig;
+use tolman_systems::Origin;
+use tolman_systems::mslst::better::{BetterMap, BetterMapFile, BetterNavigator};
+
+fn robot() -> LaserPioneerConfig {
+    with_sensor_noise(&calibrated(), ENCODER_SD)
+}
+
+fn course() -> &'static Course {
+    static COURSE: OnceLock<Course> = OnceLock::new();
+    COURSE.get_or_init(|| {
+        let maze = tolman_maze::read(include_str!("../mazes/large.maze")).unwrap();
+        Course::for_body("Large", &maze, &body()).unwrap()
+    })
+}
+
+fn learned() -> &'static BetterLearned {
+    static LEARNED: OnceLock<BetterLearned> = OnceLock::new();
+    LEARNED.get_or_init(|| learn_better(course(), &robot(), 1, 5).unwrap())
+}
+
+/// Map, plan and belief of a robot that navigates, and all of it per place.
+#[test]
+fn what_navigates_takes_less_than_a_kibibyte_a_place() {
+    let learned = learned();
+    assert_eq!(learned.ended.end, TaskEnd::Done);
+    let chart = learned.map.chart();
+    let config = better_config(course().corridor_width, &robot());
+    let mut kept = None;
+    let held = allocation_counter::measure(|| {
+        let map = BetterMap::of(chart.clone(), pioneer::ring(), &config).unwrap();
+        kept = Some(BetterNavigator::new(Arc::new(map)));
+    });
+    let places = chart.places().len() as i64;
+    let bytes = held.bytes_current;
+    assert!(places > 50, "{places} places");
+    assert!(bytes < 1024 * places, "{bytes} bytes for {places} places");
+    drop(kept);
+}
+
+#[test]
+fn by_the_map_of_a_file_it_goes_the_very_same_way() {
+    let learned = learned();
+    let config = better_config(course().corridor_width, &robot());
+    let file = BetterMapFile {
+        origin: Origin {
+            world: "Large".to_owned(),
+            drawing: None,
+            robot: pioneer::LASER_PIONEER.to_owned(),
+            seed: 5,
+        },
+        config,
+        chart: learned.map.chart().clone(),
+        sites: learned.positions.clone(),
+    };
+    let text = file.to_json().unwrap();
+    let read = BetterMapFile::from_json(&text).unwrap();
+    assert_eq!(read, file);
+    let read = BetterMap::of(read.chart, pioneer::ring(), &read.config).unwrap();
+    let read = Arc::new(read);
+    for seed in 0..3 {
+        let trial = Trial {
+            course: course(),
+            robot: robot(),
+            start: random_start(course(), &body(), seed),
+            step_limit: 500,
+            seed,
+        };
+        let [learned, read] = [&learned.map, &read].map(|map| {
+            let mut mind = Mind::Rolling(Box::new(BetterNavigator::new(Arc::clone(map))));
+            episode::run(&trial, &mut mind, |_| {}).unwrap()
+        });
+        assert_eq!(learned, read);
+    }
+}

@@ -1,0 +1,71 @@
+use thiserror::Error;
+
+/// A line of a pose graph's file that was left out.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("line {line}: {kind}")]
+pub struct G2oFault {
+    /// Which line, from 1.
+    pub line: usize,
+    /// Why.
+    pub kind: G2oFaultKind,
+}
+
+/// Why a line of a pose graph's file is of no use.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum G2oFaultKind {
+    /// Its first word is none of those that are read.
+    #[error("`{word}` is not read; only VERTEX_SE2, EDGE_SE2 and FIX are")]
+    Unknown {
+        /// The word.
+        word: String,
+    },
+    /// It has too few numbers, or too many.
+    #[error("{word} has {found} numbers; expected {expected}")]
+    Count {
+        /// The first word.
+        word: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+    /// A number is none, or is NaN or infinite.
+    #[error("`{text}` is not a finite number; measure the line again or remove it")]
+    Number {
+        /// What stands there.
+        text: String,
+    },
+    /// An id is no whole number.
+    #[error("`{text}` is no id of a pose; ids are whole numbers from 0")]
+    Id {
+        /// What stands there.
+        text: String,
+    },
+    /// A pose stands twice.
+    #[error("pose {id} stands for the second time, first in line {first}; remove one")]
+    Twice {
+        /// The pose.
+        id: u64,
+        /// The line in which it stood first.
+        first: usize,
+    },
+    /// There is no such pose.
+    #[error("it needs pose {id}, which has no VERTEX_SE2; add it")]
+    NoPose {
+        /// The pose.
+        id: u64,
+    },
+    /// An edge joins a pose with itself.
+    #[error("the edge joins pose {id} with itself; remove it")]
+    Loop {
+        /// The pose.
+        id: u64,
+    },
+    /// An information matrix is that of no measurement.
+    #[error("the information matrix is not positive definite; give the inverse of a covariance")]
+    Information,
+    /// The file ends in the middle of a line.
+    #[error("the file is cut off here; what stands before is used")]
+    Cut,
+}

@@ -1,0 +1,49 @@
+//! A graph as the text of a file.
+
+use core::fmt::Write;
+
+use super::{G2o, G2oEdge, G2oPose};
+
+impl G2o {
+    /// Returns the text of a file: poses, edges, and `FIX` last, since some readers stop there. Without a fixed pose the first
+    /// one is. Every number is written so that it is read as it was. O(poses + edges).
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        for pose in &self.poses {
+            pose.write(&mut text);
+        }
+        for edge in &self.edges {
+            edge.write(&mut text);
+        }
+        let first = self.poses.first().map(|pose| pose.id);
+        let fixed = self.fixed.iter().copied();
+        let none = self.fixed.is_empty().then_some(first).flatten();
+        for id in fixed.chain(none) {
+            // Nothing can go wrong when a string grows.
+            let _ = writeln!(text, "FIX {id}");
+        }
+        text
+    }
+}
+
+impl G2oPose {
+    fn write(&self, text: &mut String) {
+        let Self { id, pose } = self;
+        let (x, y, heading) = (pose.position.x, pose.position.y, pose.heading.radians());
+        let _ = writeln!(text, "VERTEX_SE2 {id} {x} {y} {heading}");
+    }
+}
+
+impl G2oEdge {
+    fn write(&self, text: &mut String) {
+        let Self { from, to, .. } = self;
+        let at = self.measured;
+        let (x, y, heading) = (at.position.x, at.position.y, at.heading.radians());
+        let _ = write!(text, "EDGE_SE2 {from} {to} {x} {y} {heading}");
+        for (row, column) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
+            let _ = write!(text, " {}", self.information[(row, column)]);
+        }
+        text.push('\n');
+    }
+}

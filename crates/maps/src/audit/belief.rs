@@ -1,0 +1,211 @@
+//! Which closures are believed: the greatest set of which each has a witness in the others.
+
+use alloc::vec::Vec;
+
+use super::AuditConfig;
+use super::chain::Chain;
+use super::consistency::{ByOdometry, Pairs};
+use super::link::{Gap, Link};
+use super::search::Search;
+use super::way::Way;
+
+/// The most rounds in which closures are believed or dropped anew.
+const MOST_ROUNDS: u32 = 6;
+
+/// How many members of a group are held against what is believed before it.
+const PROBED: usize = 40;
+
+/// The audit while it goes on.
+pub(super) struct Belief<'a> {
+    pub(super) links: &'a [Link],
+    pub(super) chain: &'a Chain,
+    pub(super) config: &'a AuditConfig,
+    pub(super) by_odometry: &'a [ByOdometry],
+    pub(super) search: Search,
+    pub(super) believed: Vec<bool>,
+    /// The surest way of each closure when it was looked for last, and how far the closure is off from it.
+    pub(super) found: Vec<Option<(Way, Gap)>>,
+    /// Which closures' ways lead over each closure, or did.
+    users: Vec<Vec<u32>>,
+}
+
+impl<'a> Belief<'a> {
+    pub(super) fn new(
+        links: &'a [Link],
+        chain: &'a Chain,
+        config: &'a AuditConfig,
+        by_odometry: &'a [ByOdometry],
+    ) -> Self {
+        let is_open: Vec<bool> = by_odometry
+            .iter()
+            .map(|by| *by != ByOdometry::Refutes)
+            .collect();
+        Self {
+            search: Search::new(links, &is_open, chain),
+            believed: alloc::vec![false; links.len()],
+            found: alloc::vec![None; links.len()],
+            users: alloc::vec![Vec::new(); links.len()],
+            links,
+            chain,
+            config,
+            by_odometry,
+        }
+    }
+
+    /// Looks for the surest way anew, and returns how far the closure is off from it.
+    fn look(&mut self, link: u32) -> Option<Gap> {
+        let way = self.search.way(link, self.links, &self.believed, &[]);
+        let found = way.map(|way| {
+            let gap = way.gap(&self.links[link as usize], self.links, self.chain);
+            (way, gap)
+        });
+        for over in found.iter().flat_map(|(way, _)| way.closures()) {
+            self.users[over as usize].push(link);
+        }
+        let gap = found.as_ref().map(|(_, gap)| *gap);
+        self.found[link as usize] = found;
+        gap
+    }
+
+    fn is_supported(&mut self, link: u32) -> bool {
+        let gap = self.look(link);
+        gap.is_some_and(|gap| gap.supports(self.config))
+    }
+
+    /// Believes the closures of groups that agree, the largest first, and drops what has no witness, until nothing new is believed.
+    pub(super) fn settle(&mut self, pairs: &Pairs) {
+        for _ in 0..MOST_ROUNDS {
+            let before = self.open(true).len();
+            let is_candidate: Vec<bool> = (0..self.links.len())
+                .map(|link| self.is_candidate(link))
+                .collect();
+            let groups = pairs.groups(&is_candidate, self.by_odometry);
+            let (broad, single): (Vec<_>, Vec<_>) =
+                groups.into_iter().partition(|group| self.is_broad(group));
+            // Groups of several runs can bear witness to each other; those of single runs have to fit what is settled by then.
+            self.take_in(&broad);
+            self.take_in(&single);
+            if self.open(true).len() <= before {
+                break;
+            }
+        }
+        self.refresh();
+    }
+
+    /// Whether nothing speaks against a closure that is not believed.
+    fn is_candidate(&self, link: usize) -> bool {
+        let found = self.found[link].as_ref();
+        let refuted = found.is_some_and(|(_, gap)| gap.refutes(self.config));
+        self.by_odometry[link] != ByOdometry::Refutes && !self.believed[link] && !refuted
+    }
+
+    fn take_in(&mut self, groups: &[Vec<u32>]) {
+        let before = self.believed.clone();
+        for group in groups {
+            if self.can_last(group) && self.fits(group) {
+                for link in group {
+                    self.believed[*link as usize] = true;
+                }
+            }
+        }
+        // What was settled before is not asked while others may yet fall.
+        let new = self.open(true).into_iter();
+        let new: Vec<u32> = new.filter(|link| !before[*link as usize]).collect();
+        if !new.is_empty() {
+            self.drop_unwitnessed(new);
+            self.come_to_rest();
+        }
+    }
+
+    /// Whether a group is of more than one run.
+    fn is_broad(&self, group: &[u32]) -> bool {
+        let run = |link: &u32| self.links[*link as usize].run;
+        group.iter().any(|link| run(link) != run(&group[0]))
+    }
+
+    /// Whether a group has more than one member, or one that odometry supports.
+    fn can_last(&self, group: &[u32]) -> bool {
+        group.len() > 1 || self.by_odometry[group[0] as usize] == ByOdometry::Supports
+    }
+
+    /// Whether at most three in ten of a group's members lie beyond the bounds of what is believed.
+    fn fits(&mut self, group: &[u32]) -> bool {
+        let (mut for_it, mut against) = (0, 0);
+        for link in group.iter().take(PROBED) {
+            match self.look(*link) {
+                Some(gap) if gap.agrees(self.config) => for_it += 1,
+                Some(_) => against += 1,
+                None => {}
+            }
+        }
+        10 * against <= 3 * (for_it + against)
+    }
+
+    /// Believes and drops until each closure that is believed has a witness in the others, and no other has one.
+    fn come_to_rest(&mut self) {
+        for _ in 0..MOST_ROUNDS {
+            let all = self.open(true);
+            self.drop_unwitnessed(all);
+            if !self.grow() {
+                return;
+            }
+        }
+        let all = self.open(true);
+        self.drop_unwitnessed(all);
+    }
+
+    /// Looks again for the ways of closures that lead over what is believed no more.
+    fn refresh(&mut self) {
+        for link in self.open(false) {
+            let way = self.found[link as usize].as_ref();
+            let holds =
+                way.is_some_and(|(way, _)| way.closures().all(|over| self.believed[over as usize]));
+            if !holds {
+                self.look(link);
+            }
+        }
+    }
+
+    /// The closures that are believed, or are not, though odometry does not refute them.
+    fn open(&self, believed: bool) -> Vec<u32> {
+        let of = |link: &u32| {
+            let link = *link as usize;
+            self.by_odometry[link] != ByOdometry::Refutes && self.believed[link] == believed
+        };
+        (0..self.links.len() as u32).filter(of).collect()
+    }
+
+    /// The greatest fixed point: drops all without a witness at once, and looks again for those whose way led over them.
+    fn drop_unwitnessed(&mut self, mut asked: Vec<u32>) {
+        while !asked.is_empty() {
+            let mut dropped = Vec::new();
+            for link in asked {
+                if !self.is_supported(link) {
+                    dropped.push(link);
+                }
+            }
+            for link in &dropped {
+                self.believed[*link as usize] = false;
+            }
+            asked = Vec::new();
+            for link in dropped {
+                asked.append(&mut self.users[link as usize]);
+            }
+            asked.retain(|link| self.believed[*link as usize]);
+            asked.sort_unstable();
+            asked.dedup();
+        }
+    }
+
+    /// Believes all that have a witness now, and returns whether there was one.
+    fn grow(&mut self) -> bool {
+        let mut grew = false;
+        for link in self.open(false) {
+            if self.is_supported(link) {
+                self.believed[link as usize] = true;
+                grew = true;
+            }
+        }
+        grew
+    }
+}

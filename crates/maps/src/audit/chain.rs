@@ -1,0 +1,141 @@
+//! The odometry, summed up so that any span of it costs O(1).
+
+use alloc::vec::Vec;
+
+use tolman_geom::Pose;
+
+use super::motion::{Motion, Spread};
+use super::{AuditConfig, AuditError};
+use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
+
+/// The poses as odometry alone has them, with the sums of its covariances.
+pub(super) struct Chain {
+    /// Where odometry has each pose, seen from the first of its piece.
+    pub(super) reckoned: Vec<Motion>,
+    /// The summed covariance of all steps up to each pose, seen from the first of its piece.
+    summed: Vec<Spread>,
+    /// The summed cost of all steps up to each pose.
+    cost: Vec<f64>,
+    /// Which unbroken piece of the odometry each pose is of.
+    piece: Vec<u32>,
+    /// The edge that leads to each pose from the one before.
+    step: Vec<Option<u32>>,
+}
+
+impl Chain {
+    /// Sums up. Of two odometry edges between the same poses the first counts. O(poses + edges).
+    pub(super) fn of(graph: &PoseGraph, config: &AuditConfig) -> Result<Self, AuditError> {
+        let step = steps(graph)?;
+        let mut chain = Self {
+            reckoned: Vec::with_capacity(step.len()),
+            summed: Vec::with_capacity(step.len()),
+            cost: Vec::with_capacity(step.len()),
+            piece: Vec::with_capacity(step.len()),
+            step,
+        };
+        let mut pose = Pose::IDENTITY;
+        for to in 0..chain.step.len() {
+            match chain.step[to] {
+                Some(edge) if to > 0 => {
+                    let edge = &graph.edges()[edge as usize];
+                    let (measured, spread) = forward(edge, config);
+                    pose = pose.compose(measured);
+                    chain.go_on(pose, &spread, config);
+                }
+                _ => {
+                    pose = Pose::IDENTITY;
+                    chain.begin();
+                }
+            }
+        }
+        Ok(chain)
+    }
+
+    fn begin(&mut self) {
+        self.piece
+            .push(self.piece.last().map_or(0, |last| last + 1));
+        self.reckoned.push(Motion::NONE);
+        self.summed.push(Spread::default());
+        self.cost.push(self.cost.last().copied().unwrap_or(0.0));
+    }
+
+    fn go_on(&mut self, pose: Pose, spread: &Spread, config: &AuditConfig) {
+        let motion = Motion::from(pose);
+        let (Some(summed), Some(cost), Some(piece)) =
+            (self.summed.last(), self.cost.last(), self.piece.last())
+        else {
+            return;
+        };
+        let (summed, cost, piece) = (
+            summed.plus(&spread.seen_from(&motion)),
+            cost + cost_of(spread, config),
+            *piece,
+        );
+        self.summed.push(summed);
+        self.cost.push(cost);
+        self.piece.push(piece);
+        self.reckoned.push(motion);
+    }
+
+    /// Whether odometry leads from one pose to the other.
+    pub(super) fn joins(&self, a: u32, b: u32) -> bool {
+        self.piece[a as usize] == self.piece[b as usize]
+    }
+
+    /// Returns the covariance of the span between two poses of one piece, seen from the first of the piece. O(1).
+    pub(super) fn span(&self, a: u32, b: u32) -> Spread {
+        let (low, high) = (a.min(b) as usize, a.max(b) as usize);
+        self.summed[high].minus(&self.summed[low])
+    }
+
+    /// Returns the cost of the span between two poses of one piece. O(1).
+    pub(super) fn span_cost(&self, a: u32, b: u32) -> f64 {
+        (self.cost[a as usize] - self.cost[b as usize]).abs()
+    }
+
+    /// Returns the edge that leads to a pose from the one before.
+    pub(super) fn step_to(&self, pose: u32) -> Option<u32> {
+        self.step.get(pose as usize).copied().flatten()
+    }
+}
+
+/// What odometry's edge says of the way from the lower pose to the higher.
+pub(super) fn forward(edge: &PoseEdge, config: &AuditConfig) -> (Pose, Spread) {
+    let spread = spread_of(edge, config);
+    if edge.from < edge.to {
+        return (edge.measured, spread);
+    }
+    let spread = spread.seen_from(&Motion::from(edge.measured));
+    (edge.measured.inverse(), spread)
+}
+
+/// The covariance of an edge in the frame of the pose it leads to.
+pub(super) fn spread_of(edge: &PoseEdge, config: &AuditConfig) -> Spread {
+    let covariance = edge.information.try_inverse().unwrap_or_default();
+    Spread::of(&covariance).scaled(config.sigma_scale * config.sigma_scale)
+}
+
+/// How much an edge costs when the surest way is looked for.
+pub(super) fn cost_of(spread: &Spread, config: &AuditConfig) -> f64 {
+    spread.xx + spread.yy + config.lever * config.lever * spread.tt
+}
+
+/// The first odometry edge to each pose from the one before.
+fn steps(graph: &PoseGraph) -> Result<Vec<Option<u32>>, AuditError> {
+    let mut steps = alloc::vec![None; graph.poses().len()];
+    for (index, edge) in (0..).zip(graph.edges()) {
+        if edge.kind == PoseEdgeKind::Odometry {
+            let (low, high) = (edge.from.min(edge.to), edge.from.max(edge.to));
+            if high != low + 1 {
+                return Err(AuditError::Odometry {
+                    edge: index,
+                    from: edge.from,
+                    to: edge.to,
+                });
+            }
+            let step: &mut Option<u32> = &mut steps[high as usize];
+            step.get_or_insert(index);
+        }
+    }
+    Ok(steps)
+}

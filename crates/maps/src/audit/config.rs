@@ -1,0 +1,63 @@
+use core::f64::consts::PI;
+
+/// How closures are audited.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct AuditConfig {
+    /// By how much every stated standard deviation is multiplied: below 1 for a graph that states more than it errs, above 1 for
+    /// one that states less. Positive; default 1.
+    pub sigma_scale: f64,
+    /// How many standard deviations a cycle may be off, k (default 5: of right cycles with Gaussian errors 2 in 100,000 are
+    /// farther off).
+    pub bound: f64,
+    /// A cycle is tight if its region of k standard deviations fills at most this share of all poses near by (default 0.003).
+    pub tight_share: f64,
+    /// How far poses near by may lie, m (default 5); their headings are any.
+    pub near: f64,
+    /// Closures whose ends lie at most this many poses apart, both, are of one run (default 3).
+    pub run_gap: u32,
+    /// Pairs of closures are compared whose ends lie at most this many poses apart, both (default 60).
+    pub pair_gap: u32,
+    /// By how many metres a radian counts when the surest way through the graph is looked for (default 3).
+    pub lever: f64,
+    /// The most witnesses of a supported closure that are looked for, at least 1 (default 5).
+    pub most_witnesses: usize,
+}
+
+impl AuditConfig {
+    /// Returns the definitions that all figures of this project are made with.
+    #[must_use]
+    pub const fn standard() -> Self {
+        Self {
+            sigma_scale: 1.0,
+            bound: 5.0,
+            tight_share: 3e-3,
+            near: 5.0,
+            run_gap: 3,
+            pair_gap: 60,
+            lever: 3.0,
+            most_witnesses: 5,
+        }
+    }
+
+    /// Multiplies every stated standard deviation.
+    #[must_use]
+    pub const fn with_sigma_scale(mut self, scale: f64) -> Self {
+        self.sigma_scale = scale;
+        self
+    }
+
+    /// The greatest χ² within the bound: k².
+    pub(super) const fn most_chi2(&self) -> f64 {
+        self.bound * self.bound
+    }
+
+    /// The greatest determinant of a tight covariance: that of the ellipsoid 4/3 π k³ √det that fills the share of π near² · 2π.
+    pub(super) fn most_det(&self) -> f64 {
+        let near_by = PI * self.near * self.near * 2.0 * PI;
+        let ball = 4.0 / 3.0 * PI * self.bound * self.bound * self.bound;
+        let root = self.tight_share * near_by / ball;
+        root * root
+    }
+}

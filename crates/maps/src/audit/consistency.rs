@@ -1,0 +1,154 @@
+//! Closures held against each other in pairs, and the greatest consistent groups of them.
+//!
+//! Source: the idea of pairwise consistency is that of J. Mangelson et al.: Pairwise Consistent Measurement Set Maximization for Robust
+//! Multi-robot Map Merging, 2018. Deviation: the set is found greedily.
+
+use alloc::collections::BinaryHeap;
+use alloc::vec::Vec;
+use core::cmp::Reverse;
+
+use super::AuditConfig;
+use super::chain::Chain;
+use super::groups::Groups;
+use super::link::Link;
+
+/// What odometry alone says of a closure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ByOdometry {
+    /// Nothing: it does not join its poses, or within a region too wide.
+    Silent,
+    /// It agrees, and is tight.
+    Supports,
+    /// It disagrees.
+    Refutes,
+}
+
+impl ByOdometry {
+    pub(super) fn of(link: &Link, chain: &Chain, config: &AuditConfig) -> Self {
+        match link.gap_to_odometry(chain) {
+            Some(gap) if gap.refutes(config) => Self::Refutes,
+            Some(gap) if gap.supports(config) => Self::Supports,
+            _ => Self::Silent,
+        }
+    }
+}
+
+/// Which closures agree with which.
+pub(super) struct Pairs {
+    /// Those within whose bounds each closure lies, tightly.
+    pub(super) agreeing: Vec<Vec<u32>>,
+    /// Those beyond whose bounds it lies.
+    conflicting: Vec<Vec<u32>>,
+}
+
+impl Pairs {
+    /// Holds all closures that odometry does not refute against those that begin and end near them. O(pairs).
+    pub(super) fn of(
+        links: &[Link],
+        by_odometry: &[ByOdometry],
+        chain: &Chain,
+        config: &AuditConfig,
+    ) -> Self {
+        let mut pairs = Self {
+            agreeing: alloc::vec![Vec::new(); links.len()],
+            conflicting: alloc::vec![Vec::new(); links.len()],
+        };
+        let is_open = |index: usize| by_odometry[index] != ByOdometry::Refutes;
+        for a in (0..links.len()).filter(|index| is_open(*index)) {
+            let near = |b: &usize| links[*b].first - links[a].first <= config.pair_gap;
+            for b in (a + 1..links.len()).take_while(near) {
+                if is_open(b) {
+                    pairs.compare(a, b, links, chain, config);
+                }
+            }
+        }
+        pairs
+    }
+
+    fn compare(&mut self, a: usize, b: usize, links: &[Link], chain: &Chain, config: &AuditConfig) {
+        let apart = [
+            links[a].first.abs_diff(links[b].first),
+            links[a].second.abs_diff(links[b].second),
+        ];
+        // Neighbours are the same observation made twice.
+        if apart[1] > config.pair_gap || (apart[0] <= 1 && apart[1] <= 1) {
+            return;
+        }
+        let Some(gap) = links[a].gap_to(&links[b], chain) else {
+            return;
+        };
+        let both = if gap.refutes(config) {
+            &mut self.conflicting
+        } else if gap.is_tight(config) {
+            &mut self.agreeing
+        } else {
+            return;
+        };
+        both[a].push(b as u32);
+        both[b].push(a as u32);
+    }
+
+    /// Returns groups of candidates of which no two conflict, joined by agreement, the largest first: again and again the closure is dropped
+    /// that most conflict with, less those it agrees with. O(pairs · log closures).
+    pub(super) fn groups(
+        &self,
+        is_candidate: &[bool],
+        by_odometry: &[ByOdometry],
+    ) -> Vec<Vec<u32>> {
+        let lives = self.without_conflicts(is_candidate, by_odometry);
+        let mut groups = Groups::new(lives.len());
+        for (a, agreeing) in self.agreeing.iter().enumerate().filter(|(a, _)| lives[*a]) {
+            for b in agreeing.iter().filter(|b| lives[**b as usize]) {
+                groups.join(a, *b as usize);
+            }
+        }
+        let mut members: Vec<Vec<u32>> = alloc::vec![Vec::new(); lives.len()];
+        for one in (0..lives.len()).filter(|one| lives[*one]) {
+            members[groups.find(one)].push(one as u32);
+        }
+        members.retain(|members| !members.is_empty());
+        let witnessed = |one: &&u32| by_odometry[**one as usize] == ByOdometry::Supports;
+        members.sort_by_cached_key(|members| {
+            Reverse(members.len() + 5 * members.iter().filter(witnessed).count())
+        });
+        members
+    }
+
+    fn without_conflicts(&self, is_candidate: &[bool], by_odometry: &[ByOdometry]) -> Vec<bool> {
+        let mut lives = is_candidate.to_vec();
+        let count = |others: &Vec<u32>| {
+            let living = others.iter().filter(|other| is_candidate[**other as usize]);
+            living.count() as i64
+        };
+        let mut conflicts: Vec<i64> = self.conflicting.iter().map(count).collect();
+        let mut friends: Vec<i64> = self.agreeing.iter().map(count).collect();
+        for (friends, by) in friends.iter_mut().zip(by_odometry) {
+            *friends += 3 * i64::from(*by == ByOdometry::Supports);
+        }
+        let doubted = (0..lives.len()).filter(|one| lives[*one] && conflicts[*one] > 0);
+        let mut heap: BinaryHeap<Reverse<(i64, usize)>> = doubted
+            .map(|one| Reverse((friends[one] - conflicts[one], one)))
+            .collect();
+        while let Some(Reverse((standing, one))) = heap.pop() {
+            let is_out_of_date = standing != friends[one] - conflicts[one];
+            if !lives[one] || conflicts[one] == 0 {
+                continue;
+            }
+            if is_out_of_date {
+                heap.push(Reverse((friends[one] - conflicts[one], one)));
+                continue;
+            }
+            lives[one] = false;
+            for other in &self.agreeing[one] {
+                friends[*other as usize] -= 1;
+            }
+            for other in self.conflicting[one].iter().map(|other| *other as usize) {
+                conflicts[other] -= 1;
+                if lives[other] && conflicts[other] > 0 {
+                    heap.push(Reverse((friends[other] - conflicts[other], other)));
+                }
+            }
+        }
+        lives
+    }
+}

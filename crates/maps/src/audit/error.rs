@@ -1,0 +1,26 @@
+use thiserror::Error;
+
+/// Why a graph cannot be audited.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum AuditError {
+    /// An edge of odometry does not join a pose with the next.
+    #[error(
+        "edge {edge} from pose {from} to {to} is odometry, which joins a pose with the next; number the poses in the order they were \
+         driven, or call the edge a closure"
+    )]
+    Odometry {
+        /// Which edge, from 0.
+        edge: u32,
+        /// The pose it leaves.
+        from: u32,
+        /// The pose it leads to.
+        to: u32,
+    },
+    /// The scale of the standard deviations is none.
+    #[error("the sigma scale is {scale}; give a positive number")]
+    Scale {
+        /// The scale.
+        scale: f64,
+    },
+}

@@ -1,0 +1,43 @@
+//! Runs: closures that come from one drive along a stretch driven before. They err together, so they are one witness.
+
+use alloc::vec::Vec;
+
+use super::groups::Groups;
+
+/// Returns the run of each closure, given the lower and the higher pose of each, sorted: closures are of one run whose lower poses and
+/// whose higher poses lie at most `gap` apart, and those that are so by way of others. Two that contradict each other, as `agree` says,
+/// do not err together, so they link no run.
+///
+/// # Complexity
+/// O(n · m) for n closures of which at most m begin within `gap` poses.
+pub(super) fn runs(
+    ends: &[(u32, u32)],
+    gap: u32,
+    agree: impl Fn(usize, usize) -> bool,
+) -> Vec<u32> {
+    let mut groups = Groups::new(ends.len());
+    for (index, (first, second)) in ends.iter().enumerate() {
+        for (other, (next, end)) in ends.iter().enumerate().skip(index + 1) {
+            if next - first > gap {
+                break;
+            }
+            if end.abs_diff(*second) <= gap && agree(index, other) {
+                groups.join(index, other);
+            }
+        }
+    }
+    groups.numbers()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_is_linked_by_steps_of_three_either_way() {
+        let ends = [(0, 100), (3, 97), (6, 100), (10, 100), (10, 300), (11, 303)];
+        assert_eq!(runs(&ends, 3, |_, _| true), [0, 0, 0, 1, 2, 2]);
+        let apart = |a: usize, b: usize| a.min(b) != 1;
+        assert_eq!(runs(&ends, 3, apart), [0, 0, 1, 2, 3, 3]);
+    }
+}

@@ -1,0 +1,88 @@
+//! Whether the stated covariances are those of the graph.
+
+use alloc::vec::Vec;
+
+use super::chain::Chain;
+use super::link::links;
+use super::{AuditConfig, AuditError};
+use crate::pose_graph::PoseGraph;
+
+/// How many poses apart the ends of closures may lie whose cycle is measured.
+const APART: u32 = 10;
+
+/// The median and the 99th percentile of χ² with 3 degrees of freedom.
+const MEDIAN: f64 = 2.366;
+const TAIL: f64 = 11.345;
+
+/// From how many times a Gaussian's on a tail is too heavy to shrink by.
+const HEAVY: f64 = 2.0;
+
+/// The fewest cycles that tell a scale.
+const FEWEST: usize = 20;
+
+/// By how much the stated standard deviations differ from those of the graph's short cycles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SigmaScale {
+    /// The scale by which the median of χ² is that of a Gaussian.
+    pub estimate: f64,
+    /// The 99th percentile of χ² over its median; a Gaussian's is 4.8.
+    pub tail: f64,
+    /// The number of cycles it is of.
+    pub cycles: usize,
+}
+
+impl SigmaScale {
+    /// Estimates it from cycles of two closures that begin and end within 10 poses; `None` if there are fewer than 20.
+    ///
+    /// # Errors
+    /// [`AuditError`] as [`audit`](super::audit()) has it.
+    ///
+    /// # Complexity
+    /// O(closures · m · log) where m closures begin within 10 poses.
+    pub fn estimate(graph: &PoseGraph) -> Result<Option<Self>, AuditError> {
+        let config = AuditConfig::standard();
+        let chain = Chain::of(graph, &config)?;
+        let links = links(graph, &chain, &config);
+        let mut measured: Vec<f64> = Vec::new();
+        for (index, link) in links.iter().enumerate() {
+            let next = links[index + 1..].iter();
+            let near = next.take_while(|next| next.first - link.first <= APART);
+            let near = near.filter(|next| {
+                let apart = (next.first - link.first, next.second.abs_diff(link.second));
+                apart != (0, 0) && apart.1 <= APART
+            });
+            let nearest =
+                near.min_by_key(|next| next.first - link.first + next.second.abs_diff(link.second));
+            let gap = nearest.and_then(|next| link.gap_to(next, &chain));
+            measured.extend(gap.map(|gap| gap.chi2));
+        }
+        measured.retain(|chi2| chi2.is_finite());
+        measured.sort_by(f64::total_cmp);
+        Ok(Self::of(&measured))
+    }
+
+    fn of(sorted: &[f64]) -> Option<Self> {
+        let cycles = sorted.len();
+        let at = |share: f64| sorted[((cycles - 1) as f64 * share) as usize];
+        (cycles >= FEWEST && at(0.5) > 0.0).then(|| Self {
+            estimate: libm::sqrt(at(0.5) / MEDIAN),
+            tail: at(0.99) / at(0.5),
+            cycles,
+        })
+    }
+
+    /// Whether the tail is so heavy that smaller standard deviations would refute right closures.
+    #[must_use]
+    pub fn is_heavy(&self) -> bool {
+        self.tail > HEAVY * TAIL / MEDIAN
+    }
+
+    /// Returns the scale to audit with: the estimate, but never less than 1 where the tail is heavy.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        match self.is_heavy() {
+            true => self.estimate.max(1.0),
+            false => self.estimate,
+        }
+    }
+}

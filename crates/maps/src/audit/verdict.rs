@@ -1,0 +1,100 @@
+use alloc::vec::Vec;
+
+use super::AuditCycle;
+
+/// What is found of the closures of a graph.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Audit {
+    /// One for each closure, in the order of the graph's edges.
+    pub closures: Vec<AuditedClosure>,
+    /// How many runs the closures make up: as many witnesses there are at most.
+    pub runs: u32,
+}
+
+/// What is found of one closure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AuditedClosure {
+    /// The edge of the graph.
+    pub edge: u32,
+    /// The run it is of, from 0. Closures of one run err together.
+    pub run: u32,
+    /// What is found.
+    pub verdict: ClosureVerdict,
+}
+
+/// Whether a closure is right, as far as odometry and the other closures tell.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ClosureVerdict {
+    /// Cycles agree with it that share no run with it or each other, each within its bound and tight: evidence, never proof.
+    Supported {
+        /// The cycles, the surest first; at most [`AuditConfig::most_witnesses`](super::AuditConfig::most_witnesses).
+        witnesses: Vec<AuditCycle>,
+    },
+    /// A cycle is beyond its bound, and none was found that agrees and shares no run with it.
+    Refuted {
+        /// What the cycle consists of beside the closure.
+        by: RefutedBy,
+        /// The cycle.
+        cycle: AuditCycle,
+    },
+    /// Neither.
+    Undecided(UndecidedBecause),
+}
+
+/// What refutes a closure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum RefutedBy {
+    /// Odometry alone: it is refuted if the odometry's bounds hold, whatever the other closures are.
+    Odometry,
+    /// Odometry and supported closures: it is refuted if their bounds hold and they are right.
+    SupportedClosures,
+}
+
+/// Why a closure is undecided.
+#[derive(Clone, Debug, PartialEq)]
+pub enum UndecidedBecause {
+    /// What leads from one of its poses to the other is too uncertain to tell.
+    Wide {
+        /// The greatest half-axis of the region in which the pose may lie, m; infinite if nothing leads there.
+        position: f64,
+        /// The half-width of the headings it may have, rad.
+        heading: f64,
+    },
+    /// Only closures of its own run agree with it, and a run is one witness.
+    SingleRun {
+        /// How many closures the run has.
+        closures: u32,
+    },
+    /// A cycle is beyond its bound, and another one that shares no run with it agrees.
+    Contradictory {
+        /// The cycle beyond its bound.
+        against: AuditCycle,
+        /// The cycle that agrees.
+        agreeing: AuditCycle,
+    },
+}
+
+impl ClosureVerdict {
+    /// Whether cycles agree with it.
+    #[must_use]
+    pub const fn is_supported(&self) -> bool {
+        matches!(self, Self::Supported { .. })
+    }
+
+    /// Whether a cycle speaks against it.
+    #[must_use]
+    pub const fn is_refuted(&self) -> bool {
+        matches!(self, Self::Refuted { .. })
+    }
+}
+
+impl Audit {
+    /// Returns how many closures are supported, refuted and undecided.
+    #[must_use]
+    pub fn count(&self, is: impl Fn(&ClosureVerdict) -> bool) -> usize {
+        let verdicts = self.closures.iter().map(|closure| &closure.verdict);
+        verdicts.filter(|verdict| is(verdict)).count()
+    }
+}

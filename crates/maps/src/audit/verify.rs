@@ -1,0 +1,346 @@
+//! Audits checked again: every cycle is measured anew from the graph alone.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+use super::auditor::check;
+use super::chain::Chain;
+use super::cycle::Board;
+use super::link::links;
+use super::{
+    Audit, AuditConfig, AuditCycle, AuditError, AuditedClosure, ClosureVerdict, CycleError,
+    RefutedBy,
+};
+use crate::pose_graph::{PoseEdgeKind, PoseGraph};
+
+/// How far a number of a certificate may lie from what it is measured to be again, as a share.
+const ROUNDING: f64 = 1e-7;
+
+/// Why a certificate does not hold.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CertificateError {
+    /// The graph itself cannot be audited.
+    #[error(transparent)]
+    Graph(#[from] AuditError),
+    /// It is not of a closure of this graph.
+    #[error("edge {edge} is no closure of this graph")]
+    NoClosure {
+        /// The edge.
+        edge: u32,
+    },
+    /// A closure has two.
+    #[error("edge {edge} has two certificates")]
+    Twice {
+        /// The edge.
+        edge: u32,
+    },
+    /// A cycle is none.
+    #[error("the cycle of edge {edge} is none: {error}")]
+    Cycle {
+        /// The edge.
+        edge: u32,
+        /// Why.
+        error: CycleError,
+    },
+    /// A cycle begins with another closure.
+    #[error("a cycle of edge {edge} begins with another one")]
+    Another {
+        /// The edge.
+        edge: u32,
+    },
+    /// A residual, covariance or χ² is not what the graph gives.
+    #[error("{what} of a cycle of edge {edge} is {told}; the graph gives {measured}")]
+    Number {
+        /// The edge.
+        edge: u32,
+        /// Which number.
+        what: &'static str,
+        /// What the certificate says.
+        told: f64,
+        /// What is measured.
+        measured: f64,
+    },
+    /// The cycle that should refute a closure is within its bound.
+    #[error("the cycle of edge {edge} has χ² {chi2}, which is within the bound {most}")]
+    Within {
+        /// The edge.
+        edge: u32,
+        /// χ² of the cycle.
+        chi2: f64,
+        /// k².
+        most: f64,
+    },
+    /// A cycle that should support a closure is beyond its bound or too wide.
+    #[error(
+        "a cycle of edge {edge} does not support it: χ² {chi2} of at most {most}, or a region that is too wide"
+    )]
+    Unsupported {
+        /// The edge.
+        edge: u32,
+        /// χ² of the cycle.
+        chi2: f64,
+        /// k².
+        most: f64,
+    },
+    /// A closure has no cycle that supports it.
+    #[error("edge {edge} is said to be supported, but has no cycle")]
+    NoWitness {
+        /// The edge.
+        edge: u32,
+    },
+    /// A cycle leads over a closure without a certificate of its own.
+    #[error("a cycle of edge {edge} leads over edge {over}, which no certificate supports")]
+    Unproven {
+        /// The edge.
+        edge: u32,
+        /// The closure it leads over.
+        over: u32,
+    },
+    /// A cycle leads over a closure of a run that is counted already.
+    #[error("a cycle of edge {edge} leads over edge {over}, whose run is a witness already")]
+    SameRun {
+        /// The edge.
+        edge: u32,
+        /// The closure it leads over.
+        over: u32,
+    },
+    /// It is said to be refuted by something else than its cycle consists of.
+    #[error("the cycle of edge {edge} does not consist of what it is said to")]
+    RefutedBy {
+        /// The edge.
+        edge: u32,
+    },
+    /// The number of runs is another.
+    #[error("the closures are said to make up {told} runs; the graph gives {measured}")]
+    Runs {
+        /// What the audit says.
+        told: u32,
+        /// What the graph gives.
+        measured: u32,
+    },
+    /// The run is another.
+    #[error("edge {edge} is said to be of run {told}; the graph gives {measured}")]
+    Run {
+        /// The edge.
+        edge: u32,
+        /// What the certificate says.
+        told: u32,
+        /// What the graph gives.
+        measured: u32,
+    },
+}
+
+impl CertificateError {
+    /// Returns the edge of the certificate at fault; `None` if the graph itself is.
+    #[must_use]
+    pub const fn edge(&self) -> Option<u32> {
+        match self {
+            Self::Graph(_) | Self::Runs { .. } => None,
+            Self::NoClosure { edge }
+            | Self::Twice { edge }
+            | Self::Cycle { edge, .. }
+            | Self::Another { edge }
+            | Self::Number { edge, .. }
+            | Self::Within { edge, .. }
+            | Self::Unsupported { edge, .. }
+            | Self::NoWitness { edge }
+            | Self::Unproven { edge, .. }
+            | Self::SameRun { edge, .. }
+            | Self::RefutedBy { edge }
+            | Self::Run { edge, .. } => Some(*edge),
+        }
+    }
+}
+
+/// Checks every cycle of an audit again, from the graph alone: that it is one, its numbers, on which side of its bound it lies, and that it leads
+/// over nothing but odometry and closures that are themselves supported, of runs that are not counted yet. That no other cycle agrees with a refuted
+/// closure cannot be checked so. Undecided closures are passed over.
+///
+/// # Errors
+/// [`CertificateError`] of the first certificate that does not hold.
+///
+/// # Complexity
+/// O(edges of all cycles + closures · log closures).
+pub fn verify(
+    graph: &PoseGraph,
+    config: &AuditConfig,
+    audit: &Audit,
+) -> Result<(), CertificateError> {
+    check(config)?;
+    let chain = Chain::of(graph, config)?;
+    let runs = links(graph, &chain, config);
+    let runs: BTreeMap<u32, u32> = runs.iter().map(|link| (link.edge, link.run)).collect();
+    let measured = runs.values().max().map_or(0, |last| last + 1);
+    if audit.runs != measured {
+        return Err(CertificateError::Runs {
+            told: audit.runs,
+            measured,
+        });
+    }
+    let supported = audit
+        .closures
+        .iter()
+        .filter(|closure| closure.verdict.is_supported());
+    let checker = Checker {
+        board: Board::new(graph, &chain, config),
+        config,
+        runs,
+        supported: supported.map(|closure| closure.edge).collect(),
+    };
+    let mut seen = BTreeSet::new();
+    for closure in &audit.closures {
+        if !seen.insert(closure.edge) {
+            return Err(CertificateError::Twice { edge: closure.edge });
+        }
+        checker.check(closure)?;
+    }
+    Ok(())
+}
+
+struct Checker<'a> {
+    board: Board<'a>,
+    config: &'a AuditConfig,
+    runs: BTreeMap<u32, u32>,
+    supported: BTreeSet<u32>,
+}
+
+impl Checker<'_> {
+    fn check(&self, closure: &AuditedClosure) -> Result<(), CertificateError> {
+        let edge = closure.edge;
+        let edges = self.board.graph.edges();
+        let is_closure =
+            edges.get(edge as usize).map(|edge| edge.kind) == Some(PoseEdgeKind::Closure);
+        let Some(run) = self.runs.get(&edge).filter(|_| is_closure) else {
+            return Err(CertificateError::NoClosure { edge });
+        };
+        if *run != closure.run {
+            return Err(CertificateError::Run {
+                edge,
+                told: closure.run,
+                measured: *run,
+            });
+        }
+        let mut counted = alloc::vec![*run];
+        match &closure.verdict {
+            ClosureVerdict::Refuted { by, cycle } => {
+                self.check_refuted(edge, *by, cycle, &mut counted)
+            }
+            ClosureVerdict::Supported { witnesses } => {
+                self.check_supported(edge, witnesses, &mut counted)
+            }
+            ClosureVerdict::Undecided(_) => Ok(()),
+        }
+    }
+
+    fn check_refuted(
+        &self,
+        edge: u32,
+        by: RefutedBy,
+        cycle: &AuditCycle,
+        counted: &mut Vec<u32>,
+    ) -> Result<(), CertificateError> {
+        let measured = self.measure(edge, cycle, counted)?;
+        let most = self.config.most_chi2();
+        if !measured.gap().refutes(self.config) {
+            return Err(CertificateError::Within {
+                edge,
+                chi2: measured.chi2,
+                most,
+            });
+        }
+        let alone = measured.closures().next().is_none();
+        match (by == RefutedBy::Odometry) == alone {
+            true => Ok(()),
+            false => Err(CertificateError::RefutedBy { edge }),
+        }
+    }
+
+    fn check_supported(
+        &self,
+        edge: u32,
+        witnesses: &[AuditCycle],
+        counted: &mut Vec<u32>,
+    ) -> Result<(), CertificateError> {
+        if witnesses.is_empty() {
+            return Err(CertificateError::NoWitness { edge });
+        }
+        let mut alone = 0;
+        for witness in witnesses {
+            let measured = self.measure(edge, witness, counted)?;
+            alone += u32::from(measured.closures().next().is_none());
+            if !measured.gap().supports(self.config) || alone > 1 {
+                let most = self.config.most_chi2();
+                return Err(CertificateError::Unsupported {
+                    edge,
+                    chi2: measured.chi2,
+                    most,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Measures a cycle again, holds its numbers against those of the certificate, and counts its runs.
+    fn measure(
+        &self,
+        edge: u32,
+        cycle: &AuditCycle,
+        counted: &mut Vec<u32>,
+    ) -> Result<AuditCycle, CertificateError> {
+        if cycle.steps.first().and_then(|step| step.over) != Some(edge) {
+            return Err(CertificateError::Another { edge });
+        }
+        let measured = AuditCycle::measured(cycle.steps.clone(), &self.board);
+        let measured = measured.map_err(|error| CertificateError::Cycle { edge, error })?;
+        compare(edge, cycle, &measured)?;
+        let mut new = Vec::new();
+        for over in measured.closures() {
+            if !self.supported.contains(&over) {
+                return Err(CertificateError::Unproven { edge, over });
+            }
+            let run = self.runs.get(&over).copied();
+            match run.filter(|run| !counted.contains(run)) {
+                Some(run) => new.push(run),
+                None => return Err(CertificateError::SameRun { edge, over }),
+            }
+        }
+        counted.append(&mut new);
+        Ok(measured)
+    }
+}
+
+/// Holds the numbers of a certificate against those that are measured.
+fn compare(edge: u32, told: &AuditCycle, measured: &AuditCycle) -> Result<(), CertificateError> {
+    let largest = |numbers: &[f64]| {
+        numbers
+            .iter()
+            .fold(0.0_f64, |most, number| most.max(number.abs()))
+    };
+    for (what, told, measured) in [
+        ("the residual", &told.residual[..], &measured.residual[..]),
+        (
+            "the covariance",
+            &told.covariance[..],
+            &measured.covariance[..],
+        ),
+        ("χ²", &[told.chi2][..], &[measured.chi2][..]),
+    ] {
+        let allowed = ROUNDING * largest(measured);
+        for (told, measured) in told.iter().zip(measured) {
+            // NaN is no agreement either.
+            if !((told - measured).abs() <= allowed) {
+                let (told, measured) = (*told, *measured);
+                return Err(CertificateError::Number {
+                    edge,
+                    what,
+                    told,
+                    measured,
+                });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,134 @@
+use thiserror::Error;
+
+use super::map::{CpMap, JunctionId};
+
+/// Why a map is not to be believed, as far as whoever learned it can tell without the truth.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MapDoubt {
+    /// Nothing explained what was met, so that a new map was begun beside the old one.
+    #[error(
+        "{places} of its places are not joined to the rest: the robot lost its way and began anew there"
+    )]
+    Apart {
+        /// Places that no known way joins to the robot's.
+        places: u32,
+    },
+    /// Two places lie where there is room for one.
+    #[error(
+        "its places {} and {} lie on one spot by dead reckoning: a loop is open that should be closed",
+        one.0, other.0
+    )]
+    Twice {
+        /// The older one.
+        one: JunctionId,
+        /// The other.
+        other: JunctionId,
+    },
+    /// Another map explains what was met as well.
+    #[error("it is one of several maps that explain what was met, and {percent:.0} % likely")]
+    Unsure {
+        /// How likely it is among them, %.
+        percent: f64,
+    },
+}
+
+impl CpMap {
+    /// Returns why the map cannot be that of one world of corridors, in which places are at least `apart` m apart; `None` if
+    /// nothing speaks against it. `from` is where the robot is. O(places · ports · log places).
+    #[must_use]
+    pub fn doubt(&self, from: JunctionId, apart: f64) -> Option<MapDoubt> {
+        let all = self.junctions().len();
+        let reached = self.reached_from(from);
+        if reached < all {
+            let places = (all - reached) as u32;
+            return Some(MapDoubt::Apart { places });
+        }
+        let mut twice = self.junctions().map(|(id, _)| self.twice_at(id, apart));
+        twice.find_map(|twice| twice)
+    }
+
+    /// Returns that another place lies on the spot of this one. O(ports · log places).
+    #[must_use]
+    pub fn twice_at(&self, place: JunctionId, apart: f64) -> Option<MapDoubt> {
+        let positions = self.positions_from(place);
+        let mut others = self.junctions().zip(positions);
+        let ((other, _), _) = others.find(|((other, _), position)| {
+            let off = position.map(|position| position.middle().coords.norm());
+            *other != place && off.is_some_and(|off| off < apart)
+        })?;
+        Some(MapDoubt::Twice {
+            one: place.min(other),
+            other: place.max(other),
+        })
+    }
+
+    /// How many places known ways join to one, itself among them.
+    fn reached_from(&self, from: JunctionId) -> usize {
+        let Some(first) = self.junctions.rank(from) else {
+            return 0;
+        };
+        let mut seen = alloc::vec![false; self.junctions.len()];
+        seen[first] = true;
+        let mut open = alloc::vec![first];
+        let mut count = 0;
+        while let Some(rank) = open.pop() {
+            count += 1;
+            for port in self.ports_at(rank) {
+                if let Some((next, _)) = self.led_to(*port)
+                    && !core::mem::replace(&mut seen[next], true)
+                {
+                    open.push(next);
+                }
+            }
+        }
+        count
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::{Interval, Point, PointBox};
+
+    use super::super::traversal::{DeadReckoning, Sighting};
+    use super::*;
+
+    /// A map of places that each way leads `(x, y)` m on from one to the next.
+    fn chain(ways: &[(f64, f64)]) -> CpMap {
+        let mut map = CpMap::default();
+        let mut last = map.add_junction(Sighting::plain(1), None);
+        for (x, y) in ways {
+            let next = map.add_junction(Sighting::plain(2), None);
+            let heading = Interval::new(-0.1, 0.1).unwrap();
+            let motion = DeadReckoning {
+                displacement: PointBox::about(Point::new(*x, *y), 0.08).unwrap(),
+                departure: heading,
+                arrival: heading,
+            };
+            let out = u32::from(last != JunctionId(0));
+            map.add_fragment(alloc::vec![], Some(motion), last.port(out), next.port(0));
+            last = next;
+        }
+        map
+    }
+
+    #[test]
+    fn a_loop_that_is_open_is_noticed() {
+        let square = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
+        let open = chain(&square);
+        assert_eq!(open.doubt(JunctionId(0), 0.12), None);
+        let closed = [&square[..], &[(0.02, -1.03)]].concat();
+        let doubt = chain(&closed).doubt(JunctionId(2), 0.12);
+        let (one, other) = (JunctionId(0), JunctionId(4));
+        assert_eq!(doubt, Some(MapDoubt::Twice { one, other }));
+    }
+
+    #[test]
+    fn what_hangs_on_nothing_is_noticed() {
+        let mut map = chain(&[(1.0, 0.0)]);
+        let alone = map.add_junction(Sighting::plain(1), None);
+        let doubt = map.doubt(JunctionId(0), 0.12);
+        assert_eq!(doubt, Some(MapDoubt::Apart { places: 1 }));
+        assert_eq!(map.doubt(alone, 0.12), Some(MapDoubt::Apart { places: 2 }));
+    }
+}

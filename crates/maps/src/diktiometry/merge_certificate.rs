@@ -1,0 +1,124 @@
+//! Certificates: why two nodes of the map are one place, in a form that somebody else can check.
+//!
+//! Beyond the paper. A merge rests on one of two grounds, and on what is told of the robot and the
+//! world ([`Config`]):
+//!
+//! - *bounds* ([`MergeProof::Bounds`]): routes through the journal bring the two so near to each
+//!   other that no two places are. A proof, as long as the bounds of odometry hold, places are
+//!   δ_sep apart in the sense of [`Apart`](super::Apart), and corridors are as straight as told;
+//! - *looks* ([`MergeProof::Looks`]): the two look alike, and so do the places that the same actions
+//!   lead to. A chance of being wrong, stated.
+//!
+//! In a [static](super::WorldKind::Static) world an action leads from a place to one place and its
+//! reverse from there back. What follows from that is known without a route; a move along a way that
+//! was gone before has no certificate.
+//!
+//! [`certify_merges`] goes through a journal and has a certificate for each merge that the map made;
+//! [`verify_merges`] checks certificates against the journal, and knows nothing of the map.
+
+mod constraints;
+mod identities;
+mod look_evidence;
+mod prover;
+mod seal;
+mod verifier;
+
+use alloc::vec::Vec;
+
+use tolman_geom::PointBox;
+
+use super::{Action, Config, Looks, MoveOutcome, ObservedMove};
+pub use prover::{CertifiedMerges, certify_merges};
+pub use verifier::{MergeCertificateError, verify_merges};
+
+use constraints::Constraints;
+use identities::Identities;
+
+/// Moves that a span has at most.
+const LONGEST: usize = 5;
+
+/// A claim that the robot was at one place at two visits, and why.
+///
+/// Visit 0 is the start, visit k where move k of the journal ended.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct MergeCertificate {
+    /// The two visits.
+    pub visits: [usize; 2],
+    /// The ground.
+    pub proof: MergeProof,
+    /// A checksum of all that, so that one that was changed is told from one that is wrong.
+    pub seal: u64,
+}
+
+/// Why two visits were to one place.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum MergeProof {
+    /// Routes from the first visit's place to the second's. The displacement lies in the box of each
+    /// route, and the intersection has no room for two places. A route without spans stays where it
+    /// is: the two are one by the ways of a static world alone.
+    Bounds(Vec<Vec<JournalSpan>>),
+    /// Looks agree along the same actions.
+    Looks(LookEvidence),
+}
+
+/// Moves of the journal that follow each other, as a part of a route.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct JournalSpan {
+    /// The visit where it begins.
+    pub begin: usize,
+    /// The visit where it ends. A span that ends before it begins is gone backward.
+    pub end: usize,
+}
+
+/// How far looks agree.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct LookEvidence {
+    /// Pairs of visits that look alike; the first pair is at the two places.
+    pub pairs: Vec<LookPair>,
+    /// How well looks tell places apart, as the map had counted.
+    pub looks: Looks,
+    /// The chance that they agree so far at two places, 0 … 1.
+    pub chance: f64,
+}
+
+/// Two visits that look alike, and how the robot comes there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct LookPair {
+    /// The visits.
+    pub visits: [usize; 2],
+    /// The number of the earlier pair from whose places one action leads to these, and the action;
+    /// `None` of the first pair.
+    pub after: Option<(usize, Action)>,
+}
+
+impl JournalSpan {
+    const fn reversed(self) -> Self {
+        Self {
+            begin: self.end,
+            end: self.begin,
+        }
+    }
+
+    /// Returns the box of the displacement between the places at its ends, m; `None` if there are no
+    /// such moves, too many, or one of them was blocked.
+    fn displacement(self, moves: &[ObservedMove], config: &Config) -> Option<PointBox> {
+        if self.end < self.begin {
+            return Some(-self.reversed().displacement(moves, config)?);
+        }
+        let gone = moves.get(self.begin..self.end)?;
+        let arrived = |step: &ObservedMove| step.outcome == MoveOutcome::Arrived;
+        if gone.is_empty() || gone.len() > LONGEST || !gone.iter().all(arrived) {
+            return None;
+        }
+        if let [one] = gone {
+            return Some(config.way(one));
+        }
+        let moved = gone.iter().map(|step| step.odometry.position);
+        Some(config.between_places(moved.fold(PointBox::ORIGIN, |sum, one| sum + one)))
+    }
+}

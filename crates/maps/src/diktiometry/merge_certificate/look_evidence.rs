@@ -1,0 +1,62 @@
+use alloc::vec::Vec;
+
+use super::{LookEvidence, LookPair};
+use crate::diktiometry::{Config, Journal, Looks, Percepts, Signature, alike};
+
+impl LookEvidence {
+    /// Returns the evidence of some pairs, with its chance.
+    pub(super) fn of(
+        pairs: Vec<LookPair>,
+        looks: Looks,
+        config: &Config,
+        journal: &Journal,
+    ) -> Self {
+        let mut evidence = Self {
+            pairs,
+            looks,
+            chance: 1.0,
+        };
+        evidence.chance = evidence.stated(config, journal);
+        evidence
+    }
+
+    /// Returns the chance that so many kinds of looks agree at two places, one of which may be taken
+    /// for as many as there are kinds, and two more.
+    pub(super) fn stated(&self, config: &Config, journal: &Journal) -> f64 {
+        let others = f64::from(self.looks.kinds) + 2.0;
+        let chance = self.looks.chance(self.kinds(config, journal));
+        (others * chance).min(1.0)
+    }
+
+    /// Returns how many different looks there are among the pairs.
+    fn kinds(&self, config: &Config, journal: &Journal) -> usize {
+        let mut kinds: Vec<usize> = Vec::new();
+        for pair in &self.pairs {
+            let [visit, _] = pair.visits;
+            if kinds
+                .iter()
+                .all(|kind| !look_alike(*kind, visit, config, journal))
+            {
+                kinds.push(visit);
+            }
+        }
+        kinds.len()
+    }
+}
+
+/// Returns what was seen at a visit.
+pub(super) fn percept(visit: usize, journal: &Journal) -> Option<&Signature> {
+    match visit.checked_sub(1) {
+        None => journal.start.percept.as_ref(),
+        Some(number) => journal.moves.get(number)?.percept.as_ref(),
+    }
+}
+
+/// Returns whether two visits look alike; they do not if nothing was seen.
+pub(super) fn look_alike(one: usize, other: usize, config: &Config, journal: &Journal) -> bool {
+    let Percepts::Signatures(kind) = &config.percepts else {
+        return false;
+    };
+    let seen = percept(one, journal).zip(percept(other, journal));
+    seen.is_some_and(|(one, other)| alike(one, other, kind))
+}

@@ -1,0 +1,252 @@
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::vec::Vec;
+
+use tolman_geom::PointBox;
+
+use super::look_evidence::look_alike;
+use super::verifier::least_distance;
+use super::{
+    Constraints, Identities, JournalSpan, LONGEST, LookEvidence, LookPair, MergeCertificate,
+    MergeProof,
+};
+use crate::diktiometry::{
+    Config, Journal, JournalError, Looks, MoveOutcome, Observer, PlaceId, Restructured, StepReport,
+};
+
+/// What is to be said of the merges of a map.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct CertifiedMerges {
+    /// In the order of the merges: each rests on what is before it.
+    pub certificates: Vec<MergeCertificate>,
+    /// Visits that the map takes to be to one place, without a certificate.
+    pub unproven: Vec<[usize; 2]>,
+}
+
+/// Goes through a journal as an observer does, and has a certificate for whatever it took for one
+/// place. A way that it went before, in a static world, needs none.
+///
+/// O(moves) and, for each certificate, O(places · ways).
+///
+/// # Errors
+/// [`JournalError`] if the journal does not fit the configuration.
+pub fn certify_merges(config: &Config, journal: &Journal) -> Result<CertifiedMerges, JournalError> {
+    let mut observer = Observer::new(config.clone(), journal.start.clone())?;
+    observer
+        .journal
+        .distinctions
+        .clone_from(&journal.distinctions);
+    let mut prover = Prover {
+        config,
+        journal,
+        identities: Identities::new(config),
+        constraints: Constraints::default(),
+        views: BTreeMap::from([(0, Vec::from([0]))]),
+        visits: BTreeMap::from([(observer.place(), 0)]),
+        said: CertifiedMerges::default(),
+    };
+    for (number, step) in (1..).zip(&journal.moves) {
+        let told = observer.step(step);
+        let report = told.map_err(|source| JournalError::Move { number, source })?;
+        match step.outcome {
+            MoveOutcome::Blocked => prover.identities.stay(),
+            MoveOutcome::Arrived => prover.follow(number, &observer, &report),
+        }
+    }
+    Ok(prover.said)
+}
+
+struct Prover<'a> {
+    config: &'a Config,
+    journal: &'a Journal,
+    identities: Identities<'a>,
+    constraints: Constraints,
+    /// By class: visits that look different.
+    views: BTreeMap<usize, Vec<usize>>,
+    /// By place of the map: a visit to it.
+    visits: BTreeMap<PlaceId, usize>,
+    said: CertifiedMerges,
+}
+
+impl Prover<'_> {
+    fn follow(&mut self, visit: usize, observer: &Observer, report: &StepReport) {
+        let action = self.journal.moves[visit - 1].action;
+        let joined = self.identities.arrive(action);
+        self.views.insert(visit, Vec::from([visit]));
+        self.rename(joined);
+        self.measure(visit);
+        let looks = Looks {
+            noted: 0,
+            least_wanted: None,
+            ..observer.map().looks
+        };
+        let mut open = self.claims(visit, observer, report);
+        // One may rest on another.
+        loop {
+            let before = open.len();
+            open.retain(|claim| !self.settle(claim, looks));
+            if open.is_empty() || open.len() == before {
+                break;
+            }
+        }
+        self.said
+            .unproven
+            .extend(open.into_iter().filter_map(|claim| claim.last().copied()));
+    }
+
+    /// What the map now takes for one place: each claim is several pairs of visits of which one is
+    /// enough.
+    fn claims(
+        &mut self,
+        visit: usize,
+        observer: &Observer,
+        report: &StepReport,
+    ) -> Vec<Vec<[usize; 2]>> {
+        let here = observer.place();
+        let merges = report
+            .restructured
+            .iter()
+            .filter_map(|change| match *change {
+                Restructured::Merged { kept, merged } => Some([kept, merged]),
+                _ => None,
+            });
+        let merges: Vec<[PlaceId; 2]> = merges.collect();
+        // A place that nobody had visited is the one that the move made.
+        let mut arrived: BTreeSet<PlaceId> = merges.iter().flatten().copied().collect();
+        arrived.insert(here);
+        let is_new = arrived.iter().any(|place| !self.visits.contains_key(place));
+        for place in &arrived {
+            self.visits.entry(*place).or_insert(visit);
+        }
+        let pair = |[kept, merged]: [PlaceId; 2]| [self.visits[&kept], self.visits[&merged]];
+        let mut claims: Vec<Vec<[usize; 2]>> =
+            merges.iter().map(|ends| Vec::from([pair(*ends)])).collect();
+        let at = arrived
+            .iter()
+            .filter(|place| observer.map().paths.resolve(**place) == Some(here));
+        let at: Vec<[usize; 2]> = at.map(|place| [self.visits[place], visit]).collect();
+        let is_known_way = at
+            .iter()
+            .any(|[one, other]| self.identities.same(*one, *other));
+        if !is_new && !is_known_way {
+            claims.insert(0, at);
+        }
+        claims
+    }
+
+    /// Whether a claim is known to be true by now.
+    fn settle(&mut self, claim: &[[usize; 2]], looks: Looks) -> bool {
+        let proven = claim.iter().find_map(|pair| self.by_bounds(*pair));
+        let certificate =
+            proven.or_else(|| claim.iter().find_map(|pair| self.by_looks(*pair, looks)));
+        let Some(certificate) = certificate else {
+            return false;
+        };
+        let [one, other] = certificate.visits;
+        self.said.certificates.push(certificate);
+        let joined = self.identities.join(one, other);
+        self.rename(joined);
+        true
+    }
+
+    fn by_bounds(&self, pair: [usize; 2]) -> Option<MergeCertificate> {
+        let visits = self.alike(pair).unwrap_or(pair);
+        let [from, to] = pair.map(|visit| self.identities.find(visit));
+        let routes = self.constraints.routes(from, to);
+        let boxes = routes.iter().map(|route| {
+            let mut spans = route
+                .iter()
+                .map(|span| span.displacement(&self.journal.moves, self.config));
+            spans.try_fold(PointBox::ORIGIN, |sum, way| Some(sum + way?))
+        });
+        let between = boxes
+            .into_iter()
+            .try_fold(PointBox::UNBOUNDED, |known, one| known.intersection(one?))?;
+        let least = least_distance(visits, self.config, self.journal);
+        let proof = MergeProof::Bounds(routes);
+        (self.config.apart.most(between) < least).then(|| MergeCertificate::sealed(visits, proof))
+    }
+
+    fn by_looks(&self, pair: [usize; 2], looks: Looks) -> Option<MergeCertificate> {
+        let visits = self.alike(pair)?;
+        let mut pairs = Vec::from([LookPair {
+            visits,
+            after: None,
+        }]);
+        let mut seen = BTreeSet::from([pair.map(|visit| self.identities.find(visit))]);
+        let mut next = 0;
+        while let Some(&LookPair {
+            visits: [one, other],
+            ..
+        }) = pairs.get(next)
+        {
+            let evidence = LookEvidence::of(pairs.clone(), looks, self.config, self.journal);
+            if evidence.chance < self.config.restructuring.look_error {
+                return Some(MergeCertificate::sealed(
+                    visits,
+                    MergeProof::Looks(evidence),
+                ));
+            }
+            for (action, to) in self.identities.ways(one) {
+                let Some(other) = self.identities.leads(other, action) else {
+                    continue;
+                };
+                if to == other || !seen.insert([to, other]) {
+                    continue;
+                }
+                let visits = self.alike([to, other])?;
+                pairs.push(LookPair {
+                    visits,
+                    after: Some((next, action)),
+                });
+            }
+            next += 1;
+        }
+        let evidence = LookEvidence::of(pairs, looks, self.config, self.journal);
+        let is_evidence = evidence.chance < 1.0;
+        is_evidence.then(|| MergeCertificate::sealed(visits, MergeProof::Looks(evidence)))
+    }
+
+    /// Two visits to the places of a pair that look alike.
+    fn alike(&self, pair: [usize; 2]) -> Option<[usize; 2]> {
+        let [ones, others] = pair.map(|visit| self.views.get(&self.identities.find(visit)));
+        let others = others?;
+        ones?.iter().find_map(|one| {
+            let mut others = others.iter();
+            let other =
+                others.find(|other| look_alike(*one, **other, self.config, self.journal))?;
+            Some([*one, *other])
+        })
+    }
+
+    /// Takes in the spans that end at a visit.
+    fn measure(&mut self, visit: usize) {
+        for begin in (visit.saturating_sub(LONGEST)..visit).rev() {
+            let span = JournalSpan { begin, end: visit };
+            let Some(displacement) = span.displacement(&self.journal.moves, self.config) else {
+                break;
+            };
+            let ends = [begin, visit].map(|end| self.identities.find(end));
+            if ends[0] != ends[1] {
+                self.constraints.add(ends, span, displacement);
+            }
+        }
+    }
+
+    fn rename(&mut self, joined: Vec<super::identities::Joined>) {
+        for one in joined {
+            self.constraints.join(one);
+            let lost = self.views.remove(&one.lost).unwrap_or_default();
+            let mut kept = self.views.remove(&one.kept).unwrap_or_default();
+            for view in lost {
+                let is_known = kept
+                    .iter()
+                    .any(|other| look_alike(*other, view, self.config, self.journal));
+                if !is_known {
+                    kept.push(view);
+                }
+            }
+            self.views.insert(one.kept, kept);
+        }
+    }
+}

@@ -1,0 +1,70 @@
+use super::{JournalSpan, LookEvidence, MergeCertificate, MergeProof};
+use crate::diktiometry::Action;
+
+/// A checksum of numbers: FNV-1a of 64 bits (Fowler, Noll and Vo). It tells that something was changed by
+/// accident, and is no protection from those who mean to.
+struct Seal(u64);
+
+impl Seal {
+    fn take(&mut self, number: u64) {
+        for byte in number.to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    fn take_all(&mut self, numbers: impl IntoIterator<Item = usize>) {
+        numbers
+            .into_iter()
+            .for_each(|number| self.take(number as u64));
+    }
+}
+
+impl MergeCertificate {
+    /// Returns the certificate of a proof, sealed.
+    pub(super) fn sealed(visits: [usize; 2], proof: MergeProof) -> Self {
+        let mut certificate = Self {
+            visits,
+            proof,
+            seal: 0,
+        };
+        certificate.seal = certificate.checksum();
+        certificate
+    }
+
+    /// Returns what the seal of the certificate should be.
+    pub(super) fn checksum(&self) -> u64 {
+        let mut seal = Seal(0xcbf2_9ce4_8422_2325);
+        seal.take_all(self.visits);
+        match &self.proof {
+            MergeProof::Bounds(routes) => {
+                seal.take_all([0, routes.len()]);
+                for route in routes {
+                    seal.take_all([route.len()]);
+                    let ends = route
+                        .iter()
+                        .flat_map(|JournalSpan { begin, end }| [*begin, *end]);
+                    seal.take_all(ends);
+                }
+            }
+            MergeProof::Looks(evidence) => {
+                seal.take_all([1]);
+                evidence.sum_up(&mut seal);
+            }
+        }
+        seal.0
+    }
+}
+
+impl LookEvidence {
+    fn sum_up(&self, seal: &mut Seal) {
+        for pair in &self.pairs {
+            let (before, Action(action)) = pair.after.unwrap_or((usize::MAX, Action(u32::MAX)));
+            seal.take_all(pair.visits);
+            seal.take_all([before, action as usize]);
+        }
+        for count in self.looks.counts() {
+            seal.take(count);
+        }
+        seal.take(self.chance.to_bits());
+    }
+}

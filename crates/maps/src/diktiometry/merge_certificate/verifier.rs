@@ -1,0 +1,237 @@
+use thiserror::Error;
+use tolman_geom::PointBox;
+
+use super::look_evidence::look_alike;
+use super::{Identities, JournalSpan, LookEvidence, MergeCertificate, MergeProof};
+use crate::diktiometry::{Config, Journal, MoveOutcome, Percepts};
+
+/// Why certificates do not hold. Each names the first that does not, from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MergeCertificateError {
+    /// It is not as it was made.
+    #[error("certificate {number} was changed: its seal does not fit")]
+    Changed {
+        /// Number of the certificate.
+        number: usize,
+    },
+    /// The journal has no such visit.
+    #[error("certificate {number} speaks of visit {visit}, and the journal has {visits}")]
+    NoSuchVisit {
+        /// Number of the certificate.
+        number: usize,
+        /// The visit.
+        visit: usize,
+        /// Number of visits that there are.
+        visits: usize,
+    },
+    /// A route or a chain of looks does not hang together.
+    #[error("certificate {number} has a gap: what it leads through is not known to be one place")]
+    Gap {
+        /// Number of the certificate.
+        number: usize,
+    },
+    /// A span is none: it has no moves, more than five, or a blocked one.
+    #[error("certificate {number} has a span from visit {} to {} that no bound is known of", span.begin, span.end)]
+    NoSpan {
+        /// Number of the certificate.
+        number: usize,
+        /// The span.
+        span: JournalSpan,
+    },
+    /// The bounds leave room for two places.
+    #[error("certificate {number} leaves {most} m between the two, and places are {least} m apart")]
+    TooWide {
+        /// Number of the certificate.
+        number: usize,
+        /// The most that the two may be apart, m.
+        most: f64,
+        /// The least that two places are, m.
+        least: f64,
+    },
+    /// Two visits do not look alike.
+    #[error("certificate {number} has visits {one} and {other} look alike, and they do not")]
+    Unlike {
+        /// Number of the certificate.
+        number: usize,
+        /// One visit.
+        one: usize,
+        /// The other.
+        other: usize,
+    },
+    /// The chance is another.
+    #[error("certificate {number} states a chance of {stated}, and it is {found}")]
+    Chance {
+        /// Number of the certificate.
+        number: usize,
+        /// As it says.
+        stated: f64,
+        /// As it is.
+        found: f64,
+    },
+}
+
+/// Checks certificates, one after the other: each may rest on those before it. It reads the journal
+/// and what was told at first, and no map.
+///
+/// O(moves + certificates · length of their routes).
+///
+/// # Errors
+/// [`MergeCertificateError`] names the first certificate that does not hold, and why.
+pub fn verify_merges(
+    config: &Config,
+    journal: &Journal,
+    certificates: &[MergeCertificate],
+) -> Result<(), MergeCertificateError> {
+    let mut identities = Identities::new(config);
+    for step in &journal.moves {
+        match step.outcome {
+            MoveOutcome::Blocked => identities.stay(),
+            MoveOutcome::Arrived => drop(identities.arrive(step.action)),
+        }
+    }
+    let mut verifier = Verifier {
+        config,
+        journal,
+        identities,
+    };
+    for (number, certificate) in certificates.iter().enumerate() {
+        verifier.take(number, certificate)?;
+    }
+    Ok(())
+}
+
+struct Verifier<'a> {
+    config: &'a Config,
+    journal: &'a Journal,
+    identities: Identities<'a>,
+}
+
+impl Verifier<'_> {
+    fn take(
+        &mut self,
+        number: usize,
+        certificate: &MergeCertificate,
+    ) -> Result<(), MergeCertificateError> {
+        let [one, other] = certificate.visits;
+        if certificate.seal != certificate.checksum() {
+            return Err(MergeCertificateError::Changed { number });
+        }
+        self.known(number, &certificate.visits)?;
+        match &certificate.proof {
+            MergeProof::Bounds(routes) => {
+                let between = self.between(number, certificate.visits, routes)?;
+                let least = least_distance(certificate.visits, self.config, self.journal);
+                let most = self.config.apart.most(between);
+                if !(most < least) {
+                    return Err(MergeCertificateError::TooWide {
+                        number,
+                        most,
+                        least,
+                    });
+                }
+            }
+            MergeProof::Looks(evidence) => self.looks(number, certificate.visits, evidence)?,
+        }
+        self.identities.join(one, other);
+        Ok(())
+    }
+
+    fn known(&self, number: usize, visits: &[usize]) -> Result<(), MergeCertificateError> {
+        let count = self.identities.len();
+        match visits.iter().find(|visit| **visit >= count) {
+            None => Ok(()),
+            Some(&visit) => Err(MergeCertificateError::NoSuchVisit {
+                number,
+                visit,
+                visits: count,
+            }),
+        }
+    }
+
+    /// Where the second visit's place lies as seen from the first's, by all routes, m.
+    fn between(
+        &self,
+        number: usize,
+        [one, other]: [usize; 2],
+        routes: &[alloc::vec::Vec<JournalSpan>],
+    ) -> Result<PointBox, MergeCertificateError> {
+        let mut between = PointBox::UNBOUNDED;
+        for route in routes {
+            let (mut here, mut gone) = (one, PointBox::ORIGIN);
+            for &span in route {
+                self.known(number, &[span.begin, span.end])?;
+                if !self.identities.same(here, span.begin) {
+                    return Err(MergeCertificateError::Gap { number });
+                }
+                let way = span.displacement(&self.journal.moves, self.config);
+                let no_span = MergeCertificateError::NoSpan { number, span };
+                gone = gone + way.ok_or(no_span)?;
+                here = span.end;
+            }
+            if !self.identities.same(here, other) {
+                return Err(MergeCertificateError::Gap { number });
+            }
+            // Bounds that exclude each other prove nothing.
+            let most = f64::INFINITY;
+            let none = MergeCertificateError::TooWide {
+                number,
+                most,
+                least: self.config.separation,
+            };
+            between = between.intersection(gone).ok_or(none)?;
+        }
+        Ok(between)
+    }
+
+    fn looks(
+        &self,
+        number: usize,
+        visits: [usize; 2],
+        evidence: &LookEvidence,
+    ) -> Result<(), MergeCertificateError> {
+        for (index, pair) in evidence.pairs.iter().enumerate() {
+            self.known(number, &pair.visits)?;
+            let [one, other] = pair.visits;
+            if !look_alike(one, other, self.config, self.journal) {
+                return Err(MergeCertificateError::Unlike { number, one, other });
+            }
+            let expected = match pair.after {
+                None if index == 0 => visits.map(Some),
+                Some((before, action)) if before < index => {
+                    let before = evidence.pairs[before].visits;
+                    before.map(|visit| self.identities.leads(visit, action))
+                }
+                _ => [None; 2],
+            };
+            let arrives = |(expected, visit): (Option<usize>, usize)| {
+                expected.is_some_and(|expected| self.identities.same(expected, visit))
+            };
+            if !expected.into_iter().zip(pair.visits).all(arrives) {
+                return Err(MergeCertificateError::Gap { number });
+            }
+        }
+        let (stated, found) = (evidence.chance, evidence.stated(self.config, self.journal));
+        if stated.to_bits() != found.to_bits() {
+            return Err(MergeCertificateError::Chance {
+                number,
+                stated,
+                found,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Returns how far apart the places of two visits are at the least if they are two, m.
+pub(super) fn least_distance([one, other]: [usize; 2], config: &Config, journal: &Journal) -> f64 {
+    let may_be_alike = match config.percepts {
+        Percepts::None => true,
+        Percepts::Signatures(_) => look_alike(one, other, config, journal),
+    };
+    if may_be_alike {
+        config.least_alike_distance()
+    } else {
+        config.least_distance()
+    }
+}

@@ -1,0 +1,180 @@
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use tolman_geom::Point;
+
+use super::{
+    Action, Diktiometry, Exits, Observer, Place, PlaceId, SearchLimits, WorldKind, search,
+    share_a_view,
+};
+
+/// Pairs of places that are compared at most before two are taken for different.
+const COMPARED: usize = 256;
+
+/// What a map says against itself, without any truth: counts of places.
+///
+/// Beyond the paper. A map that is not folded has places which may be one with others; one in which two
+/// places were confused has ways that lead to two places. See [`Self::certainty`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SelfCheck {
+    /// Places of the map.
+    pub places: usize,
+    /// Those of them that may be one with another: the bounds leave room for that, they look alike, and so does all that
+    /// follows along the same actions.
+    pub doubtful: usize,
+    /// Those of them from where an action of a static world leads to two places, or not back.
+    pub torn: usize,
+    /// Those of them where an action that could be tried never was.
+    pub open: usize,
+}
+
+/// What a map is, as far as it can tell itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapState {
+    /// Nothing speaks against it, and nothing is left to try.
+    Whole,
+    /// Nothing speaks against it, and some ways were never tried.
+    Unfinished,
+    /// Some places may be one, and it cannot tell which.
+    Unfolded,
+    /// It contradicts itself: two places were confused, or what was told of the robot is not true.
+    Contradictory,
+}
+
+/// The chance that a map is wrong against which nothing speaks, and that one is right against which something does.
+const ERROR: f64 = 0.01;
+
+impl SelfCheck {
+    /// Returns how likely the map is right as far as the robot has been, 0 … 1.
+    #[must_use]
+    pub fn certainty(&self) -> f64 {
+        match self.state() {
+            MapState::Whole | MapState::Unfinished => 1.0 - ERROR,
+            MapState::Unfolded | MapState::Contradictory => ERROR,
+        }
+    }
+
+    /// Returns what speaks against the map, as a part of a sentence; `None` if nothing does.
+    #[must_use]
+    pub fn complaint(&self) -> Option<String> {
+        let Self {
+            places,
+            doubtful,
+            torn,
+            ..
+        } = *self;
+        match self.state() {
+            MapState::Whole | MapState::Unfinished => None,
+            MapState::Unfolded => Some(format!(
+                "the map is not folded: {doubtful} of its {places} places may be one with another"
+            )),
+            MapState::Contradictory => Some(format!(
+                "the map contradicts itself: from {torn} of its {places} places an action leads to two places, or not back"
+            )),
+        }
+    }
+
+    /// Returns what it is most likely.
+    #[must_use]
+    pub const fn state(&self) -> MapState {
+        match self {
+            Self { torn: 1.., .. } => MapState::Contradictory,
+            Self { doubtful: 1.., .. } => MapState::Unfolded,
+            Self { open: 1.., .. } => MapState::Unfinished,
+            _ => MapState::Whole,
+        }
+    }
+}
+
+impl Observer {
+    /// Returns what the map says against itself. O(places · a search, and for each pair near each other · ways from both).
+    #[must_use]
+    pub fn self_check(&self) -> SelfCheck {
+        let mut check = SelfCheck::default();
+        for (id, place) in self.map.paths.places() {
+            check.places += 1;
+            check.doubtful += usize::from(self.is_doubtful(id));
+            check.torn += usize::from(self.is_torn(id));
+            check.open += usize::from(self.is_open(id, place));
+        }
+        check
+    }
+
+    fn is_doubtful(&self, place: PlaceId) -> bool {
+        let map = &self.map;
+        let (frame, here) = map.site(place);
+        let reached = search(&map.reference, frame, &SearchLimits::UNLIMITED);
+        let all = reached.iter().flat_map(|around| {
+            let places = &map.frame(around.frame).places;
+            places.iter().map(|other| (*other, around.position))
+        });
+        let mut near = all.filter(|(other, frame)| {
+            *other != place && (*frame + map.place(*other).position).meets(here)
+        });
+        near.any(|(other, _)| self.may_be_one(place, other))
+    }
+
+    /// Whether nothing along the same actions speaks against it that two places are one.
+    fn may_be_one(&self, one: PlaceId, other: PlaceId) -> bool {
+        let mut pairs = Vec::from([(one, other)]);
+        let mut next = 0;
+        while let Some(&(a, b)) = pairs.get(next) {
+            next += 1;
+            if !self.seem_one(a, b) {
+                return false;
+            }
+            for (_, way) in self.map.paths.ways(a) {
+                let mut others = self.map.paths.ways(b);
+                let Some((_, same)) = others.find(|(_, same)| same.action == way.action) else {
+                    continue;
+                };
+                let ends = (way.to, same.to);
+                if ends.0 != ends.1 && pairs.len() < COMPARED && !pairs.contains(&ends) {
+                    pairs.push(ends);
+                }
+            }
+        }
+        true
+    }
+
+    /// Whether two places look as one, and lie so by what is known of their frames.
+    fn seem_one(&self, a: PlaceId, b: PlaceId) -> bool {
+        let map: &Diktiometry = &self.map;
+        let [one, other] = [a, b].map(|place| map.place(place));
+        let same_exits = match (&one.exits, &other.exits) {
+            (Exits::Seen(one), Exits::Seen(other)) if self.config.world == WorldKind::Static => {
+                one.iter().all(|exit| other.contains(exit)) && one.len() == other.len()
+            }
+            _ => true,
+        };
+        let offset = map.related(a, b);
+        same_exits
+            && offset.is_none_or(|offset| offset.contains(Point::origin()))
+            && share_a_view(one, other, &self.config.percepts)
+    }
+
+    fn is_torn(&self, place: PlaceId) -> bool {
+        let paths = &self.map.paths;
+        self.config.world == WorldKind::Static
+            && paths.outgoing(place).any(|(_, link)| {
+                let back = self.config.reverse(link.action);
+                let leads_elsewhere = |back: Action| {
+                    let mut ways = paths.along(link.to, back).peekable();
+                    ways.peek().is_some() && ways.all(|(_, way)| way.to != place)
+                };
+                paths.along(place, link.action).count() > 1 || back.is_some_and(leads_elsewhere)
+            })
+    }
+
+    fn is_open(&self, id: PlaceId, place: &Place) -> bool {
+        let Exits::Seen(exits) = &place.exits else {
+            return false;
+        };
+        let untried = |action: &Action| self.map.paths.along(id, *action).next().is_none();
+        exits
+            .iter()
+            .any(|action| place.is_open(*action) && untried(action))
+    }
+}

@@ -1,0 +1,250 @@
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use thiserror::Error;
+use tolman_geom::Point;
+use tolman_planners::{Arcs, path_to};
+use tolman_robot::{MapLink, MapPlace, MapView};
+
+use super::{Clearings, GroundPlan, ScanMap, ScanPlace, WallGrid};
+
+/// What is left of a [`ScanMap`] when nothing more is learned: its ground, its places, and the ways gone between them.
+///
+/// Navigation needs no more, and a file holds no more.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScanChart {
+    ground: GroundPlan,
+    places: Vec<ScanPlace>,
+    /// Lower and higher end of each link, in order.
+    links: Vec<[u32; 2]>,
+    goal: Vec<Point>,
+    radius: f64,
+}
+
+/// A [`ScanChart`] as it is written.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ChartParts {
+    /// The robot stands clear of walls by so much, m.
+    pub radius: f64,
+    /// The places, by id.
+    pub places: Vec<ScanPlace>,
+    /// Links between places, each once, the lower id first, in order.
+    pub links: Vec<[u32; 2]>,
+    /// Where the landmark of the goal was sensed, m.
+    pub goal: Vec<Point>,
+    /// Side of a cell of the ground, m: [`WallGrid::CELL`].
+    pub cell: f64,
+    /// Column and row of the first cell.
+    pub first: [i32; 2],
+    /// The ground, as [`GroundPlan::rows`] writes it.
+    pub rows: Vec<String>,
+}
+
+/// Reason why parts make no [`ScanChart`].
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ChartError {
+    /// The radius is none that a robot has.
+    #[error(
+        "the robot stands clear of walls by {radius} m, expected 0.01 to 10: learn the map anew"
+    )]
+    Radius {
+        /// The radius, m.
+        radius: f64,
+    },
+    /// The cells have another size.
+    #[error(
+        "its cells are {found} m wide, expected {}: learn the map anew",
+        WallGrid::CELL
+    )]
+    Cell {
+        /// Their size, m.
+        found: f64,
+    },
+    /// Places or the goal lie nowhere.
+    #[error("{what} {number} lies at ({}, {}) m, which is nowhere: learn the map anew", at.x, at.y)]
+    Nowhere {
+        /// What lies there.
+        what: &'static str,
+        /// Which of them.
+        number: usize,
+        /// The position, m.
+        at: Point,
+    },
+    /// A link is not between two places, or out of order.
+    #[error(
+        "link {number} goes from place {from} to place {to} of {places}; expected the lower id first, and each link once and in order: learn the map anew"
+    )]
+    Link {
+        /// Which link, from 0.
+        number: usize,
+        /// Its lower end.
+        from: u32,
+        /// Its higher end.
+        to: u32,
+        /// How many places there are.
+        places: usize,
+    },
+    /// The cells lie too far from the origin.
+    #[error("its first cell is {first:?}, which lies too far away: learn the map anew")]
+    TooFar {
+        /// Column and row of the first cell.
+        first: [i32; 2],
+    },
+    /// A row is not as long as the first one.
+    #[error("row {row} has {found} cells, expected {expected}: learn the map anew")]
+    Row {
+        /// The row, from 0.
+        row: usize,
+        /// How many cells it has.
+        found: usize,
+        /// How many the first one has.
+        expected: usize,
+    },
+    /// A letter means no ground.
+    #[error(
+        "row {row}, cell {column}: {letter:?} is no ground, expected '#', '.' or a space: learn the map anew"
+    )]
+    Letter {
+        /// The row, from 0.
+        row: usize,
+        /// The cell in it, from 0.
+        column: usize,
+        /// What stands there.
+        letter: char,
+    },
+}
+
+/// Nothing lies farther from the origin, m.
+const FARTHEST: f64 = 5e4;
+
+impl ScanChart {
+    /// Returns what a map has learned so far. O(cells + places + links).
+    #[must_use]
+    pub fn of(map: &ScanMap) -> Self {
+        Self {
+            ground: GroundPlan::of(map.grid()),
+            places: map.places().to_vec(),
+            links: map.links().collect(),
+            goal: map.goal().to_vec(),
+            radius: map.radius(),
+        }
+    }
+
+    /// Returns how it is written. O(cells + places + links).
+    #[must_use]
+    pub fn to_parts(&self) -> ChartParts {
+        ChartParts {
+            radius: self.radius,
+            places: self.places.clone(),
+            links: self.links.clone(),
+            goal: self.goal.clone(),
+            cell: WallGrid::CELL,
+            first: self.ground.first(),
+            rows: self.ground.rows().collect(),
+        }
+    }
+
+    /// Returns what was written. O(cells + places + links).
+    ///
+    /// # Errors
+    /// [`ChartError`] with the first part that is not sound.
+    pub fn from_parts(parts: ChartParts) -> Result<Self, ChartError> {
+        let ChartParts { radius, cell, .. } = parts;
+        if !(0.01..=10.0).contains(&radius) {
+            return Err(ChartError::Radius { radius });
+        }
+        if (cell - WallGrid::CELL).abs() > 1e-9 || cell.is_nan() {
+            return Err(ChartError::Cell { found: cell });
+        }
+        lie_somewhere("place", parts.places.iter().map(|place| place.position))?;
+        lie_somewhere("goal", parts.goal.iter().copied())?;
+        check_links(&parts.links, parts.places.len())?;
+        Ok(Self {
+            ground: GroundPlan::from_rows(parts.first, &parts.rows)?,
+            places: parts.places,
+            links: parts.links,
+            goal: parts.goal,
+            radius,
+        })
+    }
+
+    /// Returns the ground.
+    #[must_use]
+    pub const fn ground(&self) -> &GroundPlan {
+        &self.ground
+    }
+
+    /// Returns the places, by id.
+    #[must_use]
+    pub fn places(&self) -> &[ScanPlace] {
+        &self.places
+    }
+
+    /// Returns where the landmark of the goal was sensed.
+    #[must_use]
+    pub fn goal(&self) -> &[Point] {
+        &self.goal
+    }
+
+    /// Returns where the robot can stand on a grid of [its ground](GroundPlan::grid).
+    #[must_use]
+    pub const fn clearings<'a>(&self, grid: &'a WallGrid) -> Clearings<'a> {
+        Clearings::new(grid, self.radius)
+    }
+
+    /// Returns the places along a way of fewest links from one to the nearest of others, both ends included; `None` if none leads there.
+    /// O(places + links).
+    #[must_use]
+    pub fn way(&self, from: u32, to: &[u32]) -> Option<Vec<u32>> {
+        let both_ways = |[a, b]: &[u32; 2]| [(*a, *b, 1), (*b, *a, 1)];
+        let arcs: Vec<(u32, u32, u32)> = self.links.iter().flat_map(both_ways).collect();
+        let arcs = Arcs::new(self.places.len(), &arcs);
+        path_to(&arcs, from, |place| to.contains(&place))
+    }
+
+    /// Returns places and links as any scorer and any drawing can read them. O(places + links).
+    #[must_use]
+    pub fn view(&self) -> MapView {
+        view(&self.places, self.links.iter().copied())
+    }
+}
+
+/// Places and links as any scorer and any drawing can read them; links lead both ways.
+pub(super) fn view(places: &[ScanPlace], links: impl Iterator<Item = [u32; 2]>) -> MapView {
+    let place = |(id, place): (u32, &ScanPlace)| MapPlace {
+        id,
+        position: Some(place.position),
+        landmark: place.landmark,
+    };
+    let both_ways = |[a, b]: [u32; 2]| [MapLink { from: a, to: b }, MapLink { from: b, to: a }];
+    MapView {
+        places: (0..).zip(places).map(place).collect(),
+        links: links.flat_map(both_ways).collect(),
+    }
+}
+
+fn lie_somewhere(what: &'static str, all: impl Iterator<Item = Point>) -> Result<(), ChartError> {
+    let lies = |at: Point| at.coords.iter().all(|along| along.abs() <= FARTHEST);
+    match all.enumerate().find(|(_, at)| !lies(*at)) {
+        Some((number, at)) => Err(ChartError::Nowhere { what, number, at }),
+        None => Ok(()),
+    }
+}
+
+fn check_links(links: &[[u32; 2]], places: usize) -> Result<(), ChartError> {
+    let mut before = None;
+    for (number, [from, to]) in links.iter().copied().enumerate() {
+        if from >= to || to as usize >= places || before >= Some([from, to]) {
+            return Err(ChartError::Link {
+                number,
+                from,
+                to,
+                places,
+            });
+        }
+        before = Some([from, to]);
+    }
+    Ok(())
+}

@@ -1,0 +1,200 @@
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use tolman_geom::Point;
+
+use super::wall_grid::{GridIndex, index_of, sees};
+use super::{ChartError, WallGrid};
+
+/// Walls, floor and unknown ground, two bits a cell: what navigation needs of a [`WallGrid`].
+///
+/// It is no larger than what is known, and does not grow.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GroundPlan {
+    /// Column and row of the first cell.
+    first: GridIndex,
+    columns: i32,
+    rows: i32,
+    /// A bit a cell, in rows.
+    walls: Vec<u64>,
+    floor: Vec<u64>,
+}
+
+/// What a cell of a [`GroundPlan`] holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ground {
+    /// No beam has reached it.
+    Unknown,
+    /// Beams passed it.
+    Floor,
+    /// Beams ended in it.
+    Wall,
+}
+
+/// Cells lie no farther than that from the origin, in cells: 50 km.
+const FARTHEST: i32 = 1_000_000;
+
+impl Ground {
+    const ALL: [Self; 3] = [Self::Unknown, Self::Floor, Self::Wall];
+
+    /// How it is written.
+    const fn letter(self) -> char {
+        match self {
+            Self::Unknown => ' ',
+            Self::Floor => '.',
+            Self::Wall => '#',
+        }
+    }
+
+    fn of_letter(letter: char) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|ground| ground.letter() == letter)
+    }
+}
+
+impl GroundPlan {
+    /// Returns what a grid knows. O(cells).
+    #[must_use]
+    pub fn of(grid: &WallGrid) -> Self {
+        let known = || {
+            grid.indices()
+                .filter(|at| grid.ground(*at) != Ground::Unknown)
+        };
+        let Some(any) = known().next() else {
+            return Self::unknown([0, 0], 0, 0);
+        };
+        let [low, high] = known().fold([any, any], |[low, high], at| {
+            [
+                [low[0].min(at[0]), low[1].min(at[1])],
+                [high[0].max(at[0]), high[1].max(at[1])],
+            ]
+        });
+        let mut plan = Self::unknown(low, high[0] - low[0] + 1, high[1] - low[1] + 1);
+        for at in known() {
+            plan.set(at, grid.ground(at));
+        }
+        plan
+    }
+
+    /// Returns the plan that [`rows`](Self::rows) wrote, whose first cell is `first`. O(cells).
+    ///
+    /// # Errors
+    /// [`ChartError`] if the rows are not equally long, have other letters, or lie too far away.
+    pub fn from_rows(first: [i32; 2], rows: &[String]) -> Result<Self, ChartError> {
+        let columns = rows.first().map_or(0, |row| row.chars().count());
+        let is_near = |axis: usize, count: usize| {
+            let end =
+                i64::from(first[axis]).saturating_add(i64::try_from(count).unwrap_or(i64::MAX));
+            first[axis] >= -FARTHEST && end <= i64::from(FARTHEST)
+        };
+        if !is_near(0, columns) || !is_near(1, rows.len()) {
+            return Err(ChartError::TooFar { first });
+        }
+        let mut plan = Self::unknown(first, columns as i32, rows.len() as i32);
+        for (number, row) in (0..).zip(rows) {
+            let found = row.chars().count();
+            if found != columns {
+                let expected = columns;
+                return Err(ChartError::Row {
+                    row: number,
+                    found,
+                    expected,
+                });
+            }
+            for (column, letter) in (0..).zip(row.chars()) {
+                let ground = Ground::of_letter(letter).ok_or(ChartError::Letter {
+                    row: number,
+                    column,
+                    letter,
+                })?;
+                plan.set([first[0] + column as i32, first[1] + number as i32], ground);
+            }
+        }
+        Ok(plan)
+    }
+
+    /// Returns column and row of the first cell; cell (0, 0) begins at the origin.
+    #[must_use]
+    pub const fn first(&self) -> [i32; 2] {
+        self.first
+    }
+
+    /// Returns the rows from south to north, a letter a cell: `#` wall, `.` floor, a space where nothing is known. O(cells).
+    pub fn rows(&self) -> impl Iterator<Item = String> + '_ {
+        let [first, end] = self.bounds();
+        (first[1]..end[1]).map(move |row| {
+            let cells = (first[0]..end[0]).map(|column| self.at([column, row]).letter());
+            cells.collect()
+        })
+    }
+
+    /// Returns the grid that knows the same, each wall as seen once. O(cells).
+    #[must_use]
+    pub fn grid(&self) -> WallGrid {
+        WallGrid::of(self.bounds(), |at| self.at(at))
+    }
+
+    /// Returns whether no wall stands on the straight line between two points. O(distance).
+    #[must_use]
+    pub fn sees(&self, from: Point, to: Point) -> bool {
+        sees(from, to, |at| self.at(index_of(at)) == Ground::Wall)
+    }
+
+    /// What a cell holds.
+    pub(super) fn at(&self, index: GridIndex) -> Ground {
+        let Some(slot) = self.slot(index) else {
+            return Ground::Unknown;
+        };
+        if is_set(&self.floor, slot) {
+            Ground::Floor
+        } else if is_set(&self.walls, slot) {
+            Ground::Wall
+        } else {
+            Ground::Unknown
+        }
+    }
+
+    /// The first cell, and the one past the last.
+    pub(super) fn bounds(&self) -> [GridIndex; 2] {
+        let [column, row] = self.first;
+        [self.first, [column + self.columns, row + self.rows]]
+    }
+
+    fn unknown(first: GridIndex, columns: i32, rows: i32) -> Self {
+        let words = (columns as usize * rows as usize).div_ceil(WORD);
+        Self {
+            first,
+            columns,
+            rows,
+            walls: vec![0; words],
+            floor: vec![0; words],
+        }
+    }
+
+    fn set(&mut self, index: GridIndex, ground: Ground) {
+        let Some(slot) = self.slot(index) else {
+            return;
+        };
+        let bits = match ground {
+            Ground::Unknown => return,
+            Ground::Floor => &mut self.floor,
+            Ground::Wall => &mut self.walls,
+        };
+        bits[slot / WORD] |= 1 << (slot % WORD);
+    }
+
+    fn slot(&self, [column, row]: GridIndex) -> Option<usize> {
+        let [column, row] = [column - self.first[0], row - self.first[1]];
+        let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
+        inside.then(|| row as usize * self.columns as usize + column as usize)
+    }
+}
+
+/// Bits in a word.
+const WORD: usize = u64::BITS as usize;
+
+fn is_set(bits: &[u64], slot: usize) -> bool {
+    bits[slot / WORD] >> (slot % WORD) & 1 == 1
+}

@@ -1,0 +1,158 @@
+//! Certificates of merges hold in every world, and none holds that was changed.
+
+use proptest::prelude::*;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::diktiometry::{
+    Action, Apart, CertifiedMerges, Config, JournalLength, JournalSpan, MergeCertificate,
+    MergeCertificateError, MergeProof, WorldKind, certify_merges, verify_merges,
+};
+use tolman_sim::abstract_world::AbstractWorld;
+
+use super::walk::{ODOMETRY, Walk, alike, blocks, painted};
+
+/// A walk through corridors where nothing changes, and what is proven of its map.
+fn walked(config: Config, seed: u64) -> (Walk, CertifiedMerges) {
+    let maze = blocks(5, 0.25, &mut ChaCha8Rng::seed_from_u64(seed));
+    let world = AbstractWorld::from_maze(&maze, 1.0);
+    let config = Config {
+        journal: JournalLength::All,
+        world: WorldKind::Static,
+        apart: Apart::Side,
+        ..config
+    };
+    let mut walk = Walk::new(world, ODOMETRY, config, seed);
+    walk.heed(0.3, 300);
+    let journal = walk.observer.journal().unwrap();
+    let told = certify_merges(walk.observer.config(), journal).unwrap();
+    (walk, told)
+}
+
+fn verified(walk: &Walk, certificates: &[MergeCertificate]) -> Result<(), MergeCertificateError> {
+    let journal = walk.observer.journal().unwrap();
+    verify_merges(walk.observer.config(), journal, certificates)
+}
+
+fn corridors() -> Config {
+    Config {
+        actions: Config::corridor_actions(),
+        ..alike()
+    }
+}
+
+#[test]
+fn merges_are_proven_and_what_is_proven_is_true() {
+    let mut proven = 0;
+    for seed in 0..6 {
+        let (walk, told) = walked(corridors(), seed);
+        assert_eq!(verified(&walk, &told.certificates), Ok(()));
+        for certificate in &told.certificates {
+            let [one, other] = certificate.visits.map(|visit| walk.log[visit].0);
+            assert_eq!(one, other, "seed {seed}: {certificate:?}");
+        }
+        assert_eq!(told.unproven, [[0; 2]; 0], "seed {seed}");
+        proven += told.certificates.len();
+    }
+    assert!(proven > 30, "{proven}");
+}
+
+#[test]
+fn a_proof_does_not_hold_under_other_assumptions() {
+    let (walk, told) = walked(corridors(), 0);
+    let mut config = walk.observer.config().clone();
+    config.separation = 0.2;
+    config.alike_separation = 0.2;
+    let journal = walk.observer.journal().unwrap();
+    let found = verify_merges(&config, journal, &told.certificates);
+    assert!(
+        matches!(found, Err(MergeCertificateError::TooWide { .. })),
+        "{found:?}"
+    );
+    // The first is proven from the journal alone; the last rests on others.
+    assert_eq!(verified(&walk, &told.certificates[..1]), Ok(()));
+    let last = told.certificates.last().unwrap();
+    let alone = verified(&walk, core::slice::from_ref(last));
+    assert!(alone.is_err(), "{last:?}");
+}
+
+/// All certificates that differ from one in a number.
+fn changed(certificate: &MergeCertificate, by: usize) -> Vec<MergeCertificate> {
+    let mut all = Vec::new();
+    let mut push = |change: &dyn Fn(&mut MergeCertificate)| {
+        let mut other = certificate.clone();
+        change(&mut other);
+        all.push(other);
+    };
+    push(&|one| one.visits[0] += by);
+    push(&|one| one.visits[1] += by);
+    push(&|one| one.seal = one.seal.wrapping_add(by as u64));
+    let routes = match &certificate.proof {
+        MergeProof::Bounds(routes) => routes.as_slice(),
+        MergeProof::Looks(_) => &[],
+    };
+    for (number, route) in routes.iter().enumerate() {
+        for at in 0..route.len() {
+            let change = |change: fn(&mut JournalSpan, usize)| {
+                move |one: &mut MergeCertificate| {
+                    if let MergeProof::Bounds(routes) = &mut one.proof {
+                        change(&mut routes[number][at], by);
+                    }
+                }
+            };
+            push(&change(|span, by| span.begin += by));
+            push(&change(|span, by| span.end += by));
+            push(&change(|span, _| {
+                core::mem::swap(&mut span.begin, &mut span.end)
+            }));
+        }
+        push(&|one| {
+            if let MergeProof::Bounds(routes) = &mut one.proof {
+                routes.remove(number);
+            }
+        });
+    }
+    push(&|one| {
+        if let MergeProof::Looks(evidence) = &mut one.proof {
+            evidence.chance *= 0.5;
+        } else {
+            one.visits.swap(0, 1);
+        }
+    });
+    push(&|one| {
+        if let MergeProof::Looks(evidence) = &mut one.proof {
+            evidence.looks.deceiving = evidence.looks.deceiving.wrapping_sub(1);
+        } else {
+            one.visits = [one.visits[1]; 2];
+        }
+    });
+    push(&|one| {
+        if let MergeProof::Looks(evidence) = &mut one.proof {
+            evidence.pairs[0].after = Some((0, Action(0)));
+        } else {
+            one.proof = MergeProof::Bounds(Vec::new());
+        }
+    });
+    all
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn no_certificate_holds_that_was_changed(seed in 0_u64..1000, which in any::<prop::sample::Index>(), by in 1_usize..400) {
+        let config = match seed % 2 {
+            0 => corridors(),
+            _ => Config { actions: Config::corridor_actions(), ..painted() },
+        };
+        let (walk, told) = walked(config, seed);
+        prop_assert_eq!(verified(&walk, &told.certificates), Ok(()));
+        prop_assume!(!told.certificates.is_empty());
+        let number = which.index(told.certificates.len());
+        for wrong in changed(&told.certificates[number], by) {
+            let mut certificates = told.certificates.clone();
+            certificates[number] = wrong;
+            let found = verified(&walk, &certificates);
+            prop_assert!(found.is_err(), "{:?}", certificates[number]);
+        }
+    }
+}

@@ -1,0 +1,315 @@
+//! Maps by which a system's own verdict on them is judged: right and wrong ones, as many of each as it takes.
+
+use tolman_arena::contest::{Claim, Condition, ContestRecord};
+use tolman_arena::family::FamilySize;
+use tolman_experiment::{BoxError, run_seed};
+
+use super::worlds::{ArenaWorld, DrawnWorld};
+
+/// How hard the worlds are that maps are learned in, the easiest first.
+const RUNGS: [Rung; 5] = [
+    Rung::new("small", FamilySize::Small, Condition::AsMade),
+    Rung::new("middle", FamilySize::Middle, Condition::AsMade),
+    Rung::new("large", FamilySize::Large, Condition::AsMade),
+    Rung::new("middle, wheels 5", FamilySize::Middle, Condition::Wheels(5)),
+    Rung::new(
+        "middle, kidnapping",
+        FamilySize::Middle,
+        Condition::Kidnapping,
+    ),
+];
+
+struct Rung {
+    name: &'static str,
+    size: FamilySize,
+    condition: Condition,
+}
+
+impl Rung {
+    const fn new(name: &'static str, size: FamilySize, condition: Condition) -> Self {
+        Self {
+            name,
+            size,
+            condition,
+        }
+    }
+}
+
+/// Maps of one system, drawn until there are enough right and enough wrong ones.
+///
+/// Each [round](Self::round) is a fresh world of every family. While there are more right maps than wrong ones the next round is harder, else
+/// easier; so both kinds grow alike, and the worlds depend on nothing but the seed and what came of the rounds before.
+#[derive(Clone, Debug)]
+pub struct VerdictPool {
+    seed: u64,
+    worlds: Vec<ArenaWorld>,
+    enough: u32,
+    most_rounds: u32,
+    rounds: u32,
+    rung: usize,
+    /// Worlds of each rung.
+    drawn: [u32; RUNGS.len()],
+    abstained: u32,
+    maps: Vec<OwnVerdict>,
+}
+
+/// What a system made of its map, and whether that is right.
+#[derive(Clone, Copy, Debug)]
+struct OwnVerdict {
+    is_right: bool,
+    claim: Claim,
+    likelihood: f64,
+}
+
+/// A round of a [`VerdictPool`]: worlds in which a map is to be learned, and under which condition.
+#[derive(Clone, Debug)]
+pub struct PoolRound {
+    /// One of each family. Nobody is put down in them.
+    pub worlds: Vec<DrawnWorld>,
+    /// What is otherwise than as made.
+    pub condition: Condition,
+}
+
+/// What the maps of a [`VerdictPool`] say. Shares are in percent; `None` without a map of the kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoolJudgement {
+    /// Maps that are right.
+    pub right: usize,
+    /// Maps that are wrong.
+    pub wrong: usize,
+    /// Worlds in which it abstained.
+    pub abstained: u32,
+    /// Of the wrong maps, those that it called right.
+    pub false_right_percent: Option<f64>,
+    /// Of the right maps, those that it called wrong.
+    pub false_alarm_percent: Option<f64>,
+    /// Of all maps, those of which it said nothing.
+    pub undecided_percent: Option<f64>,
+    /// How much better it tells right maps from wrong ones than their share does: 1 always knows. `None` if all are alike.
+    pub brier_skill: Option<f64>,
+    /// How hard the worlds were, and how many of each kind.
+    pub drawn: Vec<(&'static str, u32)>,
+}
+
+impl VerdictPool {
+    /// Returns a pool without maps, which is full once it has `enough` right and `enough` wrong ones, or after `most_rounds` rounds.
+    #[must_use]
+    pub const fn new(worlds: Vec<ArenaWorld>, seed: u64, enough: u32, most_rounds: u32) -> Self {
+        Self {
+            seed,
+            worlds,
+            enough,
+            most_rounds,
+            rounds: 0,
+            rung: 0,
+            drawn: [0; RUNGS.len()],
+            abstained: 0,
+            maps: Vec::new(),
+        }
+    }
+
+    /// Returns the next round; `None` of a full pool.
+    ///
+    /// # Errors
+    /// If a family cannot draw a world.
+    pub fn round(&self) -> Result<Option<PoolRound>, BoxError> {
+        if self.is_enough() || self.rounds >= self.most_rounds {
+            return Ok(None);
+        }
+        let Rung {
+            size, condition, ..
+        } = RUNGS[self.rung];
+        let worlds = self.worlds.iter().map(|world| {
+            let name = format!("{}, own verdict", world.name());
+            let seed = run_seed(self.seed, &name, self.rounds);
+            let drawn = world.draw_sized(seed, self.rounds, size)?;
+            Ok(DrawnWorld { starts: 0, ..drawn })
+        });
+        let worlds: Result<Vec<DrawnWorld>, BoxError> = worlds.collect();
+        Ok(Some(PoolRound {
+            worlds: worlds?,
+            condition,
+        }))
+    }
+
+    /// Takes in what came of the worlds of a round.
+    pub fn take(&mut self, held: &[ContestRecord]) {
+        self.rounds += 1;
+        self.drawn[self.rung] += held.len() as u32;
+        for record in held {
+            self.abstained += u32::from(record.abstained.is_some());
+            self.maps
+                .extend(record.learned.as_ref().map(|learned| OwnVerdict {
+                    is_right: learned.judgement.is_right,
+                    claim: learned.claim,
+                    likelihood: learned.likelihood(),
+                }));
+        }
+        let (right, wrong) = self.counts();
+        self.rung = match right > wrong {
+            true => (self.rung + 1).min(RUNGS.len() - 1),
+            false => self.rung.saturating_sub(1),
+        };
+    }
+
+    /// Returns whether there are enough maps of either kind.
+    #[must_use]
+    pub fn is_enough(&self) -> bool {
+        let (right, wrong) = self.counts();
+        right.min(wrong) >= self.enough as usize
+    }
+
+    /// Right maps and wrong ones.
+    fn counts(&self) -> (usize, usize) {
+        let right = self.maps.iter().filter(|map| map.is_right).count();
+        (right, self.maps.len() - right)
+    }
+
+    /// Returns what all maps so far say.
+    #[must_use]
+    pub fn judgement(&self) -> PoolJudgement {
+        let (right, wrong) = self.counts();
+        let claimed = |claim, is_right| {
+            let maps = self.maps.iter();
+            maps.filter(|map| map.is_right == is_right && map.claim == claim)
+                .count()
+        };
+        let undecided = claimed(Claim::Undecided, true) + claimed(Claim::Undecided, false);
+        let drawn = RUNGS.iter().zip(self.drawn);
+        PoolJudgement {
+            right,
+            wrong,
+            abstained: self.abstained,
+            false_right_percent: percent(claimed(Claim::Right, false), wrong),
+            false_alarm_percent: percent(claimed(Claim::Wrong, true), right),
+            undecided_percent: percent(undecided, self.maps.len()),
+            brier_skill: self.brier_skill(),
+            drawn: drawn
+                .filter(|(_, count)| *count > 0)
+                .map(|(rung, count)| (rung.name, count))
+                .collect(),
+        }
+    }
+
+    fn brier_skill(&self) -> Option<f64> {
+        let count = self.maps.len() as f64;
+        let (right, wrong) = self.counts();
+        let error = |map: &OwnVerdict| map.likelihood - f64::from(u8::from(map.is_right));
+        let errors: f64 = self.maps.iter().map(|map| error(map) * error(map)).sum();
+        let variance = right as f64 * wrong as f64 / count;
+        (right > 0 && wrong > 0).then(|| 1.0 - errors / variance)
+    }
+}
+
+fn percent(part: usize, whole: usize) -> Option<f64> {
+    (whole > 0).then(|| 100.0 * part as f64 / whole as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::collections::BTreeSet;
+
+    use tolman_arena::contest::{LearnRecord, MapJudgement};
+    use tolman_arena::run::TaskEnd;
+
+    use super::*;
+
+    fn learned(is_right: bool, claim: Claim, certainty: f64) -> ContestRecord {
+        let judgement = MapJudgement {
+            is_right,
+            is_right_of_visited: is_right,
+            purity: None,
+            places: 1.0,
+            link_precision: None,
+            link_recall: 1.0,
+        };
+        ContestRecord {
+            learned: Some(LearnRecord {
+                end: TaskEnd::Done,
+                claim,
+                certainty: Some(certainty),
+                judgement,
+                driven: 1.0,
+                steps: 1,
+                bumps: 0,
+                places: 1,
+                map_bytes: None,
+                thinking: None,
+            }),
+            ..ContestRecord::default()
+        }
+    }
+
+    fn pool() -> VerdictPool {
+        let worlds = ArenaWorld::families().into_iter().take(2).collect();
+        VerdictPool::new(worlds, 1, 3, 20)
+    }
+
+    #[test]
+    fn worlds_are_harder_while_most_maps_are_right_and_easier_while_most_are_wrong() {
+        let mut pool = pool();
+        let mut sizes = Vec::new();
+        for is_right in [true, true, false, false, false, true] {
+            let round = pool.round().unwrap().unwrap();
+            sizes.push(round.worlds[0].maze.grid().width());
+            let record = learned(is_right, Claim::Right, 1.0);
+            pool.take(&[record.clone(), record]);
+        }
+        assert_eq!(sizes, [5, 8, 16, 8, 16, 8], "{sizes:?}");
+        assert!(pool.round().unwrap().is_none() && pool.is_enough());
+        assert_eq!(
+            pool.judgement().drawn,
+            [
+                ("small", 2),
+                ("middle", 4),
+                ("large", 4),
+                ("middle, wheels 5", 2)
+            ]
+        );
+    }
+
+    #[test]
+    fn no_world_is_drawn_twice_and_the_same_pool_draws_the_same() {
+        let mut pool = pool();
+        let mut seen = BTreeSet::new();
+        for _ in 0..4 {
+            let round = pool.round().unwrap().unwrap();
+            let again = pool.clone().round().unwrap().unwrap();
+            for (one, other) in round.worlds.iter().zip(&again.worlds) {
+                assert_eq!((one.seed, &one.maze), (other.seed, &other.maze));
+                assert!(seen.insert(one.seed));
+            }
+            pool.take(&[learned(true, Claim::Right, 1.0)]);
+        }
+    }
+
+    #[test]
+    fn a_pool_of_one_kind_ends_and_says_that_it_is_short() {
+        let mut pool = pool();
+        let mut rounds = 0;
+        while pool.round().unwrap().is_some() {
+            pool.take(&[learned(false, Claim::Undecided, 0.0)]);
+            rounds += 1;
+        }
+        assert!(rounds == 20 && !pool.is_enough());
+        let judged = pool.judgement();
+        assert_eq!((judged.right, judged.wrong), (0, 20));
+        assert_eq!(judged.brier_skill, None);
+        assert_eq!(judged.false_alarm_percent, None);
+        assert_eq!(judged.undecided_percent, Some(100.0));
+    }
+
+    #[test]
+    fn who_always_knows_has_the_skill_1_and_who_calls_all_right_none() {
+        let (mut knows, mut boasts) = (pool(), pool());
+        for is_right in [true, false] {
+            let claim = if is_right { Claim::Right } else { Claim::Wrong };
+            knows.take(&[learned(is_right, claim, 1.0)]);
+            boasts.take(&[learned(is_right, Claim::Right, 1.0)]);
+        }
+        assert_eq!(knows.judgement().brier_skill, Some(1.0));
+        let boasts = boasts.judgement();
+        assert_eq!(boasts.brier_skill, Some(-1.0));
+        assert_eq!(boasts.false_right_percent, Some(100.0));
+    }
+}

@@ -1,0 +1,301 @@
+//! Every run another world of its kind: what a claim about maps is made on.
+
+use rand::{Rng, RngExt};
+use serde::Serialize;
+use tolman_arena::contest::{
+    Claim, Condition, Contest, ContestRobot, Contestant, LearnRecord, Moment, Schooling,
+};
+use tolman_arena::family::{Family, FamilySize};
+use tolman_arena::run::TaskEnd;
+use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record, require};
+use tolman_maze::Maze;
+use tolman_robot::Landmark;
+use tolman_systems::stream;
+
+/// The name of the table.
+pub(super) const FRESH: &str = "fresh worlds";
+
+/// Worlds a row, unless the caller asks for more or fewer.
+const WORLDS: u32 = 100;
+
+/// For a first look.
+const QUICK: u32 = 2;
+
+/// The stream of a run's seed that its world is drawn from, beside those of the contest.
+const WORLD_STREAM: u64 = 20;
+
+/// The families of the arena whose worlds are corridors alone.
+const CORRIDORS: [&str; 11] = [
+    "perfect", "braided", "office", "blocks", "ladder", "eight", "ring", "wings", "comb", "spiral",
+    "star",
+];
+
+/// Those with openings of 2 × 2 cells.
+const OPEN: [&str; 3] = ["rooms", "braided rooms", "pillars"];
+
+/// One row: a kind of world, and what is otherwise than as robots are made.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct FreshRow {
+    pub(super) row: String,
+    /// The families that its worlds are drawn from.
+    families: Vec<&'static str>,
+    /// By how many percent each wheel rolls wrongly at most.
+    wheels: u8,
+    /// Who learns.
+    contestant: &'static str,
+}
+
+impl FreshRow {
+    /// The better system on the robot as it is made.
+    fn new(family: &'static str) -> Self {
+        Self {
+            row: family.to_owned(),
+            families: vec![family],
+            wheels: 0,
+            contestant: Contestant::CpmBetter.name(),
+        }
+    }
+
+    /// In corridors of any family, on wheels that are out of calibration.
+    fn wheels(percent: u8) -> Self {
+        Self {
+            row: format!("wheels {percent} %"),
+            families: CORRIDORS.to_vec(),
+            wheels: percent,
+            ..Self::new("")
+        }
+    }
+
+    /// The paper's system in the same worlds.
+    fn papers_system(self) -> Self {
+        Self {
+            row: format!("{} (paper's system)", self.row),
+            contestant: Contestant::Cpm.name(),
+            ..self
+        }
+    }
+}
+
+/// All rows.
+pub(super) fn rows() -> Vec<FreshRow> {
+    let families = CORRIDORS.into_iter().chain(OPEN);
+    let papers = ["office", "wings"];
+    families
+        .map(FreshRow::new)
+        .chain([2, 5].map(FreshRow::wheels))
+        .chain(papers.map(|family| FreshRow::new(family).papers_system()))
+        .collect()
+}
+
+record! {
+    /// A world drawn for it, explored to its end, and the map of it.
+    #[check(FreshRun::relations)]
+    struct FreshRun {
+        /// Whether the goal is on the map, and the map right and whole.
+        solved: bool => higher("solved"),
+        /// Whether the map is one to one the true junctions, dead ends, start and goal and the ways between them, with 95 % of all at least.
+        right: bool => higher("map right"),
+        /// Whether the goal is on the map.
+        goal_found: bool => higher("goal found"),
+        /// Whether it said, before it drove, that it cannot work there.
+        abstained: bool => neither("abstained"),
+        /// Whether a place of the map stands for two true ones.
+        false_merge: Option<bool> => lower("false merges"),
+        /// Whether what the system says of its own map is so: that it is done, of a right one, or that it gave up, of another.
+        verdict_right: Option<bool> => higher("own verdict right"),
+        /// Of a wrong map: whether the system called it right.
+        false_right: Option<bool> => lower("wrong maps called right"),
+        /// Of a right map: whether the system called it wrong.
+        false_alarm: Option<bool> => lower("right maps called wrong"),
+        /// Share of the visits of its places that were to the cell which that place was most often.
+        purity: Option<f64> => higher("purity").share().decimals(4),
+        /// Places of the map over true places.
+        places_over_true: Option<f64> => lower("places over true ones").at_least(0).decimals(2),
+        /// Share of the true ways that are on the map; 0 of who abstained.
+        link_recall: f64 => higher("link recall").share().decimals(3),
+        /// Metres driven over the length of all corridors.
+        driven: Option<f64> => lower("metres / corridors").at_least(0).decimals(2),
+        /// Time steps in which it touched something.
+        bumps: Option<u32> => lower("steps at a wall"),
+        /// How it ended, and why.
+        why: String => neither("end"),
+    }
+}
+
+impl FreshRun {
+    fn relations(&self) -> Result<(), String> {
+        let told = "solved is not whether the goal is on a right map";
+        require(self.solved == (self.right && self.goal_found), told)?;
+        let told = "who abstained has no map, and no one else has none";
+        require(self.abstained == self.verdict_right.is_none(), told)?;
+        let told = "a map is either right or wrong";
+        let either = self.false_right.is_some() != self.false_alarm.is_some();
+        require(self.abstained || either, told)
+    }
+
+    /// Of who said before it drove that it cannot.
+    fn of_abstained(why: String) -> Self {
+        Self {
+            abstained: true,
+            why,
+            ..Self::default()
+        }
+    }
+
+    fn of(learned: &LearnRecord, goal_found: bool) -> Self {
+        let (judged, claim) = (&learned.judgement, learned.claim);
+        let right = judged.is_right;
+        Self {
+            solved: right && goal_found,
+            right,
+            goal_found,
+            abstained: false,
+            false_merge: Some(judged.purity.is_some_and(|purity| purity < 1.0)),
+            verdict_right: Some(match claim {
+                Claim::Right => right,
+                Claim::Wrong => !right,
+                Claim::Undecided => false,
+            }),
+            false_right: (!right).then_some(claim == Claim::Right),
+            false_alarm: right.then_some(claim == Claim::Wrong),
+            purity: judged.purity,
+            places_over_true: Some(judged.places),
+            link_recall: judged.link_recall,
+            driven: Some(learned.driven),
+            bumps: Some(learned.bumps),
+            why: match &learned.end {
+                TaskEnd::Done => "done".to_owned(),
+                TaskEnd::GaveUp { why } => why.clone(),
+                TaskEnd::OutOfTime => "it had driven ten times the corridors".to_owned(),
+            },
+        }
+    }
+}
+
+/// The table.
+pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
+    let worlds = options.runs_else(WORLDS, QUICK);
+    Table::of::<FreshRun>(FRESH, "Fresh worlds: each run another drawing")
+        .metric(Metric::percent("solved_percent", FreshRun::solved))
+        .metric(Metric::percent("false_merges_percent", FreshRun::false_merge))
+        .metric(Metric::percent("own_verdict_right_percent", FreshRun::verdict_right))
+        .metric(Metric::percent("abstained_percent", FreshRun::abstained))
+        .metric(Metric::percent("false_right_percent", FreshRun::false_right))
+        .metric(Metric::percent("false_alarm_percent", FreshRun::false_alarm))
+        .metrics_from(FreshRun::purity)
+        .rows(rows.iter().map(|row| Row::new(&row.row).runs(worlds)))
+        .note(
+            "Each run draws its own world from its seed: of the arena's families and theirs of middle size. Rows without a word are of the better \
+             system. Explored until the robot says that it is done, or gives up. Solved: the goal is on the map, and the map is right by the arena's \
+             rule: one to one the true junctions, dead ends, start and goal and the ways between them, with 95 % of all at least. Who abstained says \
+             so before it drives, and counts as not solved. Own verdict: done says that the map is right, giving up that it is not; a robot that \
+             drives ten times the corridors has said neither, and is not right. Wheels: corridors of any family; each wheel rolls wrongly by a \
+             constant of up to 2 or 5 %, drawn for the run, beside the slip of 10 % that is drawn in each time step.",
+        )
+}
+
+impl FreshRow {
+    fn condition(&self) -> Condition {
+        match self.wheels {
+            0 => Condition::AsMade,
+            percent => Condition::Wheels(percent),
+        }
+    }
+
+    /// Draws a run's world.
+    fn draw(&self, seed: u64) -> Result<Maze, BoxError> {
+        let mut rng = stream(seed, WORLD_STREAM);
+        let name = match self.families.as_slice() {
+            [one] => one,
+            several => several
+                .get(position(several.len(), &mut rng))
+                .ok_or("the row has no family")?,
+        };
+        let families = Family::all();
+        let family = Family::named(&families, name).ok_or("there is no such family")?;
+        (family.draw)(family.size(FamilySize::Middle), &mut rng)
+    }
+
+    /// Lets the robot explore a world.
+    pub(super) fn run(&self, schooling: &Schooling, seed: u64) -> Result<Fields, BoxError> {
+        let maze = self.draw(seed)?;
+        let contestant = Contestant::named(self.contestant).ok_or("there is no such system")?;
+        let contest = Contest {
+            contestant,
+            robot: ContestRobot::Own,
+            maze: &maze,
+            name: &self.row,
+            condition: self.condition(),
+            starts: 0,
+            seed,
+        };
+        let mut goal_found = false;
+        let record = contest.play(schooling, |outing, moment| {
+            if moment == Moment::Over {
+                let places = outing.map().places;
+                goal_found = places
+                    .iter()
+                    .any(|place| place.landmark == Some(Landmark::Goal));
+            }
+        })?;
+        let run = match (record.learned, record.abstained) {
+            (Some(learned), _) => FreshRun::of(&learned, goal_found),
+            (None, why) => FreshRun::of_abstained(why.unwrap_or_default()),
+        };
+        Ok(run.fields()?)
+    }
+}
+
+/// A number below `count`.
+fn position(count: usize, rng: &mut impl Rng) -> usize {
+    rng.random_range(0..count.max(1) as u32) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_run_of_each_row_draws_its_own_world() {
+        for row in rows() {
+            let drawn = |seed| row.draw(seed).unwrap();
+            assert_eq!(drawn(1), drawn(1));
+            let others = (2..12).filter(|seed| drawn(*seed) != drawn(1)).count();
+            assert!(others > 0, "{}", row.row);
+        }
+    }
+
+    #[test]
+    fn corridors_have_no_openings() {
+        let is_open = |family| {
+            let maze = FreshRow::new(family).draw(3).unwrap();
+            maze.reachable().any(|cell| maze.is_room(cell))
+        };
+        assert!(!CORRIDORS.into_iter().any(is_open));
+        assert!(OPEN.into_iter().all(is_open));
+    }
+
+    #[test]
+    fn what_no_run_measures_is_refused() {
+        let right = FreshRun {
+            solved: true,
+            right: true,
+            goal_found: true,
+            verdict_right: Some(true),
+            false_alarm: Some(false),
+            ..FreshRun::default()
+        };
+        right.relations().unwrap();
+        FreshRun::of_abstained(String::new()).relations().unwrap();
+        let unsaid = FreshRun {
+            verdict_right: None,
+            ..right.clone()
+        };
+        assert!(unsaid.relations().unwrap_err().contains("no map"));
+        let unfound = FreshRun {
+            goal_found: false,
+            ..right
+        };
+        assert!(unfound.relations().unwrap_err().contains("the goal"));
+    }
+}

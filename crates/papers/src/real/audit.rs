@@ -1,0 +1,350 @@
+//! Audits of pose graphs to which false closures were added, beside graduated non-convexity.
+
+use std::io::Read;
+use std::path::Path;
+use std::time::Instant;
+
+use flate2::read::GzDecoder;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_experiment::{
+    BoxError, Fields, Job, Metric, Options, Record, Row, Table, record, require,
+};
+use tolman_formats::{G2o, G2oEdge};
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maps::audit::{Audit, AuditConfig, ClosureVerdict, audit, errors_of_witnesses, verify};
+use tolman_maps::pose_graph::{PoseEdgeKind, PoseGraph};
+
+use super::GraphFile;
+use super::false_closures::{Kind, Spoiler};
+use super::gnc::Gnc;
+use crate::data;
+
+/// The table's name.
+pub(super) const NAME: &str = "audit";
+
+/// How many false closures are added to the graphs of others.
+const MANY: usize = 1000;
+
+/// How many are added to the project's own small graph.
+const FEW: usize = 40;
+
+/// The project's own graph and where its poses really are.
+const ROOMS: &str = include_str!("../../mazes/graphs/rooms.g2o");
+const ROOMS_TRUTH: &str = include_str!("../../mazes/graphs/rooms-truth.g2o");
+
+/// A graph with its true poses.
+#[derive(Debug)]
+struct Known {
+    name: &'static str,
+    /// What the stated standard deviations are multiplied by.
+    scale: f64,
+    false_closures: usize,
+    /// What of the file is right, its truth.
+    graph: Option<(GraphFile, Vec<Pose>)>,
+}
+
+/// The graphs, as far as they are here.
+#[derive(Debug)]
+pub(super) struct Graphs {
+    known: Vec<Known>,
+    gnc: Option<Gnc>,
+}
+
+record! {
+    /// An audit of a graph to which false closures were added.
+    #[check(AuditRun::relations)]
+    struct AuditRun {
+        /// False closures that are said to be supported.
+        false_supported: u32 => lower("false supported").decimals(2),
+        /// Right closures that are said to be refuted.
+        true_refuted: u32 => lower("right refuted").decimals(2),
+        /// Certificates whose cycle is beyond its bound though all its closures but the one in question are replaced by the truth: right closures that
+        /// are refuted, and witnesses that err by more than their bounds.
+        bounds_broken: u32 => lower("bounds broken").decimals(2),
+        /// False closures that are refuted.
+        false_refuted_percent: f64 => higher("false refuted").percent().decimals(1),
+        /// Right closures that are supported; none where there are none.
+        true_supported_percent: Option<f64> => higher("right supported").percent().decimals(1),
+        /// Time of the audit over that of GTSAM's graduated non-convexity on the same graph, with the same standard deviations, in the same run. GTSAM
+        /// is ended after ten minutes, or when it has taken 40 times as long and a minute: the ratio is at most this then.
+        seconds_over_gtsam: Option<f64> => lower("time over GTSAM's").at_least(0).decimals(3),
+        /// False closures that GTSAM keeps; none where it did not end.
+        gtsam_false_kept: Option<u32> => lower("GTSAM keeps false").decimals(2),
+        /// Right closures that GTSAM drops; none where it did not end.
+        gtsam_true_dropped: Option<u32> => lower("GTSAM drops right").decimals(2),
+        /// False closures that were added: fewer where the graph has no room for them.
+        added: u32 => neither("added").decimals(0),
+    }
+}
+
+impl AuditRun {
+    fn relations(&self) -> Result<(), String> {
+        require(
+            self.bounds_broken >= self.true_refuted,
+            "right closures are refuted, but fewer bounds are said to be broken",
+        )
+    }
+}
+
+pub(super) fn table(graphs: &Graphs, options: &Options) -> Table {
+    let runs = options.runs_else(3, 1);
+    let rows = graphs.known.iter().flat_map(|known| {
+        Kind::ALL.map(|kind| {
+            let row = Row::new(format!("{} · {}", known.name, kind.name())).runs(runs);
+            match known.graph {
+                Some(_) => row,
+                None => row.missing(MISSING),
+            }
+        })
+    });
+    let gtsam = match graphs.gnc {
+        Some(_) => "",
+        None => {
+            " GTSAM is not here, so nothing is compared with it: pip install gtsam, or name a Python that has it in TOLMAN_PYTHON."
+        }
+    };
+    Table::of::<AuditRun>(NAME, "Pose graphs with false closures, audited")
+        .metrics_from(AuditRun::false_supported)
+        .metric(Metric::greatest("worst_false_supported", AuditRun::false_supported).titled("false supported, worst run"))
+        .rows(rows)
+        .note(format!(
+            "{MANY} false closures of each kind are added to a graph, {FEW} to the project's own `rooms`. A closure is false that is off by more than 1 m or 20°; those of the kind near are off \
+             by less, but beyond five standard deviations. Groups are 10 to 20 consecutive pairs that agree with each other. Stated standard deviations × {} for manhattan, whose file \
+             understates its information, × 1 for the others.{gtsam}",
+            MANHATTAN_SCALE
+        ))
+}
+
+const MANHATTAN_SCALE: f64 = 0.16;
+
+const MISSING: &str = "it is a pose graph of the Vertigo project (OpenSLAM); put it into `graphs` of the folder that TOLMAN_DATA names";
+
+impl Graphs {
+    /// Reads the graphs that are here.
+    ///
+    /// # Errors
+    /// If one that is here cannot be read.
+    pub(super) fn find() -> Result<Self, BoxError> {
+        let folder = data::folder().map(|folder| folder.join("graphs"));
+        let folder = folder.as_deref();
+        let known = vec![
+            Known {
+                name: "manhattan",
+                scale: MANHATTAN_SCALE,
+                false_closures: MANY,
+                graph: of_others(folder, "manhattanOlson3500.g2o.gz", |folder, _| {
+                    poses_of_lines(&unpacked(
+                        &folder.join("manhattanOlson3500_nodes_groundTruth.dat.gz"),
+                    )?)
+                })?,
+            },
+            Known {
+                name: "intel",
+                scale: 1.0,
+                false_closures: MANY,
+                // Its closures are right, and its poses optimized by them.
+                graph: of_others(folder, "intel.g2o.gz", |_, graph| Ok(graph.poses()))?,
+            },
+            Known {
+                name: "ring",
+                scale: 1.0,
+                false_closures: MANY,
+                graph: of_others(folder, "ring.g2o.gz", |folder, _| {
+                    Ok(GraphFile::read(&folder.join("ring_groundtruth.g2o.gz"))?.poses())
+                })?,
+            },
+            Known {
+                name: "rooms",
+                scale: 1.0,
+                false_closures: FEW,
+                graph: Some(rooms()?),
+            },
+        ];
+        Ok(Self {
+            known,
+            gnc: Gnc::find(),
+        })
+    }
+
+    /// What is left out, if anything is.
+    pub(super) fn missing(&self) -> Option<String> {
+        let missing = self.known.iter().any(|known| known.graph.is_none());
+        missing.then(|| data::missing("the pose graphs of the Vertigo project"))
+    }
+
+    pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let (name, kind) = job
+            .row
+            .split_once(" · ")
+            .ok_or("a row is a graph · a kind")?;
+        let kind = Kind::ALL.into_iter().find(|known| known.name() == kind);
+        let known = self.known.iter().find(|known| known.name == name);
+        let (Some(kind), Some(known)) = (kind, known) else {
+            return Err(format!("there is no row {}", job.row).into());
+        };
+        let Some((file, truth)) = &known.graph else {
+            return Err(format!("the graph {name} is not here").into());
+        };
+        Ok(self.measure(known, file, truth, kind, job)?.fields()?)
+    }
+
+    fn measure(
+        &self,
+        known: &Known,
+        file: &GraphFile,
+        truth: &[Pose],
+        kind: Kind,
+        job: &Job<'_>,
+    ) -> Result<AuditRun, BoxError> {
+        let config = AuditConfig::standard().with_sigma_scale(known.scale);
+        let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
+        let added = Spoiler::new(&file.graph, truth).draw(kind, known.false_closures, &mut rng);
+        let mut graph = file.graph.clone();
+        for edge in &added {
+            graph.add_edge(*edge)?;
+        }
+        let right = file.graph.edges().len() as u32;
+        let start = Instant::now();
+        let audited = audit(&graph, &config)?;
+        let seconds = start.elapsed().as_secs_f64();
+        verify(&graph, &config, &audited)?;
+        let errors = errors_of_witnesses(&graph, &config, &audited, truth)?;
+        let most = config.bound * config.bound;
+        let broken = errors
+            .iter()
+            .filter(|(edge, chi2)| *edge < right || *chi2 > most);
+        let counts = Counts::of(&audited, right);
+        let mut run = AuditRun {
+            false_supported: counts.false_supported,
+            true_refuted: counts.true_refuted,
+            bounds_broken: broken.count() as u32,
+            false_refuted_percent: percent(counts.false_refuted, added.len() as u32).unwrap_or(0.0),
+            true_supported_percent: percent(counts.true_supported, counts.right),
+            added: added.len() as u32,
+            ..AuditRun::default()
+        };
+        // The project's own graph is too small to be timed.
+        if let Some(gnc) = self.gnc.as_ref().filter(|_| known.false_closures == MANY) {
+            let found = gnc.run(&g2o_of(file, &graph), right, known.scale, seconds)?;
+            run.seconds_over_gtsam = Some(seconds / found.seconds);
+            run.gtsam_false_kept = found.false_kept;
+            run.gtsam_true_dropped = found.true_dropped;
+        }
+        Ok(run)
+    }
+}
+
+/// How many closures are what.
+#[derive(Default)]
+struct Counts {
+    right: u32,
+    false_supported: u32,
+    true_refuted: u32,
+    false_refuted: u32,
+    true_supported: u32,
+}
+
+impl Counts {
+    /// Of an audit whose edges from `right` on are false.
+    fn of(audit: &Audit, right: u32) -> Self {
+        let mut counts = Self::default();
+        for closure in &audit.closures {
+            let is_right = closure.edge < right;
+            counts.right += u32::from(is_right);
+            match (&closure.verdict, is_right) {
+                (ClosureVerdict::Supported { .. }, true) => counts.true_supported += 1,
+                (ClosureVerdict::Supported { .. }, false) => counts.false_supported += 1,
+                (ClosureVerdict::Refuted { .. }, true) => counts.true_refuted += 1,
+                (ClosureVerdict::Refuted { .. }, false) => counts.false_refuted += 1,
+                (ClosureVerdict::Undecided(_), _) => {}
+            }
+        }
+        counts
+    }
+}
+
+fn percent(part: u32, whole: u32) -> Option<f64> {
+    (whole > 0).then(|| 100.0 * f64::from(part) / f64::from(whole))
+}
+
+/// A graph with its false closures as a file says it.
+fn g2o_of(file: &GraphFile, graph: &PoseGraph) -> G2o {
+    let id = |pose: u32| file.file.poses[pose as usize].id;
+    let edges = graph.edges().iter().map(|edge| G2oEdge {
+        from: id(edge.from),
+        to: id(edge.to),
+        measured: edge.measured,
+        information: edge.information,
+        line: 0,
+    });
+    G2o {
+        edges: edges.collect(),
+        ..file.file.clone()
+    }
+}
+
+/// A graph of others with its truth, if both are here.
+fn of_others(
+    folder: Option<&Path>,
+    name: &str,
+    truth: impl Fn(&Path, &GraphFile) -> Result<Vec<Pose>, BoxError>,
+) -> Result<Option<(GraphFile, Vec<Pose>)>, BoxError> {
+    let Some(folder) = folder.filter(|folder| folder.join(name).is_file()) else {
+        return Ok(None);
+    };
+    let graph = GraphFile::read(&folder.join(name))?;
+    let truth = truth(folder, &graph)?;
+    if truth.len() != graph.file.poses.len() {
+        return Err(format!(
+            "{name} has {} poses, its truth {}",
+            graph.file.poses.len(),
+            truth.len()
+        )
+        .into());
+    }
+    Ok(Some((graph, truth)))
+}
+
+fn unpacked(path: &Path) -> Result<String, BoxError> {
+    let mut text = String::new();
+    GzDecoder::new(std::fs::File::open(path)?).read_to_string(&mut text)?;
+    Ok(text)
+}
+
+/// Poses as lines of x, y and heading.
+fn poses_of_lines(text: &str) -> Result<Vec<Pose>, BoxError> {
+    let pose = |line: &str| -> Result<Pose, BoxError> {
+        let numbers: Vec<f64> = line
+            .split_whitespace()
+            .map(str::parse)
+            .collect::<Result<_, _>>()?;
+        let [x, y, heading] = numbers[..] else {
+            return Err(format!("`{line}` is not x, y and a heading").into());
+        };
+        Ok(Pose::new(Point::new(x, y), Heading::from_radians(heading)))
+    };
+    text.lines()
+        .filter(|line| !line.trim().is_empty())
+        .map(pose)
+        .collect()
+}
+
+/// The project's own graph without the false closures that it comes with.
+fn rooms() -> Result<(GraphFile, Vec<Pose>), BoxError> {
+    let of = |text: &str| {
+        GraphFile::of(G2o::parse(text)?)
+            .map_err(|(line, error)| BoxError::from(format!("line {line}: {error}")))
+    };
+    let (all, truth) = (of(ROOMS)?, of(ROOMS_TRUTH)?.poses());
+    let mut file = all.file.clone();
+    let is_right = all.graph.edges().iter().map(|edge| {
+        let [from, to] = [edge.from, edge.to].map(|pose| truth[pose as usize]);
+        edge.kind == PoseEdgeKind::Odometry
+            || !super::false_closures::is_false(edge.measured, from.between(to))
+    });
+    let mut is_right = is_right.collect::<Vec<bool>>().into_iter();
+    file.edges.retain(|_| is_right.next().unwrap_or(true));
+    let graph = GraphFile::of(file).map_err(|(line, error)| format!("line {line}: {error}"))?;
+    Ok((graph, truth))
+}

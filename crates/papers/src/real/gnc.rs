@@ -1,0 +1,124 @@
+//! GTSAM's graduated non-convexity on the same graph, in a Python that has it.
+//!
+//! Source: H. Yang, P. Antonante, V. Tzoumas, L. Carlone: Graduated Non-Convexity for Robust Spatial Perception, 2020.
+
+use std::env;
+use std::fs;
+use std::io::Read;
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use tolman_experiment::BoxError;
+use tolman_formats::G2o;
+
+const SCRIPT: &str = include_str!("gnc.py");
+
+/// When it is ended at the latest, s.
+const CAP: f64 = 600.0;
+
+/// When it is ended because it is slower by far: so many times as long as the audit, and so many seconds at least.
+const TIMES: f64 = 40.0;
+const LEAST: f64 = 60.0;
+
+/// A Python with GTSAM.
+#[derive(Debug)]
+pub(super) struct Gnc {
+    python: String,
+}
+
+/// What came of it.
+pub(super) struct GncRun {
+    /// How long it took; how long it had when it was ended.
+    pub(super) seconds: f64,
+    pub(super) false_kept: Option<u32>,
+    pub(super) true_dropped: Option<u32>,
+}
+
+impl Gnc {
+    /// The Python that `TOLMAN_PYTHON` names, or `python3`, if it has GTSAM.
+    pub(super) fn find() -> Option<Self> {
+        let python = env::var("TOLMAN_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+        let mut command = Command::new(&python);
+        command.args(["-c", "import gtsam"]).stdin(Stdio::null());
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        let found = command.status().is_ok_and(|status| status.success());
+        found.then_some(Self { python })
+    }
+
+    /// Runs it on a graph whose edges from `right` on are false, with standard deviations × `scale`. `ours` is what the audit took, s.
+    pub(super) fn run(
+        &self,
+        graph: &G2o,
+        right: u32,
+        scale: f64,
+        ours: f64,
+    ) -> Result<GncRun, BoxError> {
+        let path = env::temp_dir().join(format!(
+            "tolman-gnc-{}-{:?}.g2o",
+            std::process::id(),
+            thread::current().id()
+        ));
+        fs::write(&path, graph.text())?;
+        let cap = (TIMES * ours).max(LEAST).min(CAP);
+        let out = self.answer(&[
+            &path.to_string_lossy(),
+            &right.to_string(),
+            &scale.to_string(),
+            &cap.to_string(),
+        ]);
+        // What is left of it is of no use; the answer matters.
+        let _ = fs::remove_file(&path);
+        let Some(text) = out? else {
+            return Ok(GncRun {
+                seconds: cap,
+                false_kept: None,
+                true_dropped: None,
+            });
+        };
+        let numbers: Vec<f64> = text
+            .split_whitespace()
+            .map(str::parse)
+            .collect::<Result<_, _>>()?;
+        let [seconds, kept, dropped] = numbers[..] else {
+            return Err(format!("GTSAM answered `{text}`").into());
+        };
+        Ok(GncRun {
+            seconds,
+            false_kept: Some(kept as u32),
+            true_dropped: Some(dropped as u32),
+        })
+    }
+
+    /// What the script writes; `None` if it had to be ended.
+    fn answer(&self, arguments: &[&str; 4]) -> Result<Option<String>, BoxError> {
+        let mut command = Command::new(&self.python);
+        command.args(["-c", SCRIPT]).args(arguments);
+        let mut child = command
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()?;
+        // Its clock begins when the graph is read, which takes seconds.
+        let cap = Duration::from_secs_f64(arguments[3].parse::<f64>()? + 30.0);
+        let start = Instant::now();
+        loop {
+            if let Some(status) = child.try_wait()? {
+                let mut text = String::new();
+                if let Some(mut out) = child.stdout.take() {
+                    out.read_to_string(&mut text)?;
+                }
+                return match status.success() {
+                    true => Ok(Some(text)),
+                    false => Err("GTSAM failed; is it one of PyPI's, 4.2 or newer?".into()),
+                };
+            }
+            if start.elapsed() > cap {
+                child.kill()?;
+                child.wait()?;
+                return Ok(None);
+            }
+            thread::sleep(Duration::from_millis(20));
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Pose graphs of others as this project has them.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+use tolman_formats::{G2o, G2oError};
+use tolman_geom::Pose;
+use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
+
+/// A pose graph with the file it was read from. Pose n of the graph is pose n of the file in the order of ids; edge n is edge n.
+#[derive(Clone, Debug)]
+pub struct GraphFile {
+    /// What the file says.
+    pub file: G2o,
+    /// The same as a graph: an edge between neighbours in the order of ids is odometry, the first of each pair, and any other is a closure.
+    pub graph: PoseGraph,
+}
+
+/// Why a file is no pose graph.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum GraphFileError {
+    /// It cannot be read.
+    #[error("cannot read {}; give a pose graph as g2o writes it, plain or gzipped", path.display())]
+    File {
+        /// Which file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// It holds nothing of use.
+    #[error("{}", path.display())]
+    G2o {
+        /// Which file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: G2oError,
+    },
+    /// One of its edges is refused.
+    #[error("{}: line {line}", path.display())]
+    Edge {
+        /// Which file.
+        path: PathBuf,
+        /// Which line.
+        line: usize,
+        /// What is wrong with it.
+        source: PoseGraphError,
+    },
+}
+
+impl GraphFile {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`GraphFileError`] with the file and what is wrong with it.
+    pub fn read(path: &Path) -> Result<Self, GraphFileError> {
+        let bytes = fs::read(path).map_err(|source| GraphFileError::File {
+            path: path.to_owned(),
+            source,
+        })?;
+        let file = G2o::read(&bytes).map_err(|source| GraphFileError::G2o {
+            path: path.to_owned(),
+            source,
+        })?;
+        Self::of(file).map_err(|(line, source)| GraphFileError::Edge {
+            path: path.to_owned(),
+            line,
+            source,
+        })
+    }
+
+    /// The graph of what a file says; the error bears the line at fault.
+    pub(super) fn of(file: G2o) -> Result<Self, (usize, PoseGraphError)> {
+        let mut graph = PoseGraph::new();
+        for pose in &file.poses {
+            graph.add_pose(pose.pose);
+        }
+        let number = |id: u64| file.poses.partition_point(|pose| pose.id < id) as u32;
+        let mut has_step = vec![false; file.poses.len()];
+        for edge in &file.edges {
+            let (from, to) = (number(edge.from), number(edge.to));
+            let is_step = from.abs_diff(to) == 1;
+            let seen = core::mem::replace(&mut has_step[from.max(to) as usize], true);
+            let kind = match is_step && !seen {
+                true => PoseEdgeKind::Odometry,
+                false => PoseEdgeKind::Closure,
+            };
+            if !is_step {
+                has_step[from.max(to) as usize] = seen;
+            }
+            let edge = PoseEdge {
+                from,
+                to,
+                measured: edge.measured,
+                information: edge.information,
+                kind,
+            };
+            let line = file.edges[graph.edges().len()].line;
+            graph.add_edge(edge).map_err(|error| (line, error))?;
+        }
+        Ok(Self { file, graph })
+    }
+
+    /// Returns where the file has the poses.
+    #[must_use]
+    pub fn poses(&self) -> Vec<Pose> {
+        self.file.poses.iter().map(|pose| pose.pose).collect()
+    }
+}

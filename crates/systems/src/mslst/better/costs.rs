@@ -1,0 +1,81 @@
+use tolman_planners::Decisions;
+
+/// What each action costs at each standpoint, facing along either axis, until the goal is reached, on average: ten bytes a standpoint.
+///
+/// The plan's decisions themselves take thirty times as much, and are not needed once this is known.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct ActionCosts {
+    /// The least cost at each standpoint, in [`LEAST_UNIT`]s.
+    least: Vec<u16>,
+    /// What each action costs beyond that, in [`MORE_UNIT`]s.
+    more: Vec<[u8; OPTIONS]>,
+}
+
+/// Axes and actions at a standpoint.
+const OPTIONS: usize = 8;
+/// What it costs to be where no way leads to the goal, time steps.
+pub(super) const HOPELESS: f32 = 1e4;
+/// Steps in which the least costs are kept, time steps.
+const LEAST_UNIT: f64 = 0.25;
+/// Steps in which the others are, time steps: an action that costs 32 more is as good as one that costs 100 more.
+const MORE_UNIT: f64 = 0.125;
+
+impl ActionCosts {
+    /// Returns those of [`OPTIONS`] in turn for every standpoint, where `states` are the costs of the states of `decisions`.
+    /// O(ends of decisions).
+    pub(super) fn of(decisions: &Decisions, states: &[f32]) -> Self {
+        let standpoints = states.len() * decisions.actions() / OPTIONS;
+        let mut costs = Self {
+            least: Vec::with_capacity(standpoints),
+            more: Vec::with_capacity(standpoints),
+        };
+        for standpoint in 0..standpoints {
+            let options = core::array::from_fn(|option| {
+                let index = standpoint * OPTIONS + option;
+                let (state, action) = (index / decisions.actions(), index % decisions.actions());
+                let cost = decisions.cost(states, state, action);
+                f64::from(cost.min(HOPELESS))
+            });
+            costs.add(options);
+        }
+        costs
+    }
+
+    fn add(&mut self, options: [f64; OPTIONS]) {
+        let least = options.iter().copied().fold(f64::from(HOPELESS), f64::min);
+        self.least.push(libm::round(least / LEAST_UNIT) as u16);
+        self.more
+            .push(options.map(|cost| libm::round((cost - least) / MORE_UNIT) as u8));
+    }
+
+    /// Returns the time steps to the goal on average by an option at a standpoint; [`HOPELESS`] where there is no such.
+    pub(super) fn cost(&self, standpoint: u32, option: usize) -> f64 {
+        let standpoint = standpoint as usize;
+        let (Some(least), Some(more)) = (self.least.get(standpoint), self.more.get(standpoint))
+        else {
+            return f64::from(HOPELESS);
+        };
+        f64::from(*least) * LEAST_UNIT + f64::from(more[option]) * MORE_UNIT
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn costs_are_kept_as_exactly_as_they_matter() {
+        let mut costs = ActionCosts {
+            least: Vec::new(),
+            more: Vec::new(),
+        };
+        let options = [70.05, 71.0, 75.3, 80.0, 70.1, 1e4, 101.0, 72.0];
+        costs.add(options);
+        for (option, expected) in options.into_iter().enumerate() {
+            let cost = costs.cost(0, option);
+            let most = 70.05 + 255.0 * MORE_UNIT;
+            assert!((cost - expected.min(most)).abs() < 0.2, "{cost}");
+        }
+        assert!(costs.cost(1, 0) >= f64::from(HOPELESS));
+    }
+}

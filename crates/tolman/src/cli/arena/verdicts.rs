@@ -1,0 +1,103 @@
+//! `tolman arena --own-verdict`: what systems make of their own maps, by right ones and wrong ones.
+
+use std::io::Write;
+
+use rayon::prelude::*;
+use tolman_arena::contest::{
+    Contest, ContestError, ContestRecord, ContestRobot, Contestant, Schooling,
+};
+use tolman_papers::arena::{ArenaWorld, DrawnWorld, PoolJudgement, PoolRound, VerdictPool};
+
+use super::{Arguments, Failure, MOST_WORLDS};
+
+/// Right maps and wrong ones of each system.
+const ENOUGH: u32 = 100;
+
+pub(super) fn judge(
+    arguments: &Arguments,
+    contestants: &[Contestant],
+    robot: ContestRobot,
+    kinds: &[ArenaWorld],
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    writeln!(
+        out,
+        "{:18} {:13} {:>5} {:>5} {:>9} {:>13} {:>13} {:>11} {:>11}",
+        "system",
+        "robot",
+        "right",
+        "wrong",
+        "abstained",
+        "false right %",
+        "false alarm %",
+        "undecided %",
+        "Brier skill"
+    )?;
+    let most = arguments.worlds.unwrap_or(MOST_WORLDS);
+    let schooling = Schooling::default();
+    let learning = contestants.iter().filter(|one| one.learns());
+    for contestant in learning {
+        let mut pool = VerdictPool::new(kinds.to_vec(), arguments.seed, ENOUGH, most);
+        while let Some(round) = pool.round().map_err(anyhow::Error::from_boxed)? {
+            let held = held(*contestant, robot, &round, &schooling).map_err(anyhow::Error::from)?;
+            pool.take(&held);
+        }
+        row(*contestant, robot, &pool, out)?;
+    }
+    Ok(())
+}
+
+fn held(
+    contestant: Contestant,
+    robot: ContestRobot,
+    round: &PoolRound,
+    schooling: &Schooling,
+) -> Result<Vec<ContestRecord>, ContestError> {
+    let play = |world: &DrawnWorld| {
+        let contest = Contest {
+            condition: round.condition,
+            ..world.contest(contestant, robot)
+        };
+        contest.play(schooling, |_, _| {})
+    };
+    round.worlds.par_iter().map(play).collect()
+}
+
+fn row(
+    contestant: Contestant,
+    robot: ContestRobot,
+    pool: &VerdictPool,
+    out: &mut dyn Write,
+) -> std::io::Result<()> {
+    let judged = pool.judgement();
+    let number = |value: Option<f64>, decimals: usize| {
+        value.map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
+    };
+    writeln!(
+        out,
+        "{:18} {:13} {:>5} {:>5} {:>9} {:>13} {:>13} {:>11} {:>11}",
+        contestant.name(),
+        contestant.robot(robot),
+        judged.right,
+        judged.wrong,
+        judged.abstained,
+        number(judged.false_right_percent, 1),
+        number(judged.false_alarm_percent, 1),
+        number(judged.undecided_percent, 1),
+        number(judged.brier_skill, 2),
+    )?;
+    writeln!(out, "  {}", drawn(&judged, pool.is_enough()))
+}
+
+/// Where its maps come from, and whether there are enough of them.
+fn drawn(judged: &PoolJudgement, is_enough: bool) -> String {
+    let worlds = judged.drawn.iter();
+    let worlds: Vec<String> = worlds
+        .map(|(name, count)| format!("{count} {name}"))
+        .collect();
+    let short = match is_enough {
+        true => String::new(),
+        false => format!("; too few: {ENOUGH} right and {ENOUGH} wrong maps were wanted"),
+    };
+    format!("worlds: {}{short}", worlds.join("; "))
+}

@@ -1,0 +1,201 @@
+//! `tolman audit`: which loop closures of a pose graph are right.
+
+mod certificates;
+mod page;
+mod told;
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, anyhow};
+use indicatif::ProgressBar;
+use tolman_formats::G2o;
+use tolman_maps::audit::{
+    Audit, AuditConfig, ClosureVerdict, SigmaScale, audit, supported_graph, verify,
+};
+use tolman_papers::real::GraphFile;
+
+use super::{Failure, OrBadInput, file};
+use certificates::CertificateFile;
+
+/// Finds which loop closures of a pose graph are right, wrong or undecided; exits 1 if one is wrong
+#[derive(clap::Args)]
+#[command(after_help = "\
+A closure is supported by independent cycles that agree with it, refuted by a certificate (a cycle beyond five standard deviations that can be
+measured again), or undecided, with the reason. The folder gets audit.html, cleaned.g2o (without the refuted closures), certificates.json and
+verdicts.csv. docs/audit.md says what the words mean.
+
+Example:
+  tolman audit mazes/graphs/rooms.g2o --out audited # exits 1
+  tolman audit mazes/graphs/rooms.g2o --out audited --verify")]
+pub(super) struct Arguments {
+    /// The pose graph as g2o writes it (VERTEX_SE2, EDGE_SE2), plain or gzipped
+    graph: PathBuf,
+    /// What every stated standard deviation is multiplied by, or auto: as the graph's own short cycles tell
+    #[arg(long, value_name = "S|auto", default_value = "1", value_parser = scale)]
+    sigma_scale: Scale,
+    /// Measure the certificates in the folder again instead of making them; exits 1 if one does not hold
+    #[arg(long)]
+    verify: bool,
+    /// The folder for what is found [default: results/audit/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Leave undecided closures out of cleaned.g2o too
+    #[arg(long, conflicts_with = "verify")]
+    strict: bool,
+}
+
+#[derive(Clone, Copy)]
+enum Scale {
+    Auto,
+    By(f64),
+}
+
+fn scale(text: &str) -> Result<Scale, String> {
+    if text == "auto" {
+        return Ok(Scale::Auto);
+    }
+    let scale = text.parse::<f64>().ok();
+    scale
+        .filter(|scale| *scale > 0.0 && scale.is_finite())
+        .map(Scale::By)
+        .ok_or_else(|| "give a positive number, or auto".to_owned())
+}
+
+/// A graph with what was found of it.
+struct Audited<'a> {
+    name: String,
+    file: &'a GraphFile,
+    config: AuditConfig,
+    estimate: Option<SigmaScale>,
+    audit: Audit,
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let file = GraphFile::read(&arguments.graph).or_bad_input()?;
+    told::left_out(&arguments.graph, &file.file);
+    let folder = arguments.folder();
+    if arguments.verify {
+        return check(&file, &arguments.graph, &folder, out);
+    }
+    let audited = arguments.audited(&file)?;
+    audited.tell(out)?;
+    arguments.write(&audited, &folder)?;
+    writeln!(out, "written to {}", folder.display())?;
+    let refuted = audited.audit.count(ClosureVerdict::is_refuted);
+    match refuted {
+        0 => Ok(()),
+        _ => Err(Failure::Failed(anyhow!(
+            "{}: {refuted} of {} closures {} refuted; {} is without {}",
+            audited.name,
+            audited.audit.closures.len(),
+            if refuted == 1 { "is" } else { "are" },
+            folder.join("cleaned.g2o").display(),
+            if refuted == 1 { "it" } else { "them" },
+        ))),
+    }
+}
+
+impl Arguments {
+    fn folder(&self) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| {
+            let name = self.graph.file_name().unwrap_or_default().to_string_lossy();
+            let name = name.trim_end_matches(".gz").trim_end_matches(".g2o");
+            Path::new("results").join("audit").join(name)
+        })
+    }
+
+    fn audited<'a>(&self, file: &'a GraphFile) -> Result<Audited<'a>, Failure> {
+        let estimate = SigmaScale::estimate(&file.graph).or_bad_input()?;
+        let scale = match self.sigma_scale {
+            Scale::By(scale) => scale,
+            Scale::Auto => estimate.map_or(1.0, |estimate| estimate.scale()),
+        };
+        let config = AuditConfig::standard().with_sigma_scale(scale);
+        let bar = ProgressBar::new_spinner().with_message("auditing");
+        bar.enable_steady_tick(core::time::Duration::from_millis(100));
+        let audit = audit(&file.graph, &config).or_bad_input();
+        bar.finish_and_clear();
+        Ok(Audited {
+            name: self.graph.display().to_string(),
+            file,
+            config,
+            estimate,
+            audit: audit?,
+        })
+    }
+
+    fn write(&self, audited: &Audited<'_>, folder: &Path) -> Result<(), Failure> {
+        fs::create_dir_all(folder).with_context(|| {
+            format!(
+                "cannot make {}: name another folder by --out",
+                folder.display()
+            )
+        })?;
+        let certificates = CertificateFile::of(audited);
+        let json = serde_json::to_string(&certificates)?;
+        file::write(&folder.join(certificates::NAME), json + "\n")?;
+        file::write(&folder.join("verdicts.csv"), told::csv(audited))?;
+        file::write(
+            &folder.join("cleaned.g2o"),
+            audited.cleaned(self.strict).text(),
+        )?;
+        let laid_out = supported_graph(&audited.file.graph, &audited.config, &audited.audit);
+        file::write(&folder.join("audit.html"), page::html(audited, &laid_out))
+    }
+}
+
+impl Audited<'_> {
+    /// The graph without refuted closures, and without undecided ones if it is to be strict.
+    fn cleaned(&self, strict: bool) -> G2o {
+        let goes = |verdict: &ClosureVerdict| match strict {
+            true => !verdict.is_supported(),
+            false => verdict.is_refuted(),
+        };
+        let mut stays = vec![true; self.file.file.edges.len()];
+        for closure in &self.audit.closures {
+            stays[closure.edge as usize] = !goes(&closure.verdict);
+        }
+        let mut cleaned = self.file.file.clone();
+        let mut stays = stays.into_iter();
+        cleaned.edges.retain(|_| stays.next().unwrap_or(true));
+        cleaned
+    }
+}
+
+/// Measures the certificates in a folder again.
+fn check(
+    file: &GraphFile,
+    graph: &Path,
+    folder: &Path,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let path = folder.join(certificates::NAME);
+    let text = fs::read_to_string(&path)
+        .with_context(|| {
+            let path = path.display();
+            format!("cannot read {path}; audit without --verify first, or name the folder by --out")
+        })
+        .or_bad_input()?;
+    let certificates = CertificateFile::read(&text)
+        .with_context(|| path.display().to_string())
+        .or_bad_input()?;
+    let (audit, config) = certificates
+        .audit(file)
+        .map_err(|error| Failure::Failed(anyhow!("{}: {error}", path.display())))?;
+    verify(&file.graph, &config, &audit).map_err(|error| {
+        Failure::Failed(anyhow!(
+            "{}: {}",
+            path.display(),
+            told::by_line(&error, file)
+        ))
+    })?;
+    Ok(writeln!(
+        out,
+        "{}: all certificates hold: {} refuted, {} supported",
+        graph.display(),
+        audit.count(ClosureVerdict::is_refuted),
+        audit.count(ClosureVerdict::is_supported),
+    )?)
+}

@@ -1,0 +1,208 @@
+//! An audit in words.
+
+use core::fmt::Write as _;
+use std::io::{self, Write};
+use std::path::Path;
+
+use tolman_formats::G2o;
+use tolman_maps::audit::{
+    AuditCycle, AuditedClosure, CertificateError, ClosureVerdict, RefutedBy, UndecidedBecause,
+};
+use tolman_papers::real::GraphFile;
+
+use super::Audited;
+
+/// How many closures and faults are told one by one.
+const TOLD: usize = 10;
+
+/// Tells on stderr what of a file is not used.
+pub(super) fn left_out(path: &Path, file: &G2o) {
+    let (path, count) = (path.display(), file.left_out.len());
+    // Nobody is left to be told that stderr cannot be written.
+    let mut err = anstream::stderr();
+    for fault in file.left_out.iter().take(TOLD) {
+        let _ = writeln!(err, "{path}: {fault}");
+    }
+    if count > 0 {
+        let lines = if count == 1 { "line is" } else { "lines are" };
+        let _ = writeln!(err, "{path}: {count} {lines} left out, the rest is used");
+    }
+}
+
+impl Audited<'_> {
+    pub(super) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
+        let (closures, runs) = (self.audit.closures.len(), self.audit.runs);
+        writeln!(
+            out,
+            "{}: {} poses, {closures} closures in {runs} runs, standard deviations × {}",
+            self.name,
+            self.file.file.poses.len(),
+            rounded(self.config.sigma_scale),
+        )?;
+        if let Some(told) = self.told_of_scale() {
+            writeln!(out, "{told}")?;
+        }
+        writeln!(out, "{}", self.counted())?;
+        let refuted = self.audit.closures.iter();
+        let refuted = refuted.filter(|closure| closure.verdict.is_refuted());
+        for closure in refuted.clone().take(TOLD) {
+            writeln!(out, "  {}", self.told(closure))?;
+        }
+        let more = refuted.count().saturating_sub(TOLD);
+        if more > 0 {
+            writeln!(out, "  … and {more} more")?;
+        }
+        Ok(())
+    }
+
+    /// How many closures are what.
+    pub(super) fn counted(&self) -> String {
+        let count = |is: fn(&ClosureVerdict) -> bool| self.audit.count(is);
+        let alone = count(|verdict| {
+            matches!(
+                verdict,
+                ClosureVerdict::Refuted {
+                    by: RefutedBy::Odometry,
+                    ..
+                }
+            )
+        });
+        let reason = |is: fn(&UndecidedBecause) -> bool| {
+            self.audit.count(
+                |verdict| matches!(verdict, ClosureVerdict::Undecided(because) if is(because)),
+            )
+        };
+        format!(
+            "{} supported; {} refuted ({alone} by odometry alone); {} undecided ({} too wide, {} of a single run, {} contradictory)",
+            count(ClosureVerdict::is_supported),
+            count(ClosureVerdict::is_refuted),
+            count(|verdict| matches!(verdict, ClosureVerdict::Undecided(_))),
+            reason(|because| matches!(because, UndecidedBecause::Wide { .. })),
+            reason(|because| matches!(because, UndecidedBecause::SingleRun { .. })),
+            reason(|because| matches!(because, UndecidedBecause::Contradictory { .. })),
+        )
+    }
+
+    /// What the graph's own short cycles say of its standard deviations, if it is worth a word.
+    pub(super) fn told_of_scale(&self) -> Option<String> {
+        let estimate = self.estimate?;
+        let by = rounded(estimate.estimate);
+        let (tail, cycles) = (rounded(estimate.tail), estimate.cycles);
+        let used = self.config.sigma_scale;
+        let off = estimate.estimate / used;
+        if estimate.is_heavy() && estimate.estimate < 1.0 {
+            return Some(format!(
+                "{cycles} short cycles would have the standard deviations × {by}, but their tail is heavy (99th percentile {tail} times the median; a \
+                 Gaussian's is 4.8): smaller ones would refute right closures"
+            ));
+        }
+        (!(0.5..=2.0).contains(&off)).then(|| {
+            format!(
+                "{cycles} short cycles have the standard deviations × {by}: try --sigma-scale auto"
+            )
+        })
+    }
+
+    /// A closure and its verdict.
+    pub(super) fn told(&self, closure: &AuditedClosure) -> String {
+        let edge = &self.file.file.edges[closure.edge as usize];
+        let verdict = verdict(&closure.verdict);
+        format!("line {}: {} → {} {verdict}", edge.line, edge.from, edge.to)
+    }
+}
+
+/// A verdict with its reason.
+pub(super) fn verdict(verdict: &ClosureVerdict) -> String {
+    match verdict {
+        ClosureVerdict::Supported { witnesses } => match witnesses.len() {
+            1 => "supported by 1 cycle".to_owned(),
+            count => format!("supported by {count} cycles"),
+        },
+        ClosureVerdict::Refuted { by, cycle } => {
+            let by = match by {
+                RefutedBy::Odometry => "odometry alone",
+                RefutedBy::SupportedClosures => "supported closures",
+            };
+            format!("refuted by {by}: {}", off(cycle))
+        }
+        ClosureVerdict::Undecided(because) => format!("undecided: {}", reason(because)),
+    }
+}
+
+fn reason(because: &UndecidedBecause) -> String {
+    match because {
+        UndecidedBecause::Wide { position, heading } if position.is_finite() => {
+            format!(
+                "too wide, it may lie within {position:.1} m and {:.0}°",
+                heading.to_degrees()
+            )
+        }
+        UndecidedBecause::Wide { .. } => "nothing else joins its poses".to_owned(),
+        UndecidedBecause::SingleRun { closures } => {
+            format!("only the {closures} closures of its own run agree")
+        }
+        UndecidedBecause::Contradictory { against, agreeing } => {
+            format!(
+                "one cycle speaks against it (χ² {:.0}), another agrees (χ² {:.1})",
+                against.chi2, agreeing.chi2
+            )
+        }
+    }
+}
+
+/// How far a cycle is off.
+pub(super) fn off(cycle: &AuditCycle) -> String {
+    let [x, y, turn] = cycle.residual;
+    let metres = (x * x + y * y).sqrt();
+    format!(
+        "its cycle is off by {metres:.2} m and {:.1}°, χ² {:.0} of at most 25",
+        turn.to_degrees().abs(),
+        cycle.chi2
+    )
+}
+
+/// A number with at most three digits behind the point, and no zeros at its end.
+pub(super) fn rounded(number: f64) -> String {
+    let text = format!("{number:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// The verdict of every closure, a line each.
+pub(super) fn csv(audited: &Audited<'_>) -> String {
+    let mut text = "line,from,to,run,verdict,witnesses,reason\n".to_owned();
+    for closure in &audited.audit.closures {
+        let edge = &audited.file.file.edges[closure.edge as usize];
+        let (word, witnesses, why) = match &closure.verdict {
+            ClosureVerdict::Supported { witnesses } => {
+                ("supported", witnesses.len(), String::new())
+            }
+            ClosureVerdict::Refuted { by, .. } => match by {
+                RefutedBy::Odometry => ("refuted", 0, "odometry".to_owned()),
+                RefutedBy::SupportedClosures => ("refuted", 0, "supported closures".to_owned()),
+            },
+            ClosureVerdict::Undecided(because) => ("undecided", 0, reason(because)),
+        };
+        // Nothing can go wrong when a string grows.
+        let _ = writeln!(
+            text,
+            "{},{},{},{},{word},{witnesses},\"{why}\"",
+            edge.line, edge.from, edge.to, closure.run
+        );
+    }
+    text
+}
+
+/// A fault of a certificate, with the line of the graph's file where it names an edge.
+pub(super) fn by_line(error: &CertificateError, file: &GraphFile) -> String {
+    let told = error.to_string();
+    let line = error
+        .edge()
+        .and_then(|edge| file.file.edges.get(edge as usize));
+    match line {
+        Some(edge) => format!(
+            "{told} (edge {} → {}, line {})",
+            edge.from, edge.to, edge.line
+        ),
+        None => told,
+    }
+}

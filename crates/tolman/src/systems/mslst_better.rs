@@ -1,0 +1,277 @@
+use alloc::sync::Arc;
+
+use anyhow::{Context, Error, anyhow};
+use serde_json::{Value, json};
+use tolman_arena::course::{Course, Terrain};
+use tolman_arena::gngslam::LaidOver;
+use tolman_arena::mslst::better_config;
+use tolman_arena::pioneer::{LASER_PIONEER, body, calibrated};
+use tolman_arena::{Outing, Sent, Site};
+use tolman_control::heading_of;
+use tolman_draw::Drawing;
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maps::scan_map::{ScanChart, ScanPlace};
+use tolman_maze::Direction;
+use tolman_papers::gngslam::drawing::places_over_world;
+use tolman_robot::{Landmark, Standing, Task};
+use tolman_systems::mslst::BetterMslst;
+use tolman_systems::mslst::better::{BetterConfig, BetterMap, BetterMapFile, BetterNavigator};
+use tolman_systems::{Actor, Brain, Origin};
+
+use crate::system::{LearnedMap, MapText, Setup, SystemEntry, laser_pioneer};
+
+/// The [better MSLST](BetterMslst) on the laser Pioneer.
+#[derive(Clone, Copy, Debug)]
+pub struct MslstBetterEntry;
+
+const PRESETS: [(&str, &str); 1] = [("pioneer", "As in the tables, row Better")];
+
+/// Places of a right map are off by less than this, as the root of the mean square, m.
+const MOST_ERROR: f64 = 0.5;
+
+/// A place shows what is this near, as a share of the corridors' width.
+const NEAR: f64 = 0.8;
+
+/// The share of the floor that a finished map has places near.
+const LEAST_COVERED: f64 = 0.9;
+
+impl SystemEntry for MslstBetterEntry {
+    fn name(&self) -> &'static str {
+        "mslst-better"
+    }
+
+    fn about(&self) -> &'static str {
+        "Draws walls from laser scans, explores where its map has gaps, and navigates by a belief over where it can stand"
+    }
+
+    fn presets(&self) -> &'static [(&'static str, &'static str)] {
+        &PRESETS
+    }
+
+    fn robots(&self) -> &'static [&'static str] {
+        &[LASER_PIONEER]
+    }
+
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+        setup.anew(self.name())?;
+        setup.settings.preset(PRESETS)?;
+        let (course, robot, stack) = laser_pioneer(setup)?;
+        let preset = better_config(course.corridor_width, &calibrated());
+        let config: BetterConfig = setup.settings.over(&preset)?;
+        config.check().context("--set")?;
+        let origin = setup.origin(&course, LASER_PIONEER);
+        // The map begins where the robot stands, its axes are the compass's.
+        let start = robot.truth().pose.position;
+        let world_from_map = Pose::new(start, Heading::EAST);
+        let brain = BetterMslst::new(config, calibrated().ring);
+        let actor = Actor::seeded(brain, stack, setup.seed);
+        let steps = setup
+            .steps
+            .unwrap_or_else(|| course.step_limit().saturating_mul(10));
+        let judged_on = course.clone();
+        let sent = Sent::new(course, robot, steps, actor)
+            .laid_at(world_from_map)
+            .counting(|actor| actor.brain().place_count())
+            .keeping(move |actor, made| {
+                let file = BetterMapFile {
+                    origin: origin.clone(),
+                    config,
+                    chart: actor.brain().chart(),
+                    sites: sites(start, made),
+                };
+                Ok(Some(file.to_json()?))
+            })
+            .judging(move |actor, made, _task| {
+                let brain = actor.brain();
+                match brain.standing(Task::Explore) {
+                    Standing::UnderWay => {
+                        Some("a gap is left that it did not come to: try another --seed".to_owned())
+                    }
+                    Standing::GaveUp { why } => Some(why),
+                    Standing::Done => complaint(&brain.chart(), &sites(start, made), &judged_on),
+                }
+            });
+        Ok(Box::new(sent))
+    }
+
+    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+        let [map] = maps else {
+            return Err(anyhow!(
+                "{} drives by one map: give --map once",
+                self.name()
+            ));
+        };
+        let file = read(map)?;
+        let config: BetterConfig = setup.settings.over(&file.config)?;
+        config.check().context("--set")?;
+        let (course, robot, stack) = laser_pioneer(setup)?;
+        let laid = laid(&file);
+        let map = BetterMap::of(file.chart, calibrated().ring, &config)?;
+        let actor = Actor::seeded(BetterNavigator::new(Arc::new(map)), stack, setup.seed);
+        let steps = setup.steps.unwrap_or_else(|| course.step_limit());
+        let sent = Sent::new(course, robot, steps, actor);
+        Ok(Box::new(match laid {
+            Some(laid) => sent.laid_at(laid.world_from_map),
+            None => sent,
+        }))
+    }
+
+    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
+        Ok(Box::new(read(map)?))
+    }
+}
+
+fn read(map: &MapText) -> Result<BetterMapFile, Error> {
+    BetterMapFile::from_json(&map.text).with_context(|| map.name.clone())
+}
+
+/// Where the robot truly was when each place was made: the first one before its first action.
+fn sites(start: Point, made: &[Site]) -> Vec<Point> {
+    let first = made.first().map(|_| start);
+    let others = made.iter().skip(1).map(|site| site.position);
+    first.into_iter().chain(others).collect()
+}
+
+/// How a map lies over the world, if somebody watched.
+fn laid(file: &BetterMapFile) -> Option<LaidOver> {
+    laid_over(&file.chart, &file.sites)
+}
+
+fn laid_over(chart: &ScanChart, sites: &[Point]) -> Option<LaidOver> {
+    let places = chart.places().iter().map(|place| place.position);
+    LaidOver::of_places(places, sites)
+}
+
+/// Why a map is wrong or unfinished as one of this course, of which it is known where the robot truly was when each place was made;
+/// `None` if it is right.
+fn complaint(chart: &ScanChart, sites: &[Point], course: &Course) -> Option<String> {
+    if chart.goal().is_empty() {
+        return Some("the robot never sensed the goal: give it more --steps".to_owned());
+    }
+    let laid = laid_over(chart, sites)?;
+    if laid.error_m > MOST_ERROR {
+        return Some(format!(
+            "its places lie {:.1} m from where they truly are: try another --seed",
+            laid.error_m
+        ));
+    }
+    let near = NEAR * course.corridor_width;
+    let (mut seen, mut cells) = (0, 0);
+    for cell in course.starts() {
+        let centre = course.cell_centre(cell);
+        cells += 1;
+        seen += u32::from(sites.iter().any(|site| (site - centre).norm() <= near));
+    }
+    let share = f64::from(seen) / f64::from(cells.max(1));
+    (share < LEAST_COVERED).then(|| {
+        format!(
+            "it has places near {:.0} % of the floor alone: give it more --steps",
+            100.0 * share
+        )
+    })
+}
+
+/// Numbers of the places where the goal was sensed.
+fn goals(chart: &ScanChart) -> impl Iterator<Item = u32> + '_ {
+    let is_goal = |place: &ScanPlace| place.landmark == Some(Landmark::Goal);
+    let numbered = (0..).zip(chart.places());
+    numbered
+        .filter(move |(_, place)| is_goal(place))
+        .map(|(number, _)| number)
+}
+
+/// How many ways lead from place to place, each counted once.
+fn ways(chart: &ScanChart) -> usize {
+    chart.view().links.len() / 2
+}
+
+impl LearnedMap for BetterMapFile {
+    fn lines(&self) -> Vec<String> {
+        let Origin { world, seed, .. } = &self.origin;
+        let goals: Vec<String> = goals(&self.chart).map(|place| place.to_string()).collect();
+        let goal = match goals.as_slice() {
+            [] => "the goal was never sensed: learn longer".to_owned(),
+            goals => format!("the goal was sensed at place {}", goals.join(", ")),
+        };
+        vec![
+            format!("{world}, seed {seed}"),
+            format!(
+                "{} places, {} ways between them",
+                self.chart.places().len(),
+                ways(&self.chart)
+            ),
+            goal,
+        ]
+    }
+
+    fn json(&self) -> Value {
+        let Origin { world, seed, .. } = &self.origin;
+        let goals: Vec<u32> = goals(&self.chart).collect();
+        json!({
+            "system": MslstBetterEntry.name(),
+            "maze": world,
+            "seed": seed,
+            "config": self.config,
+            "places": self.chart.places().len(),
+            "links": ways(&self.chart),
+            "goal_places": goals,
+            "error_m": laid(self).map(|laid| laid.error_m),
+        })
+    }
+
+    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
+        let course = terrain.course(&self.origin.world, &body())?;
+        let laid = laid(self).ok_or_else(|| {
+            anyhow!("nobody watched where its places truly lie, so it cannot be laid over a world: leave --svg out")
+        })?;
+        let mut map = self.chart.view();
+        for place in &mut map.places {
+            place.position = place.position.map(|at| laid.world_from_map.transform(at));
+        }
+        Ok(places_over_world(&course, &map))
+    }
+
+    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
+        let places = self.chart.places();
+        let known = |place: u32| match (place as usize) < places.len() {
+            true => Ok(place),
+            false => Err(anyhow!(
+                "there is no place {place}: they are numbered from 0 to {}",
+                places.len().saturating_sub(1)
+            )),
+        };
+        let from = known(from.unwrap_or(0))?;
+        let to: Vec<u32> = match to {
+            Some(to) => vec![known(to)?],
+            None => goals(&self.chart).collect(),
+        };
+        let way = self.chart.way(from, &to);
+        Ok(way.map(|way| way.windows(2).map(|step| leg(places, step)).collect()))
+    }
+
+    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, Error> {
+        let course = terrain.course(&self.origin.world, &body())?;
+        let drawn = self.origin.drawing.as_ref();
+        if drawn.is_some_and(|drawn| *drawn != course.drawing()) {
+            let why = "it was learned in another world, or this one has been drawn anew since";
+            return Ok(Some(why.to_owned()));
+        }
+        if self.sites.is_empty() {
+            return Err(anyhow!("nobody watched where its places truly lie"));
+        }
+        Ok(complaint(&self.chart, &self.sites, &course))
+    }
+}
+
+/// A step of a way from place to place, in words.
+fn leg(places: &[ScanPlace], step: &[u32]) -> String {
+    let [a, b] = [step[0], step[1]].map(|place| places[place as usize].position);
+    let way = b - a;
+    let along = |direction: &Direction| way.dot(&heading_of(*direction).unit());
+    let towards = Direction::ALL.into_iter();
+    let towards = towards.max_by(|a, b| along(a).total_cmp(&along(b)));
+    let towards = towards
+        .map(|towards| format!("{towards}, "))
+        .unwrap_or_default();
+    format!("{towards}{:.2} m, to place {}", way.norm(), step[1])
+}
