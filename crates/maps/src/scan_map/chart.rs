@@ -120,6 +120,15 @@ pub enum ChartError {
 const FARTHEST: f64 = 5e4;
 
 impl ScanChart {
+    /// Returns how many bytes places, links, walls and the landmark's positions take. O(1).
+    #[must_use]
+    pub const fn bytes(&self) -> usize {
+        size_of_val(self.places.as_slice())
+            + size_of_val(self.links.as_slice())
+            + size_of_val(self.goal.as_slice())
+            + self.ground.bytes()
+    }
+
     /// Returns what a map has learned so far. O(cells + places + links).
     #[must_use]
     pub fn of(map: &ScanMap) -> Self {

@@ -55,6 +55,11 @@ impl Ground {
 }
 
 impl GroundPlan {
+    /// Returns how many bytes walls and floor take. O(1).
+    pub(super) const fn bytes(&self) -> usize {
+        size_of_val(self.walls.as_slice()) + size_of_val(self.floor.as_slice())
+    }
+
     /// Returns what a grid knows. O(cells).
     #[must_use]
     pub fn of(grid: &WallGrid) -> Self {

@@ -102,7 +102,7 @@ fn changed(certificate: &MergeCertificate, by: usize) -> Vec<MergeCertificate> {
             push(&change(|span, by| span.begin += by));
             push(&change(|span, by| span.end += by));
             push(&change(|span, _| {
-                core::mem::swap(&mut span.begin, &mut span.end)
+                core::mem::swap(&mut span.begin, &mut span.end);
             }));
         }
         push(&|one| {

@@ -228,6 +228,7 @@ impl FreshRow {
             condition: self.condition(),
             starts: 0,
             seed,
+            stopwatch: None,
         };
         let mut goal_found = false;
         let record = contest.play(schooling, |outing, moment| {

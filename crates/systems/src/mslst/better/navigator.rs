@@ -125,7 +125,7 @@ impl Mapper for BetterNavigator {
     }
 
     fn map_bytes(&self) -> Option<usize> {
-        Some(self.map.scans.bytes())
+        Some(self.map.chart().bytes())
     }
 }
 
