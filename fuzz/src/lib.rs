@@ -7,7 +7,9 @@
 //!
 //! `cargo xtask ci` holds the parsers to the same on the stable compiler, with proptest's texts.
 
-use tolman_formats::{G2o, GreyMap, RosMap, RosMapHeader};
+use tolman_formats::{
+    CarmenReader, G2o, GreyMap, LogEntry, ReadRelations, ReadTrajectory, RosMap, RosMapHeader,
+};
 use tolman_maze::{Format, parse_as, read, read_as, write};
 
 /// A parser may refuse a text, but not panic; and what it takes, its format can hold and give back.
@@ -46,6 +48,23 @@ pub fn is_a_header_or_refused(text: &str) {
         let map = RosMap::of(&header, &picture);
         assert!(map.cells.len() == 2 && map.resolution > 0.0 && map.resolution.is_finite());
     }
+}
+
+/// What is used of a log has finite numbers and a range for every beam, and all of it is counted.
+pub fn is_used_or_left_out(bytes: &[u8]) {
+    let mut reader = CarmenReader::new(bytes);
+    let mut count = 0;
+    for entry in reader.by_ref() {
+        count += 1;
+        if let LogEntry::Scan(scan) = entry {
+            assert_eq!(scan.scan.ranges.len(), scan.scan.ring.beams as usize);
+            assert!(scan.scan.ranges.iter().all(|range| *range >= 0.0 && range.is_finite()));
+            assert!(scan.odometry.is_finite() && scan.noted.is_finite() && scan.time.is_finite());
+        }
+    }
+    assert_eq!(reader.report().scans + reader.report().odometry, count);
+    let _ = ReadRelations::from_lines(bytes);
+    let _ = ReadTrajectory::from_lines(bytes);
 }
 
 /// A pose graph has an edge, and reads as it was when it is written again.

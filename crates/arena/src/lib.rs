@@ -5,7 +5,8 @@
 //! that knows the truth. [`run`] is the loop that lets any system drive any robot; [`mslst`] lets MSLST learn.
 //!
 //! [`micromouse`] is a paper's mouse and its referee; in the [`competition`] a micromouse
-//! explores a maze for its speed run. [`gngslam`] has the arenas and the data of the place map. [`mms`] is the protocol of the simulator of that name.
+//! explores a maze for its speed run. [`gngslam`] has the arenas and the data of the place map. [`log_score`] judges ways that were
+//! found from logs. [`mms`] is the protocol of the simulator of that name.
 
 extern crate alloc;
 
@@ -23,6 +24,7 @@ mod episode_error;
 pub mod family;
 pub mod gngslam;
 mod lingerer;
+pub mod log_score;
 pub mod micromouse;
 mod mind;
 pub mod mms;

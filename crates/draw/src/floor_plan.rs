@@ -7,7 +7,7 @@ use tolman_sim::{Bounds, World};
 use super::number::{line, short_line, tenths};
 use super::simplify::simplified;
 use super::words;
-use super::{Drawing, GraphPicture, Region, Series, Shade};
+use super::{Drawing, GraphPicture, Image, Region, Series, Shade};
 
 /// Free space around the outermost walls, in user units.
 const MARGIN: f64 = 8.0;
@@ -237,6 +237,13 @@ impl FloorPlan {
         };
         self.layers.push(markup);
         self.legend = Some(shade.clone());
+    }
+
+    /// Adds a picture made of pixels that covers a part of the world.
+    pub fn image(&mut self, image: &Image, bounds: &Bounds) {
+        let ((west, south), (east, north)) = (self.at(bounds.min), self.at(bounds.max));
+        self.layers
+            .push(image.element((west, north), (east - west, south - north)));
     }
 
     /// Adds a word centred at a position.

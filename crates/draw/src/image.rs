@@ -2,7 +2,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use maud::html;
+use maud::{Markup, html};
 use thiserror::Error;
 
 use super::Drawing;
@@ -107,7 +107,7 @@ impl Image {
     /// The picture `width` user units wide; `description` says in words what it shows.
     pub fn drawing(&self, description: impl Into<String>, width: f64) -> Drawing {
         let height = width * f64::from(self.height) / f64::from(self.width);
-        let data = format!("data:image/png;base64,{}", STANDARD.encode(&self.png));
+        let data = self.data();
         Drawing {
             width,
             height,
@@ -117,6 +117,18 @@ impl Image {
                     preserveAspectRatio="none" {}
             },
         }
+    }
+
+    /// The picture as an element of another, with its top left corner and its size in user units.
+    pub(super) fn element(&self, (x, y): (f64, f64), (width, height): (f64, f64)) -> Markup {
+        html! {
+            image class="pixels" href=(self.data()) x=(tenths(x)) y=(tenths(y)) width=(tenths(width))
+                height=(tenths(height)) preserveAspectRatio="none" {}
+        }
+    }
+
+    fn data(&self) -> String {
+        format!("data:image/png;base64,{}", STANDARD.encode(&self.png))
     }
 }
 

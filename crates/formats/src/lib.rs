@@ -4,6 +4,9 @@
 //! picture beside it. [`RosMapHeader`] and [`GreyMap`] are the two files by themselves. [`G2o`] is a pose graph in the plane, read
 //! and written.
 //!
+//! [`CarmenReader`] reads logs of robots; what cannot be used of them stands in a [`LogReport`]. [`ReadTrajectory`] and [`tum`] are ways in
+//! time, [`ReadRelations`] what is known of them. [`dot`], [`graphml`], [`node_link_json`] and [`route_geojson`] write maps of places.
+//!
 //! ```
 //! use tolman_formats::{GreyMap, MapCell, RosMap, RosMapHeader};
 //! let yaml = "image: hall.pgm\nresolution: 0.5\norigin: [-1.0, 0.0, 0.0]\nnegate: 0\n\
@@ -21,11 +24,24 @@ extern crate alloc;
 
 // What the signatures need, whole: see docs/architecture.md, API boundaries.
 pub use tolman_geom as geom;
+pub use tolman_robot as robot;
 
+mod carmen;
+mod fields;
 mod g2o;
+mod graph;
+mod log;
 mod ros_map;
+mod trajectory;
+
+pub use carmen::CarmenReader;
+pub use graph::{dot, graphml, node_link_json, route_geojson};
+pub use log::{
+    KindCount, LogEntry, LogError, LogOdometry, LogReport, LogScan, LogTrouble, TroubleCount,
+};
 
 pub use g2o::{G2o, G2oEdge, G2oError, G2oFault, G2oFaultKind, G2oPose};
 pub use ros_map::{
     GreyMap, GreyMapError, MapCell, RosMap, RosMapError, RosMapHeader, RosMapHeaderError,
 };
+pub use trajectory::{ReadRelations, ReadTrajectory, tum};

@@ -3,6 +3,7 @@
 
 mod grey_map;
 mod header;
+mod writer;
 
 use std::fs;
 use std::io;

@@ -9,6 +9,7 @@
 //! - [`pose_graph`]: poses joined by what was measured between them, made to agree.
 //! - [`audit`]: which closures of a pose graph are right, as far as its odometry and its other closures tell.
 //! - [`scan_map`]: places and walls learned from scans, each place once, and where on them a robot may stand.
+//! - [`scan_matching`]: the robot's way by scans matched to those before, and by places seen again.
 //! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the next.
 //!
 //! A map takes in what is observed and answers what is known. What to do next is the business of planners,
@@ -47,6 +48,8 @@ pub mod place_map;
 pub mod pose_graph;
 #[cfg(feature = "alloc")]
 pub mod scan_map;
+#[cfg(feature = "alloc")]
+pub mod scan_matching;
 #[cfg(feature = "alloc")]
 mod tangent;
 #[cfg(feature = "alloc")]

@@ -35,6 +35,7 @@ mod snapshot;
 mod sounding;
 mod stopping;
 mod system;
+mod trajectory;
 mod turn_translate;
 
 pub use body::Body;
@@ -52,4 +53,5 @@ pub use snapshot::{Snapshot, TakesSnapshots};
 pub use sounding::{Sounding, Soundings};
 pub use stopping::Stopping;
 pub use system::{Goal, Standing, System, Task};
+pub use trajectory::{PoseRelation, TimedPose, Trajectory};
 pub use turn_translate::TurnTranslate;

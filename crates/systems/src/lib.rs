@@ -46,6 +46,7 @@ pub mod gngslam;
 mod map_header;
 pub mod micromouse;
 pub mod mslst;
+pub mod places;
 mod stream;
 mod time_step;
 

@@ -1,5 +1,5 @@
 //! Every command that README, the pages and the help texts show is one that works: it is run as it stands, in a folder
-//! that holds nothing but `mazes`, and ends with the exit code that a comment behind it names, else 0.
+//! that holds nothing but `mazes` and `logs`, and ends with the exit code that a comment behind it names, else 0.
 //!
 //! A debug build takes many minutes. `TOLMAN` may name another one: `cargo build --release -p tolman`, then
 //! `TOLMAN=target/release/tolman cargo test -p tolman --test commands -- --ignored`.
@@ -58,11 +58,10 @@ fn run(page: &str, lines: &[String]) -> Vec<String> {
         .join(name);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
-    symlink(
-        root().join("mazes").canonicalize().unwrap(),
-        folder.join("mazes"),
-    )
-    .unwrap();
+    for given in ["mazes", "logs"] {
+        let from = root().join(given).canonicalize().unwrap();
+        symlink(from, folder.join(given)).unwrap();
+    }
     let mut wrong = Vec::new();
     for line in lines {
         let (command, code) = expected(line);

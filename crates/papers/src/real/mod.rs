@@ -1,21 +1,36 @@
-//! Logs and graphs of real robots: audits of pose graphs with false closures.
+//! Logs and graphs of real robots, and a small log of the project's own simulator: how right the ways are that are found in logs, and audits of
+//! pose graphs with false closures.
 
 mod audit;
+mod drawing;
 mod false_closures;
+mod figures;
 mod gnc;
 mod graph;
+mod log;
+mod relations;
+mod small;
+#[cfg(test)]
+mod tests;
+mod trajectories;
 
 use serde::Serialize;
-use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure};
+use tolman_draw::Figure;
+use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run};
 use tolman_maps::audit::AuditConfig;
+use tolman_maps::scan_matching::ScanMatchingConfig;
+use tolman_systems::places::PlacesConfig;
 
+pub use drawing::{MapPicture, ros_map};
 pub use graph::{GraphFile, GraphFileError};
+pub use log::{LogSystem, MappedLog, RobotLog};
 
 /// What the catalogue says of it.
 pub(super) const ENTRY: Entry = Entry {
     name: "real",
     title: "Logs and graphs of real robots",
-    source: "N. Sünderhauf, P. Protzel: Towards a Robust Back-End for Pose Graph SLAM, 2012, for the kinds of false closures",
+    source: "N. Sünderhauf, P. Protzel: Towards a Robust Back-End for Pose Graph SLAM, 2012, for the kinds of false closures; R. Kümmerle et al.: On Measuring the Accuracy of \
+             SLAM Algorithms, 2009, for the relations",
     runs: 5,
     quick_runs: 1,
     open,
@@ -24,37 +39,65 @@ pub(super) const ENTRY: Entry = Entry {
 /// The experiment, ready to run.
 #[derive(Debug)]
 struct Real {
+    small: small::Small,
+    relations: relations::Intel,
     graphs: audit::Graphs,
 }
 
 /// What the runs depend on.
 #[derive(Serialize)]
 struct Config {
+    scan_matching: ScanMatchingConfig,
+    places: PlacesConfig,
     audit: AuditConfig,
 }
 
-/// Says which graphs are here and sets the table up.
+/// Says which logs and graphs are here and sets the tables up.
 ///
 /// # Errors
-/// If the caller names mazes, which have no place here, or a graph that is here cannot be read.
+/// If the caller names mazes, which have no place here, or a log or graph that is here cannot be read.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
     if !options.mazes.is_empty() {
         return Err("logs know no mazes: leave --maze out".into());
     }
     let config = toml::Table::try_from(Config {
+        scan_matching: ScanMatchingConfig::indoor(),
+        places: PlacesConfig::indoor(),
         audit: AuditConfig::standard(),
     })?;
-    let graphs = audit::Graphs::find()?;
-    let tables = vec![audit::table(&graphs, options)];
-    let skipped = graphs.missing();
-    Ok(Experiment::new(ENTRY, tables, config, Real { graphs }).skipped(skipped))
+    let real = Real {
+        small: small::Small::read()?,
+        relations: relations::Intel::default(),
+        graphs: audit::Graphs::find()?,
+    };
+    let tables = vec![
+        small::table(),
+        relations::table(),
+        trajectories::table(),
+        audit::table(&real.graphs, options),
+    ];
+    let missing = [
+        relations::missing(),
+        trajectories::missing(),
+        real.graphs.missing(),
+    ];
+    let missing: Vec<String> = missing.into_iter().flatten().collect();
+    let skipped = (!missing.is_empty()).then(|| missing.join(" "));
+    Ok(Experiment::new(ENTRY, tables, config, real).skipped(skipped))
 }
 
 impl Procedure for Real {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         match job.table {
+            small::NAME => self.small.run(job),
+            relations::NAME => self.relations.run(job),
+            trajectories::NAME => trajectories::run(job),
             audit::NAME => self.graphs.run(job),
             table => Err(format!("there is no table {table}").into()),
         }
+    }
+
+    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+        figures::of(self, runs)
     }
 }

@@ -29,6 +29,7 @@ mod pitch;
 mod replay;
 mod replay_file;
 mod run;
+mod score;
 mod send;
 mod sent_out;
 mod share;
@@ -67,6 +68,7 @@ Examples:
   tolman maze show mazes/j.maze
   tolman mouse mazes/grid --worst 3
   tolman arena --system cpm-better --family office
+  tolman map --log logs/office.clf.gz --out office
   tolman audit mazes/graphs/rooms.g2o --out audited # exits 1
   tolman experiment baselines --quick
 
@@ -78,8 +80,8 @@ Results are written to stdout, progress and errors to stderr.";
 enum Verb {
     Learn(learn::Arguments),
     Drive(drive::Arguments),
-    #[command(subcommand)]
-    Map(map::Verb),
+    Map(map::Arguments),
+    Score(score::Arguments),
     Systems(systems::Arguments),
     Arena(arena::Arguments),
     Audit(audit::Arguments),
@@ -192,7 +194,8 @@ impl Verb {
         match self {
             Self::Learn(arguments) => learn::carry_out(app, &arguments, out),
             Self::Drive(arguments) => drive::carry_out(app, &arguments, out),
-            Self::Map(verb) => verb.carry_out(app, out),
+            Self::Map(arguments) => arguments.carry_out(app, out),
+            Self::Score(arguments) => score::carry_out(&arguments, out),
             Self::Systems(_) => systems::carry_out(app, out),
             Self::Arena(arguments) => arena::carry_out(app, &arguments, out),
             Self::Audit(arguments) => audit::carry_out(&arguments, out),

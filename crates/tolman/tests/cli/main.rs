@@ -14,6 +14,7 @@ mod help;
 mod learn;
 #[cfg(unix)]
 mod live;
+mod log;
 mod maze;
 #[cfg(unix)]
 mod mms_host;

@@ -1,4 +1,6 @@
-//! `tolman map`: looks at learned maps.
+//! `tolman map`: finds the way of a robot in its log, and looks at learned maps.
+
+mod log;
 
 use std::fs;
 use std::io::Write;
@@ -9,13 +11,41 @@ use clap::Subcommand;
 use tolman_draw::Figure;
 use tolman_systems::origin_of;
 
-use super::ground::{Ground, required};
-use super::{App, Failure, OrBadInput, file};
+use crate::cli::ground::{Ground, required};
+use crate::cli::{App, Failure, OrBadInput, file};
 use crate::system::{LearnedMap, MapText};
+
+/// Finds the way of a robot in its log and maps what its laser saw; with a subcommand, looks at a learned map
+#[derive(clap::Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    arg_required_else_help = true,
+    after_help = log::EXAMPLES
+)]
+pub(in crate::cli) struct Arguments {
+    #[command(subcommand)]
+    verb: Option<Verb>,
+    #[command(flatten)]
+    log: log::Arguments,
+}
+
+impl Arguments {
+    pub(in crate::cli) fn carry_out(
+        self,
+        app: &App<'_>,
+        out: &mut dyn Write,
+    ) -> Result<(), Failure> {
+        match self.verb {
+            Some(verb) => verb.carry_out(app, out),
+            None => log::carry_out(&self.log, out),
+        }
+    }
+}
 
 /// Looks at learned maps
 #[derive(Subcommand)]
-pub(super) enum Verb {
+enum Verb {
     Show(Show),
     Plan(Plan),
     Check(Check),
@@ -27,7 +57,7 @@ pub(super) enum Verb {
 Examples:
   tolman learn --system cpm --maze mazes/cpm-1.maze --out map.json
   tolman map show map.json --maze mazes/cpm-1.maze --svg map.svg")]
-pub(super) struct Show {
+pub(in crate::cli) struct Show {
     /// The map, made by `tolman learn`
     file: PathBuf,
     #[command(flatten)]
@@ -46,7 +76,7 @@ pub(super) struct Show {
 Example:
   tolman learn --system diktiometry --maze mazes/j-long.maze --out j-survey.json
   tolman map plan j-survey.json --from 0 --to 3")]
-pub(super) struct Plan {
+pub(in crate::cli) struct Plan {
     /// The map, made by `tolman learn`
     file: PathBuf,
     /// The place to go to, by its number, instead of the goal
@@ -66,7 +96,7 @@ Example:
   tolman learn --system cpm --maze mazes/cpm-1.maze --out map.json
   tolman map check map.json --maze mazes/cpm-1.maze"
 )]
-pub(super) struct Check {
+pub(in crate::cli) struct Check {
     /// The map, made by `tolman learn`
     file: PathBuf,
     #[command(flatten)]
@@ -74,7 +104,7 @@ pub(super) struct Check {
 }
 
 impl Verb {
-    pub(super) fn carry_out(self, app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
+    fn carry_out(self, app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
         match self {
             Self::Show(arguments) => show(app, &arguments, out),
             Self::Plan(arguments) => plan(app, &arguments, out),
@@ -140,7 +170,7 @@ fn read(app: &App<'_>, path: &Path) -> Result<(MapText, Box<dyn LearnedMap>), Fa
 ///
 /// # Errors
 /// Bad input with the file's name.
-pub(super) fn map_text(path: &Path) -> Result<MapText, Failure> {
+pub(in crate::cli) fn map_text(path: &Path) -> Result<MapText, Failure> {
     let text = fs::read_to_string(path)
         .with_context(|| {
             let path = path.display();
@@ -154,7 +184,7 @@ pub(super) fn map_text(path: &Path) -> Result<MapText, Failure> {
 ///
 /// # Errors
 /// Bad input with the file's name.
-pub(super) fn of_text(path: &Path, text: String) -> Result<MapText, Failure> {
+pub(in crate::cli) fn of_text(path: &Path, text: String) -> Result<MapText, Failure> {
     let name = path.display().to_string();
     let (system, origin) = origin_of(&text)
         .with_context(|| name.clone())

@@ -1,0 +1,19 @@
+//! Logs of the Carnegie Mellon Robot Navigation Toolkit (CARMEN): one message a line, of which these are read:
+//!
+//! ```text
+//! PARAM name value …
+//! ODOM x y theta tv rv accel ipc_time host logger_time
+//! FLASER n r₁ … rₙ x y theta odom_x odom_y odom_theta ipc_time host logger_time
+//! ROBOTLASER1 type start fov spacing max accuracy mode n r₁ … rₙ m e₁ … eₘ laser_x … laser_theta x y theta tv rv front side turn
+//!     ipc_time host logger_time
+//! ```
+//!
+//! Older logs have ROBOTLASER1 without remissions and without `turn`. Whatever else is met is counted and left out.
+//!
+//! Source: the comments at the head of each log, and CARMEN's `logger.c`. A beam of 80 m or more has hit nothing.
+
+mod messages;
+mod parameters;
+mod reader;
+
+pub use reader::CarmenReader;

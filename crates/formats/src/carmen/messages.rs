@@ -1,0 +1,122 @@
+//! One message each.
+
+use tolman_geom::Pose;
+use tolman_robot::{Ring, Scan};
+
+use super::parameters::{NOTHING_HIT, Parameters};
+use crate::fields::{Fields, Wrong};
+use crate::log::{LogOdometry, LogScan, LogTrouble};
+
+/// A scan, and how many of its ranges are none.
+pub(super) struct ReadScan {
+    pub(super) scan: LogScan,
+    pub(super) bad_ranges: usize,
+}
+
+/// More beams are those of no laser.
+const MOST_BEAMS: u32 = 100_000;
+
+pub(super) fn odometry(line: u64, fields: &mut Fields<'_>) -> Result<LogOdometry, Wrong> {
+    let pose = fields.pose("the pose")?;
+    fields.pass(3, "a velocity")?;
+    let time = fields.number("the time")?;
+    Ok(LogOdometry { line, time, pose })
+}
+
+pub(super) fn front_laser(
+    line: u64,
+    fields: &mut Fields<'_>,
+    parameters: &Parameters,
+) -> Result<ReadScan, Wrong> {
+    let ranges = ranges(fields)?;
+    let noted = fields.pose("the laser's pose")?;
+    let odometry = fields.pose("the odometry")?;
+    let time = fields.number("the time")?;
+    let ring = parameters.ring(ranges.len() as u32);
+    let robot_from_laser = parameters.robot_from_laser(odometry, noted);
+    let scan = LogScan {
+        line,
+        time,
+        odometry,
+        noted,
+        robot_from_laser,
+        scan: Scan {
+            ring,
+            ranges: Vec::new(),
+        },
+    };
+    Ok(with_ranges(scan, &ranges))
+}
+
+/// Fields behind the ranges of a ROBOTLASER1 of the older age: two poses, four of velocity and safety, the time, the host, the
+/// logger's time.
+const OLDER_FIELDS: usize = 6 + 4 + 3;
+
+pub(super) fn robot_laser(line: u64, fields: &mut Fields<'_>) -> Result<ReadScan, Wrong> {
+    fields.pass(1, "the kind of laser")?;
+    let first_bearing = fields.number("the first bearing")?;
+    fields.pass(1, "the field of view")?;
+    let spacing = fields.number("the spacing")?;
+    let max_range = fields.number("the greatest range")?;
+    fields.pass(2, "the accuracy")?;
+    let ranges = ranges(fields)?;
+    let is_newer = fields.left() != OLDER_FIELDS;
+    if is_newer {
+        let remissions = fields.count("the number of remissions")?;
+        fields.pass(remissions.min(MOST_BEAMS), "a remission")?;
+    }
+    let noted = fields.pose("the laser's pose")?;
+    let odometry = fields.pose("the robot's pose")?;
+    fields.pass(if is_newer { 5 } else { 4 }, "a velocity")?;
+    let time = fields.number("the time")?;
+    let ring = Ring {
+        beams: ranges.len() as u32,
+        first_bearing,
+        spacing,
+        max_range: match max_range > 0.0 {
+            true => max_range.min(NOTHING_HIT),
+            false => NOTHING_HIT,
+        },
+    };
+    let scan = LogScan {
+        line,
+        time,
+        odometry,
+        noted,
+        robot_from_laser: mount(odometry, noted),
+        scan: Scan {
+            ring,
+            ranges: Vec::new(),
+        },
+    };
+    Ok(with_ranges(scan, &ranges))
+}
+
+/// Farther from the robot's middle no laser sits, m: such a pose is one that somebody has corrected.
+const FARTHEST_MOUNT: f64 = 0.5;
+
+fn mount(robot: Pose, laser: Pose) -> Pose {
+    let mount = robot.between(laser);
+    let is_mount = mount.position.coords.norm() < FARTHEST_MOUNT;
+    if is_mount { mount } else { Pose::IDENTITY }
+}
+
+fn ranges(fields: &mut Fields<'_>) -> Result<Vec<Option<f64>>, Wrong> {
+    let beams = fields.count("the number of ranges")?;
+    if beams == 0 || beams > MOST_BEAMS {
+        return Err((
+            LogTrouble::NoNumber,
+            format!("it says to have {beams} ranges"),
+        ));
+    }
+    fields.ranges(beams)
+}
+
+/// The scan with its ranges, of which those too long have hit nothing.
+fn with_ranges(mut scan: LogScan, ranges: &[Option<f64>]) -> ReadScan {
+    let most = scan.scan.ring.max_range;
+    let length = |range: &Option<f64>| range.map_or(most, |range| range.min(most));
+    scan.scan.ranges = ranges.iter().map(length).collect();
+    let bad_ranges = ranges.iter().filter(|range| range.is_none()).count();
+    ReadScan { scan, bad_ranges }
+}

@@ -1,0 +1,56 @@
+use core::f64::consts::{FRAC_PI_2, PI};
+
+use tolman_geom::{Heading, Point, Pose};
+use tolman_robot::Ring;
+
+use crate::fields::Fields;
+
+/// A beam of that length or more has hit nothing, m.
+pub(super) const NOTHING_HIT: f64 = 80.0;
+
+/// What PARAM lines say of the front laser.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Parameters {
+    /// How far the laser sits ahead of the robot's middle, m.
+    offset: Option<f64>,
+    /// How far beams are apart, degrees.
+    spacing_deg: Option<f64>,
+}
+
+impl Parameters {
+    /// Takes in a line of that kind; those of other things tell nothing.
+    pub(super) fn take(&mut self, fields: &mut Fields<'_>) {
+        let (Ok(name), Ok(value)) = (fields.word("name"), fields.number("value")) else {
+            return;
+        };
+        let known = match name {
+            "robot_frontlaser_offset" => &mut self.offset,
+            "laser_front_laser_resolution" => &mut self.spacing_deg,
+            _ => return,
+        };
+        *known = Some(value);
+    }
+
+    /// Returns how the beams of a FLASER with this many ranges lie: from −90° on, over half a circle as far as whole or half
+    /// degrees go, so that 180 beams are 1° apart like 181, and 360 half a degree like 361.
+    pub(super) fn ring(&self, beams: u32) -> Ring {
+        let even = beams - beams % 2;
+        let usual = PI / f64::from(even.max(1));
+        let said = self.spacing_deg.map(f64::to_radians);
+        let fits = |spacing: &f64| (f64::from(even) * spacing - PI).abs() < 1.5 * usual;
+        Ring {
+            beams,
+            first_bearing: -FRAC_PI_2,
+            spacing: said.filter(fits).unwrap_or(usual),
+            max_range: NOTHING_HIT,
+        }
+    }
+
+    /// Returns where the laser sits, by the parameters if the two poses of a FLASER bear them out, else in the middle.
+    pub(super) fn robot_from_laser(&self, odometry: Pose, laser: Pose) -> Pose {
+        let offset = Pose::new(Point::new(self.offset.unwrap_or(0.0), 0.0), Heading::EAST);
+        let off = odometry.compose(offset).between(laser);
+        let agrees = off.position.coords.norm() < 0.01 && off.heading.radians().abs() < 0.01;
+        if agrees { offset } else { Pose::IDENTITY }
+    }
+}

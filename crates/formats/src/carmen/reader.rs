@@ -1,0 +1,160 @@
+use std::io::BufRead;
+use std::path::Path;
+
+use super::messages::{self, ReadScan};
+use super::parameters::Parameters;
+use crate::fields::{Fields, Wrong};
+use crate::log::{self, Line, LogEntry, LogError, LogReport, LogTrouble, NumberedLines};
+
+/// Reads a log line by line. What cannot be used is left out and told in the [report](Self::report).
+///
+/// ```
+/// use tolman_formats::{CarmenReader, LogEntry, LogTrouble};
+/// let log = "ODOM 0 0 0 0 0 0 1.5 pippo 1.5\n\
+///            FLASER 3 1.0 nan 81.9 0 0 0 0.1 0 0 2.5 pippo 2.5\n\
+///            FLASER 3 1.0\n";
+/// let mut reader = CarmenReader::new(log.as_bytes());
+/// let entries: Vec<LogEntry> = reader.by_ref().collect();
+/// let LogEntry::Scan(scan) = &entries[1] else { panic!() };
+/// assert_eq!(scan.scan.ranges, [1.0, 80.0, 80.0]);
+/// assert_eq!((scan.time, scan.odometry.position.x), (2.5, 0.1));
+/// assert_eq!(reader.report().count(LogTrouble::Cut), 1);
+/// ```
+#[derive(Debug)]
+pub struct CarmenReader<R> {
+    lines: NumberedLines<R>,
+    parameters: Parameters,
+    report: LogReport,
+    /// The last time of the wheels, and of the laser: each has a clock of its own in some logs.
+    times: [Option<f64>; 2],
+}
+
+/// A greater step of the clock is a jump, s.
+const JUMP_S: f64 = 60.0;
+
+impl CarmenReader<Box<dyn BufRead + Send>> {
+    /// Opens a file, plain or packed by gzip.
+    ///
+    /// # Errors
+    /// If there is no such file.
+    pub fn open(path: &Path) -> Result<Self, LogError> {
+        Ok(Self::new(log::open(path)?))
+    }
+}
+
+impl<R: BufRead> CarmenReader<R> {
+    /// Reads from `source`.
+    pub fn new(source: R) -> Self {
+        Self {
+            lines: NumberedLines::new(source),
+            parameters: Parameters::default(),
+            report: LogReport::default(),
+            times: [None; 2],
+        }
+    }
+
+    /// Returns how the log was read so far.
+    pub const fn report(&self) -> &LogReport {
+        &self.report
+    }
+
+    /// One line: what it says, if it says something.
+    fn entry(
+        parameters: &mut Parameters,
+        report: &mut LogReport,
+        line: u64,
+        text: &str,
+    ) -> Result<Option<LogEntry>, Wrong> {
+        let mut fields = Fields::of(text);
+        let Ok(kind) = fields.word("") else {
+            return Ok(None);
+        };
+        let entry = match kind {
+            "PARAM" => {
+                parameters.take(&mut fields);
+                return Ok(None);
+            }
+            "ODOM" => LogEntry::Odometry(messages::odometry(line, &mut fields)?),
+            "FLASER" => {
+                let read = messages::front_laser(line, &mut fields, parameters)?;
+                Self::scan(report, read)
+            }
+            "ROBOTLASER1" => Self::scan(report, messages::robot_laser(line, &mut fields)?),
+            _ if kind.starts_with('#') => return Ok(None),
+            _ => {
+                report.met_other_kind(kind, line);
+                return Ok(None);
+            }
+        };
+        // The host and the logger's time, which some logs leave out.
+        if fields.left() > 2 {
+            let more = format!("{} more", fields.left() - 2);
+            report.met_trouble(LogTrouble::TooManyFields, line, more);
+        }
+        Ok(Some(entry))
+    }
+
+    fn scan(report: &mut LogReport, read: ReadScan) -> LogEntry {
+        let ReadScan { scan, bad_ranges } = read;
+        if bad_ranges > 0 {
+            let beams = scan.scan.ranges.len();
+            let what = format!("{bad_ranges} of {beams}");
+            report.met_trouble(LogTrouble::NoRange, scan.line, what);
+        }
+        let most = scan.scan.ring.max_range;
+        let is_empty = scan.scan.ranges.iter().all(|range| *range >= most);
+        report.empty_scans += u64::from(is_empty);
+        LogEntry::Scan(scan)
+    }
+
+    /// Counts an entry, and looks at its time.
+    fn count(&mut self, entry: &LogEntry) {
+        let (line, time, kind) = match entry {
+            LogEntry::Odometry(odometry) => {
+                self.report.odometry += 1;
+                (odometry.line, odometry.time, 0)
+            }
+            LogEntry::Scan(scan) => {
+                self.report.scans += 1;
+                (scan.line, scan.time, 1)
+            }
+        };
+        let before = self.times[kind].replace(time);
+        let step = before.map_or(0.0, |before| time - before);
+        let trouble = match step {
+            _ if step.abs() > JUMP_S => Some(LogTrouble::ClockJump),
+            _ if step < 0.0 => Some(LogTrouble::BackInTime),
+            _ => None,
+        };
+        if let Some(trouble) = trouble {
+            let what = format!("by {step:.3} s");
+            self.report.met_trouble(trouble, line, what);
+        }
+    }
+}
+
+impl<R: BufRead> Iterator for CarmenReader<R> {
+    type Item = LogEntry;
+
+    fn next(&mut self) -> Option<LogEntry> {
+        loop {
+            let (number, line) = self.lines.next_line()?;
+            self.report.lines = number;
+            let report = &mut self.report;
+            let (trouble, what) = match line {
+                Line::Text(text) => match Self::entry(&mut self.parameters, report, number, text) {
+                    Ok(None) => continue,
+                    Ok(Some(entry)) => {
+                        self.count(&entry);
+                        return Some(entry);
+                    }
+                    Err(wrong) => wrong,
+                },
+                Line::NoText => (LogTrouble::NoText, String::new()),
+                Line::TooLong => (LogTrouble::TooLong, String::new()),
+                Line::Lost(kind) => (LogTrouble::EndsEarly, kind.to_string()),
+            };
+            report.met_trouble(trouble, number, what);
+        }
+    }
+}

@@ -1,0 +1,175 @@
+use alloc::collections::BTreeMap;
+use core::fmt;
+use std::path::Path;
+
+use super::LogError;
+
+/// How a log was read: what it holds, what was left out, and where.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LogReport {
+    /// Lines, empty ones and comments among them.
+    pub lines: u64,
+    /// Lines of odometry that were used.
+    pub odometry: u64,
+    /// Scans that were used.
+    pub scans: u64,
+    /// Scans of which no beam hit anything.
+    pub empty_scans: u64,
+    /// Lines of other kinds, by their first word; of more than fifty kinds the rest stands under `…`.
+    pub other_kinds: BTreeMap<String, KindCount>,
+    /// What was wrong.
+    pub troubles: BTreeMap<LogTrouble, TroubleCount>,
+}
+
+/// How often a kind of line was met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KindCount {
+    /// How often.
+    pub count: u64,
+    /// The first line of it, from 1.
+    pub first_line: u64,
+}
+
+/// How often something was wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TroubleCount {
+    /// How often.
+    pub count: u64,
+    /// The first of the lines, from 1, and what exactly was wrong there; five at most.
+    pub first: Vec<(u64, String)>,
+}
+
+/// What can be wrong with a line of a log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum LogTrouble {
+    /// It ends before its fields do. Left out.
+    Cut,
+    /// A field that must be a finite number is none. Left out.
+    NoNumber,
+    /// It is no UTF-8 text. Left out.
+    NoText,
+    /// It is longer than a megabyte. Left out.
+    TooLong,
+    /// Ranges are no numbers, or negative. The scan is used; such a beam has hit nothing.
+    NoRange,
+    /// Its time lies before that of the line above. It is used, in the order of the file.
+    BackInTime,
+    /// The clock jumps by more than a minute. It is used.
+    ClockJump,
+    /// The file cannot be read any further. What stands above is used.
+    EndsEarly,
+    /// Fields stand behind the last one. It is used without them.
+    TooManyFields,
+}
+
+/// Kinds of lines that are told apart.
+const MOST_KINDS: usize = 50;
+/// Lines that are named of each trouble.
+const NAMED: usize = 5;
+/// Longer words are cut, characters.
+const LONGEST_WORD: usize = 24;
+
+impl LogReport {
+    pub(crate) fn met_other_kind(&mut self, kind: &str, line: u64) {
+        let kind: String = kind.chars().take(LONGEST_WORD).collect();
+        let is_known = self.other_kinds.contains_key(&kind);
+        let kind = match is_known || self.other_kinds.len() < MOST_KINDS {
+            true => kind,
+            false => "…".to_owned(),
+        };
+        let first = KindCount {
+            count: 0,
+            first_line: line,
+        };
+        self.other_kinds.entry(kind).or_insert(first).count += 1;
+    }
+
+    pub(crate) fn met_trouble(&mut self, trouble: LogTrouble, line: u64, what: impl Into<String>) {
+        let empty = TroubleCount {
+            count: 0,
+            first: Vec::new(),
+        };
+        let known = self.troubles.entry(trouble).or_insert(empty);
+        known.count += 1;
+        if known.first.len() < NAMED {
+            known.first.push((line, what.into()));
+        }
+    }
+
+    /// Why a file holds nothing: what was looked for, and the first that was wrong.
+    pub(crate) fn nothing(&self, path: &Path, what: &str) -> LogError {
+        let first = self.troubles.iter().next();
+        let first = first.map_or_else(String::new, |(trouble, met)| format!("; {trouble}: {met}"));
+        LogError::Nothing {
+            path: path.to_owned(),
+            what: format!("it has {what} among {} lines{first}", self.lines),
+        }
+    }
+
+    /// Returns how often something was wrong.
+    #[must_use]
+    pub fn count(&self, trouble: LogTrouble) -> u64 {
+        self.troubles.get(&trouble).map_or(0, |known| known.count)
+    }
+
+    /// Returns what a reader should know, a sentence a line: what is in the log, what was left out and why. O(kinds).
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        let Self {
+            lines,
+            odometry,
+            scans,
+            empty_scans,
+            ..
+        } = self;
+        let mut told = vec![format!(
+            "{lines} lines: {scans} scans, {odometry} lines of odometry"
+        )];
+        if *scans > 0 && 2 * empty_scans > *scans {
+            told.push(format!(
+                "{empty_scans} of {scans} scans hit nothing; are the ranges in metres?"
+            ));
+        }
+        told.extend(self.other_kinds.iter().map(|(kind, met)| {
+            let KindCount { count, first_line } = met;
+            format!("{kind}: {count} × not used, first in line {first_line}")
+        }));
+        let troubles = self.troubles.iter();
+        told.extend(troubles.map(|(trouble, met)| format!("{trouble}: {met}")));
+        told
+    }
+}
+
+impl fmt::Display for LogTrouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Cut => "cut lines, left out",
+            Self::NoNumber => "fields that are no finite numbers, their lines left out",
+            Self::NoText => "lines that are no text, left out",
+            Self::TooLong => "lines longer than a megabyte, left out",
+            Self::NoRange => "ranges that are no numbers, taken for beams that hit nothing",
+            Self::BackInTime => "times before those of the line above, used in the file's order",
+            Self::ClockJump => "jumps of the clock by more than a minute, used",
+            Self::EndsEarly => "the file cannot be read to its end; what stands above is used",
+            Self::TooManyFields => {
+                "lines with more fields than they should have, used without them"
+            }
+        })
+    }
+}
+
+impl fmt::Display for TroubleCount {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ×", self.count)?;
+        for (index, (line, what)) in self.first.iter().enumerate() {
+            let joint = if index == 0 { "" } else { ";" };
+            write!(f, "{joint} line {line} ({what})")?;
+        }
+        f.write_str(if self.count as usize > self.first.len() {
+            "; …"
+        } else {
+            ""
+        })
+    }
+}

@@ -1,0 +1,46 @@
+use std::fs::File;
+use std::io::{self, BufRead, BufReader};
+use std::path::{Path, PathBuf};
+
+use flate2::bufread::MultiGzDecoder;
+use thiserror::Error;
+
+/// Why a file of others cannot be used at all.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LogError {
+    /// It cannot be opened.
+    #[error("cannot read {}; give a file that is there, plain or packed by gzip", path.display())]
+    File {
+        /// Which file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// Nothing in it can be used.
+    #[error("{}: {what}", path.display())]
+    Nothing {
+        /// Which file.
+        path: PathBuf,
+        /// What was looked for, and what was found instead.
+        what: String,
+    },
+}
+
+/// The first bytes of what gzip has packed.
+const GZIP: [u8; 2] = [0x1f, 0x8b];
+
+/// Opens a file, plain or packed by gzip.
+pub(crate) fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, LogError> {
+    let wrong = |source| LogError::File {
+        path: path.to_owned(),
+        source,
+    };
+    let mut file = BufReader::new(File::open(path).map_err(wrong)?);
+    let is_packed = file.fill_buf().map_err(wrong)?.starts_with(&GZIP);
+    Ok(if is_packed {
+        Box::new(BufReader::new(MultiGzDecoder::new(file)))
+    } else {
+        Box::new(file)
+    })
+}

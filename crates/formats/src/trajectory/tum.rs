@@ -1,0 +1,94 @@
+use core::fmt::Write;
+use std::io::BufRead;
+use std::path::Path;
+
+use tolman_geom::{Heading, Point, Pose};
+use tolman_robot::{TimedPose, Trajectory};
+
+use super::relations::content;
+use crate::fields::{Fields, Wrong};
+use crate::log::{self, LogError, LogReport, NumberedLines};
+
+/// Returns a trajectory as text, one pose a line, `time x y z qx qy qz qw`: the format of the RGB-D benchmark of the Technical
+/// University of Munich, which evo and others read.
+///
+/// ```
+/// use tolman_formats::{ReadTrajectory, tum};
+/// let text = "0.500000 1.000000 2.000000 0 0 0 0.000000000 1.000000000\n";
+/// let read = ReadTrajectory::from_lines(text.as_bytes());
+/// assert_eq!(tum(&read.trajectory), text);
+/// ```
+#[must_use]
+pub fn tum(trajectory: &Trajectory) -> String {
+    let mut text = String::new();
+    for TimedPose { time, pose } in trajectory.poses() {
+        let half = Heading::from_radians(0.5 * pose.heading.radians()).unit();
+        let Point { coords } = pose.position;
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "{time:.6} {:.6} {:.6} 0 0 0 {:.9} {:.9}",
+            coords.x, coords.y, half.y, half.x
+        );
+    }
+    text
+}
+
+/// A trajectory that was read from such lines.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReadTrajectory {
+    /// The trajectory.
+    pub trajectory: Trajectory,
+    /// How it was read.
+    pub report: LogReport,
+}
+
+impl ReadTrajectory {
+    /// Reads a file, plain or packed by gzip.
+    ///
+    /// # Errors
+    /// If there is no such file, or it holds no pose.
+    pub fn open(path: &Path) -> Result<Self, LogError> {
+        let read = Self::from_lines(log::open(path)?);
+        if read.trajectory.poses().is_empty() {
+            let what = "no line of `time x y z qx qy qz qw`";
+            return Err(read.report.nothing(path, what));
+        }
+        Ok(read)
+    }
+
+    /// Reads from `source`; what is no pose is left out and reported.
+    pub fn from_lines(source: impl BufRead) -> Self {
+        let mut report = LogReport::default();
+        let mut poses = Vec::new();
+        let mut lines = NumberedLines::new(source);
+        while let Some((number, line)) = lines.next_line() {
+            report.lines = number;
+            match content(&line).and_then(|text| text.map(timed).transpose()) {
+                Ok(pose) => poses.extend(pose),
+                Err((trouble, what)) => report.met_trouble(trouble, number, what),
+            }
+        }
+        Self {
+            trajectory: Trajectory::new(poses),
+            report,
+        }
+    }
+}
+
+fn timed(text: &str) -> Result<TimedPose, Wrong> {
+    let mut fields = Fields::of(text);
+    let time = fields.number("the time")?;
+    let [x, y] = [fields.number("x")?, fields.number("y")?];
+    fields.pass(1, "z")?;
+    let [qx, qy, qz, qw] = [
+        fields.number("qx")?,
+        fields.number("qy")?,
+        fields.number("qz")?,
+        fields.number("qw")?,
+    ];
+    // Of a body that leans, which way it looks on the floor.
+    let yaw = libm::atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz));
+    let pose = Pose::new(Point::new(x, y), Heading::from_radians(yaw));
+    Ok(TimedPose { time, pose })
+}

@@ -1,0 +1,361 @@
+//! Places that are seen again.
+
+use alloc::vec::Vec;
+
+use tolman_geom::nalgebra::{Matrix3, Vector3};
+
+use super::correlate::{self, Pyramid, Window};
+use super::grid::LikelihoodGrid;
+use super::mapper::{ScanMatching, ScanMatchingError};
+use super::outline::ScanOutline;
+use super::refine::{self, Prior};
+use super::{ClosureConfig, ClosureSites};
+use crate::pose_graph::{OptimizerConfig, PoseEdge, PoseEdgeKind, PoseGraph};
+
+/// What is known of closures while the robot drives.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Closing {
+    /// Way at the last search.
+    searched_at: f64,
+    /// Way at the last closure.
+    closed_at: f64,
+    /// Matches that wait for one that agrees.
+    waiting: Vec<Candidate>,
+}
+
+/// A match of the last keyframes to old ones.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    edge: PoseEdge,
+    is_accepted: bool,
+}
+
+/// How far and how well a match is looked for.
+#[derive(Clone, Copy, Debug)]
+struct Reach {
+    window: f64,
+    turn: f64,
+}
+
+/// Old stretches that are tried at most, the nearest first.
+const STRETCHES: usize = 3;
+/// Old keyframes are looked at that lie so much farther off than the window, m.
+const SIGHT: f64 = 2.5;
+/// Points of the last keyframes with which poses are searched, and with which the best is refined.
+const SEARCHED_POINTS: usize = 200;
+const REFINED_POINTS: usize = 600;
+/// Steps of the optimizer while the robot drives.
+const STEPS_ON_THE_WAY: u32 = 3;
+/// Iterations of each.
+const ITERATIONS_ON_THE_WAY: usize = 150;
+/// A closure of a greater squared error moves the map at once.
+const OFF: f64 = 4.0;
+
+impl ScanMatching {
+    /// Looks for places seen again from the last keyframe, and makes the map agree.
+    pub(super) fn close(&mut self) -> Result<(), ScanMatchingError> {
+        let Some(config) = self.config.closures.clone() else {
+            return Ok(());
+        };
+        let last = self.keyframes.len() - 1;
+        let way = self.keyframes[last].way;
+        let is_due = way - self.closing.searched_at >= config.every;
+        if config.sites == ClosureSites::Named || !is_due {
+            return Ok(());
+        }
+        self.closing.searched_at = way;
+        let found = self.candidates(&config, last, self.reach(&config, last));
+        self.accept(&config, found, way)?;
+        Ok(())
+    }
+
+    /// Holds the keyframes up to `here` against those about `there`, and takes them for the same place if they match and an earlier or
+    /// later match agrees; returns whether they match at all. Nothing matches if no closures are looked for, or there are no such keyframes.
+    ///
+    /// # Errors
+    /// If a measurement does not fit the graph.
+    pub fn recognize(&mut self, here: usize, there: usize) -> Result<bool, ScanMatchingError> {
+        let Some(config) = self.config.closures.clone() else {
+            return Ok(false);
+        };
+        if here >= self.keyframes.len() || there >= here {
+            return Ok(false);
+        }
+        let reach = self.reach(&config, here);
+        let query = self.put_together(
+            (here + 1).saturating_sub(config.query_keyframes),
+            here,
+            here,
+        );
+        let found = self.closure(&config, &query, here, there, reach);
+        let matches = found.is_some();
+        self.accept(&config, found, self.keyframes[here].way)?;
+        Ok(matches)
+    }
+
+    /// Returns how far from where the map has it a keyframe may be, m: as far as places are looked for.
+    #[must_use]
+    pub fn doubt(&self, keyframe: usize) -> f64 {
+        let config = self.config.closures.as_ref();
+        let known = config.filter(|_| keyframe < self.keyframes.len());
+        known.map_or(0.0, |config| self.reach(config, keyframe).window)
+    }
+
+    /// How far off places are looked for from a keyframe.
+    fn reach(&self, config: &ClosureConfig, keyframe: usize) -> Reach {
+        let since = self.keyframes[keyframe].way - self.closing.closed_at;
+        let since = since.max(0.0);
+        Reach {
+            window: (config.window + config.window_growth * since).min(config.most_window),
+            turn: (config.window_turn + config.window_turn_growth * since)
+                .min(config.most_window_turn),
+        }
+    }
+
+    /// Takes matches for closures as far as others agree, and moves the map if they are far off.
+    fn accept(
+        &mut self,
+        config: &ClosureConfig,
+        found: impl IntoIterator<Item = PoseEdge>,
+        way: f64,
+    ) -> Result<(), ScanMatchingError> {
+        let before = self.graph.edges().len();
+        let mut is_closed = false;
+        for candidate in found {
+            is_closed |= self.weigh(config, candidate)?;
+        }
+        if is_closed {
+            self.closing.closed_at = way;
+        }
+        let mut added = before..self.graph.edges().len();
+        let is_off = |edge| self.graph.squared_error(edge) > Some(OFF);
+        if added.any(is_off) {
+            self.graph.optimize(&OptimizerConfig {
+                most_steps: STEPS_ON_THE_WAY,
+                most_iterations: ITERATIONS_ON_THE_WAY,
+                ..optimizer(config)
+            });
+        }
+        Ok(())
+    }
+
+    /// Looks for all closures again, on the map as it is, and makes it agree; then the map does not change any more.
+    ///
+    /// # Errors
+    /// If a measurement does not fit the graph.
+    pub fn finish(&mut self) -> Result<(), ScanMatchingError> {
+        let Some(config) = self.config.closures.clone() else {
+            return Ok(());
+        };
+        self.graph.optimize(&optimizer(&config));
+        if config.sites == ClosureSites::Named {
+            return Ok(());
+        }
+        for _ in 0..config.rounds {
+            self.close_again(&config)?;
+        }
+        Ok(())
+    }
+
+    fn close_again(&mut self, config: &ClosureConfig) -> Result<(), ScanMatchingError> {
+        let reach = Reach {
+            window: config.window,
+            turn: config.window_turn,
+        };
+        let mut graph = PoseGraph::new();
+        for pose in self.graph.poses() {
+            graph.add_pose(*pose);
+        }
+        let edges = self.graph.edges().iter();
+        for edge in edges.filter(|edge| edge.kind == PoseEdgeKind::Odometry) {
+            graph.add_edge(*edge)?;
+        }
+        let mut searched_at = 0.0;
+        for last in 1..self.keyframes.len() {
+            let way = self.keyframes[last].way;
+            if way - searched_at < config.every {
+                continue;
+            }
+            searched_at = way;
+            for edge in self.candidates(config, last, reach) {
+                graph.add_edge(edge)?;
+            }
+        }
+        graph.optimize(&optimizer(config));
+        self.graph = graph;
+        Ok(())
+    }
+
+    /// Takes a match for a closure if another agrees with it; returns whether it has.
+    fn weigh(&mut self, config: &ClosureConfig, edge: PoseEdge) -> Result<bool, ScanMatchingError> {
+        let way = |keyframe: u32| self.keyframes[keyframe as usize].way;
+        let now = way(edge.to);
+        self.closing.waiting.retain(|other| {
+            now - self.keyframes[other.edge.to as usize].way <= config.agreement_way
+        });
+        let poses = self.graph.poses();
+        let seen = |edge: &PoseEdge| poses[edge.from as usize].compose(edge.measured);
+        let agrees = |other: &Candidate| {
+            let between = poses[other.edge.to as usize].between(poses[edge.to as usize]);
+            let off = seen(&other.edge).compose(between).between(seen(&edge));
+            other.edge.to != edge.to
+                && off.position.coords.norm() < config.agreement
+                && off.heading.radians().abs() < config.agreement_turn
+        };
+        let agreeing: Vec<usize> = (self.closing.waiting.iter().enumerate())
+            .filter_map(|(place, other)| agrees(other).then_some(place))
+            .collect();
+        for place in &agreeing {
+            let other = &mut self.closing.waiting[*place];
+            if !other.is_accepted {
+                other.is_accepted = true;
+                self.graph.add_edge(other.edge)?;
+            }
+        }
+        let is_accepted = !agreeing.is_empty();
+        if is_accepted {
+            self.graph.add_edge(edge)?;
+        }
+        self.closing.waiting.push(Candidate { edge, is_accepted });
+        Ok(is_accepted)
+    }
+
+    /// The matches of the keyframes up to `last` to old ones.
+    fn candidates(&self, config: &ClosureConfig, last: usize, reach: Reach) -> Vec<PoseEdge> {
+        let stretches = self.stretches(config, last, reach);
+        if stretches.is_empty() {
+            return Vec::new();
+        }
+        let query = self.put_together(last.saturating_sub(config.query_keyframes - 1), last, last);
+        let stretches = stretches.into_iter();
+        stretches
+            .filter_map(|old| self.closure(config, &query, last, old, reach))
+            .collect()
+    }
+
+    /// Keyframes as one outline, seen from one of them.
+    fn put_together(&self, first: usize, last: usize, from: usize) -> ScanOutline {
+        let poses = self.graph.poses();
+        let mut together = ScanOutline::default();
+        for index in first..=last {
+            let pose = poses[from].between(poses[index]);
+            together.add(&self.keyframes[index].outline, pose);
+        }
+        together
+    }
+
+    /// Old keyframes near the last one, the nearest of each stretch of the way.
+    fn stretches(&self, config: &ClosureConfig, last: usize, reach: Reach) -> Vec<usize> {
+        let poses = self.graph.poses();
+        let here = poses[last].position;
+        let way = self.keyframes[last].way;
+        let mut nearest: Vec<(f64, usize)> = Vec::new();
+        let mut open: Option<(f64, usize, usize)> = None;
+        for (index, keyframe) in self.keyframes[..last].iter().enumerate() {
+            if way - keyframe.way < config.least_way {
+                break;
+            }
+            let off = (poses[index].position - here).norm();
+            if off > reach.window + SIGHT {
+                continue;
+            }
+            open = match open {
+                Some((best, at, end)) if index - end <= config.old_keyframes / 2 => {
+                    let (best, at) = if off < best { (off, index) } else { (best, at) };
+                    Some((best, at, index))
+                }
+                other => {
+                    nearest.extend(other.map(|(best, at, _)| (best, at)));
+                    Some((off, index, index))
+                }
+            };
+        }
+        nearest.extend(open.map(|(best, at, _)| (best, at)));
+        nearest.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        nearest
+            .into_iter()
+            .take(STRETCHES)
+            .map(|(_, at)| at)
+            .collect()
+    }
+
+    /// Holds the last keyframes against those about `old`.
+    fn closure(
+        &self,
+        config: &ClosureConfig,
+        query: &ScanOutline,
+        last: usize,
+        old: usize,
+        reach: Reach,
+    ) -> Option<PoseEdge> {
+        let poses = self.graph.poses();
+        let half = config.old_keyframes / 2;
+        let end = (old + half).min(last.saturating_sub(config.query_keyframes));
+        let range = old.saturating_sub(half)..end.max(old) + 1;
+        let outlines = self.keyframes[range.clone()]
+            .iter()
+            .map(|keyframe| &keyframe.outline);
+        let mut grid = LikelihoodGrid::default();
+        grid.draw(
+            &self.stamp,
+            outlines.zip(poses[range].iter().copied()),
+            reach.window,
+        );
+        let pyramid = Pyramid::of(&grid, reach.window);
+        let window = Window {
+            reach: reach.window,
+            turn: reach.turn,
+            prior: 0.05,
+            prior_turn: 0.05,
+        };
+        let expected = poses[last];
+        let found = correlate::best(
+            &grid,
+            &pyramid,
+            &query.thinned(SEARCHED_POINTS),
+            expected,
+            window,
+        )?;
+        let sd = reach.window.max(0.3);
+        let turn_sd = reach.turn.max(0.1);
+        let sure = Vector3::new(sd * sd, sd * sd, turn_sd * turn_sd);
+        let prior = Prior {
+            pose: found,
+            information: Matrix3::from_diagonal(&sure.map(|variance| 1.0 / variance)),
+        };
+        let refined = refine::refine(
+            &grid,
+            &query.thinned(REFINED_POINTS),
+            found,
+            &prior,
+            self.config.kernel,
+        );
+        if refined.score < config.least_score {
+            return None;
+        }
+        let information = bounded(refined.information + prior.information, config)?;
+        Some(PoseEdge {
+            from: old as u32,
+            to: last as u32,
+            measured: poses[old].between(refined.pose),
+            information,
+            kind: PoseEdgeKind::Closure,
+        })
+    }
+}
+
+/// The information of a match, which is never surer than closures are.
+fn bounded(information: Matrix3<f64>, config: &ClosureConfig) -> Option<Matrix3<f64>> {
+    let (sd, turn_sd) = (config.sd, config.turn_sd);
+    let least = Vector3::new(sd * sd, sd * sd, turn_sd * turn_sd);
+    let covariance = information.try_inverse()? + Matrix3::from_diagonal(&least);
+    let bounded = covariance.try_inverse()?;
+    Some((bounded + bounded.transpose()) * 0.5)
+}
+
+fn optimizer(config: &ClosureConfig) -> OptimizerConfig {
+    OptimizerConfig {
+        doubt: Some(config.doubt),
+        ..OptimizerConfig::plain()
+    }
+}

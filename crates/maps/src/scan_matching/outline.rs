@@ -1,0 +1,94 @@
+use alloc::vec::Vec;
+
+use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_robot::Scan;
+
+/// Where the beams of a scan ended, as seen from the robot, and which way the surfaces there face.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct ScanOutline {
+    pub(super) points: Vec<SurfacePoint>,
+}
+
+/// A point of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SurfacePoint {
+    pub(super) at: Point,
+    /// Across the surface, of unit length; zero where the beams beside it tell nothing.
+    pub(super) normal: Vector,
+    /// Whether the same surface goes on to the next point.
+    pub(super) goes_on: bool,
+}
+
+/// Ends of neighbouring beams that are this many times farther apart than beams that meet a surface at right angles belong to
+/// two surfaces.
+const SLANT: f64 = 6.0;
+/// Nearer than that no beam ends but on the robot itself, m.
+const NEAREST: f64 = 0.1;
+
+impl ScanOutline {
+    /// Returns the outline that a scan shows, of beams that end within `farthest` m. O(beams).
+    pub(super) fn of(scan: &Scan, robot_from_laser: Pose, farthest: f64) -> Self {
+        let most = farthest.min(scan.ring.max_range);
+        let hits = (0..).zip(&scan.ranges);
+        let hits = hits.filter(|(_, range)| (NEAREST..most).contains(*range));
+        let ends: Vec<(u32, f64, Point)> = hits
+            .map(|(index, range)| {
+                let beam = Heading::from_radians(scan.ring.bearing(index)).unit();
+                let end = robot_from_laser.transform(Point::from(beam * *range));
+                (index, *range, end)
+            })
+            .collect();
+        let spacing = scan.ring.spacing;
+        let points = (0..ends.len()).map(|place| {
+            let at = ends[place].2;
+            let before = place.checked_sub(1);
+            let before = before.and_then(|before| beside(&ends, place, before, spacing));
+            let after = beside(&ends, place, place + 1, spacing);
+            SurfacePoint {
+                at,
+                normal: across(before.unwrap_or(at), after.unwrap_or(at)),
+                goes_on: after.is_some(),
+            }
+        });
+        Self {
+            points: points.collect(),
+        }
+    }
+
+    /// Returns at most `most` of its points, spread over all of them.
+    pub(super) fn thinned(&self, most: usize) -> Self {
+        let every = self.points.len().div_ceil(most.max(1)).max(1);
+        Self {
+            points: self.points.iter().step_by(every).copied().collect(),
+        }
+    }
+
+    /// Adds another outline, seen from `from`, as seen from the robot.
+    pub(super) fn add(&mut self, other: &Self, from: Pose) {
+        let seen = |point: &SurfacePoint| SurfacePoint {
+            at: from.transform(point.at),
+            normal: from.heading.rotate(point.normal),
+            goes_on: point.goes_on,
+        };
+        self.points.extend(other.points.iter().map(seen));
+    }
+}
+
+/// The end of the beam `other`, if it met the same surface as the beam `place`.
+fn beside(ends: &[(u32, f64, Point)], place: usize, other: usize, spacing: f64) -> Option<Point> {
+    let (index, range, at) = ends[place];
+    let (other, _, end) = ends.get(other)?;
+    let beams = f64::from(other.abs_diff(index));
+    let near = SLANT * beams * spacing.abs() * range + 0.05;
+    (beams <= 2.0 && (end - at).norm() < near).then_some(*end)
+}
+
+/// Across the line from one point to another; zero if they are one.
+fn across(from: Point, to: Point) -> Vector {
+    let along = to - from;
+    let length = along.norm();
+    if length < 1e-6 {
+        return Vector::zeros();
+    }
+    Vector::new(-along.y, along.x) / length
+}

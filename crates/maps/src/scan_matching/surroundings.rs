@@ -1,0 +1,58 @@
+//! What a laser that looks all round would see, by the scans of one that does not.
+
+use core::f64::consts::TAU;
+
+use tolman_geom::{Heading, Vector};
+use tolman_robot::{Ring, Scan};
+
+use super::ScanMatching;
+
+/// Keyframes before and after that show what is around.
+const SHOWN: usize = 14;
+
+impl ScanMatching {
+    /// Returns what a `ring` of beams that looks along the axes of the map would see from a keyframe, by the keyframes before and after; `None` if there
+    /// is no such keyframe. A beam where none of them saw anything reads the ring's range. O(points of the keyframes).
+    #[must_use]
+    pub fn surroundings(&self, keyframe: usize, ring: Ring, ahead: Heading) -> Option<Scan> {
+        let here = self.graph.poses().get(keyframe)?.position;
+        let mut scan = Scan::clear(ring);
+        let end = (keyframe + SHOWN + 1).min(self.keyframes.len());
+        let shown = keyframe.saturating_sub(SHOWN)..end;
+        for (index, pose) in shown.clone().zip(&self.graph.poses()[shown]) {
+            for point in &self.keyframes[index].outline.points {
+                let way: Vector = pose.transform(point.at) - here;
+                let bearing = Heading::of(way).radians() - ahead.radians() - ring.first_bearing;
+                let beam = libm::round(positive(bearing) / ring.spacing) as usize;
+                if let Some(range) = scan.ranges.get_mut(beam % ring.beams.max(1) as usize) {
+                    *range = range.min(way.norm());
+                }
+            }
+        }
+        Some(scan)
+    }
+
+    /// Returns which way most surfaces run, up to quarter turns: the axis of the building. `None` before a surface was seen. O(points).
+    #[must_use]
+    pub fn axis(&self) -> Option<Heading> {
+        let mut sum = Vector::zeros();
+        for (keyframe, pose) in self.keyframes.iter().zip(self.graph.poses()) {
+            for point in keyframe.outline.points.iter().step_by(AXIS_POINTS) {
+                if point.normal != Vector::zeros() {
+                    let normal = Heading::of(pose.heading.rotate(point.normal));
+                    sum += Heading::from_radians(4.0 * normal.radians()).unit();
+                }
+            }
+        }
+        let is_known = sum.norm() > 0.0;
+        is_known.then(|| Heading::from_radians(0.25 * Heading::of(sum).radians()))
+    }
+}
+
+/// Every so many points tell of the axis.
+const AXIS_POINTS: usize = 5;
+
+/// An angle from 0 to a full turn.
+fn positive(angle: f64) -> f64 {
+    angle - TAU * libm::floor(angle / TAU)
+}

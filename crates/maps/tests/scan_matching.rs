@@ -1,0 +1,179 @@
+//! A robot whose wheels lie is where its scans say.
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use core::f64::consts::PI;
+
+use proptest::prelude::*;
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maps::scan_matching::{
+    OccupancyGrid, ScanMatching, ScanMatchingConfig, ScanMatchingError, ScanStep,
+};
+use tolman_robot::{Mapper, Ring, Scan};
+use tolman_sim::casters::BeamSweep;
+use tolman_sim::{WallSegment, World};
+
+/// A room with a niche and a pillar, so that no two places look alike.
+fn room() -> World {
+    let corners = [
+        (0.0, 0.0),
+        (7.0, 0.0),
+        (7.0, 2.0),
+        (8.0, 2.0),
+        (8.0, 3.0),
+        (7.0, 3.0),
+        (7.0, 5.0),
+        (0.0, 5.0),
+        (0.0, 0.0),
+    ];
+    let pillar = [(2.0, 3.5), (2.6, 3.5), (2.6, 4.0), (2.0, 4.0), (2.0, 3.5)];
+    let walls = [&corners[..], &pillar[..]].into_iter().flat_map(|corners| {
+        let point = |(x, y): (f64, f64)| Point::new(x, y);
+        corners
+            .windows(2)
+            .map(move |pair| WallSegment::between(point(pair[0]), point(pair[1])))
+    });
+    World::from_segments(walls.collect()).unwrap()
+}
+
+const RING: Ring = Ring {
+    beams: 180,
+    first_bearing: -0.5 * PI,
+    spacing: PI / 180.0,
+    max_range: 30.0,
+};
+
+fn scan(world: &World, pose: Pose) -> Scan {
+    let mut sweep = BeamSweep::new(RING);
+    sweep.aim(pose);
+    world.caster().scan(&mut sweep);
+    Scan {
+        ring: RING,
+        ranges: sweep.ranges().collect(),
+    }
+}
+
+fn pose(x: f64, y: f64, degrees: f64) -> Pose {
+    Pose::new(Point::new(x, y), Heading::from_degrees(degrees))
+}
+
+fn step(world: &World, moved: Pose, at: Pose) -> ScanStep {
+    ScanStep {
+        moved,
+        scan: scan(world, at),
+        robot_from_laser: Pose::IDENTITY,
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn a_known_displacement_is_found_again(
+        x in 2.0..5.0, y in 1.0..3.0, degrees in -180.0..180.0,
+        ahead in 0.2..0.5, turn in -30.0..30.0, lie_x in -0.3..0.3, lie_y in -0.3..0.3, lie in -15.0..15.0,
+    ) {
+        let world = room();
+        let from = pose(x, y, degrees);
+        let moved = pose(ahead, 0.0, turn);
+        let mut mapper = ScanMatching::new(ScanMatchingConfig::indoor());
+        mapper.observe(&step(&world, Pose::IDENTITY, from)).unwrap();
+        let said = moved.compose(pose(lie_x, lie_y, lie));
+        mapper.observe(&step(&world, said, from.compose(moved))).unwrap();
+        let found = mapper.trajectory()[1];
+        let off = moved.between(found);
+        prop_assert!(off.position.coords.norm() < 0.04, "{off:?}");
+        prop_assert!(off.heading.degrees().abs() < 1.0, "{off:?}");
+    }
+}
+
+/// Three rounds of a room, by wheels that turn two degrees a step too far.
+#[test]
+fn places_seen_again_keep_the_map_together() {
+    let world = room();
+    let at = |index: i32| {
+        let turn = 0.15 * f64::from(index);
+        let (sin, cos) = turn.sin_cos();
+        pose(3.8 + 2.2 * cos, 2.2 + 1.0 * sin, 90.0 + turn.to_degrees())
+    };
+    let mut mapper = ScanMatching::new(ScanMatchingConfig::indoor());
+    let mut truth = Vec::new();
+    for index in 0..130 {
+        let before = at((index - 1).max(0));
+        let moved = before.between(at(index)).compose(pose(0.0, 0.0, 2.0));
+        mapper.observe(&step(&world, moved, at(index))).unwrap();
+        truth.push(at(0).between(at(index)));
+    }
+    mapper.finish().unwrap();
+    assert!(mapper.closures() > 5, "{}", mapper.closures());
+    let trajectory = mapper.trajectory();
+    let off = truth
+        .iter()
+        .zip(&trajectory)
+        .map(|(truth, found)| (truth.position - found.position).norm());
+    let worst = off.fold(0.0, f64::max);
+    assert!(worst < 0.08, "{worst}");
+    // What is occupied is a wall, as seen from the first pose.
+    let ends = (0..130).flat_map(|index| {
+        let laser = trajectory[index];
+        scan(&world, at(index as i32))
+            .ranges
+            .into_iter()
+            .zip(0..)
+            .map(move |(range, beam)| {
+                laser.transform(Point::from(
+                    Heading::from_radians(RING.bearing(beam)).unit() * range,
+                ))
+            })
+    });
+    let mut grid = OccupancyGrid::around(ends, 0.1);
+    for (index, laser) in trajectory.iter().enumerate() {
+        grid.add(&scan(&world, at(index as i32)), *laser, 20.0);
+    }
+    let occupied: Vec<bool> = grid
+        .occupancy()
+        .map(|share| share.is_some_and(|share| share > 0.5))
+        .collect();
+    let walls = (0..occupied.len()).filter(|slot| occupied[*slot]);
+    let mut far = 0;
+    let mut count = 0;
+    for slot in walls {
+        let [column, row] = [slot % grid.columns, slot / grid.columns];
+        let middle = |index: usize| (index as f64 + 0.5) * grid.cell;
+        let there = grid.origin + tolman_geom::Vector::new(middle(column), middle(row));
+        far += i32::from(world.nearest_wall_distance(at(0).transform(there)) > 0.2);
+        count += 1;
+    }
+    assert!(count > 100 && far == 0, "{far} of {count}");
+}
+
+#[test]
+fn what_is_no_scan_is_refused_and_changes_nothing() {
+    let world = room();
+    let mut mapper = ScanMatching::new(ScanMatchingConfig::indoor());
+    mapper
+        .observe(&step(&world, Pose::IDENTITY, pose(2.0, 2.0, 0.0)))
+        .unwrap();
+    let nowhere = step(&world, pose(f64::NAN, 0.0, 0.0), pose(2.0, 2.0, 0.0));
+    let refused = mapper.observe(&nowhere);
+    assert_eq!(refused, Err(ScanMatchingError::NotFinite { scan: 1 }));
+    let mut short = step(&world, pose(0.3, 0.0, 0.0), pose(2.3, 2.0, 0.0));
+    short.scan.ranges.pop();
+    let refused = mapper.observe(&short);
+    let expected = ScanMatchingError::Ranges {
+        scan: 1,
+        found: 179,
+        beams: 180,
+    };
+    assert_eq!(refused, Err(expected));
+    assert_eq!(mapper.trajectory().len(), 1);
+    // A laser that sees nothing leaves the robot to its wheels.
+    for _ in 0..3 {
+        let blind = ScanStep {
+            moved: pose(0.5, 0.0, 0.0),
+            scan: Scan::clear(RING),
+            robot_from_laser: Pose::IDENTITY,
+        };
+        mapper.observe(&blind).unwrap();
+    }
+    assert!((mapper.trajectory()[3].position.x - 1.5).abs() < 1e-9);
+}

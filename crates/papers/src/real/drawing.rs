@@ -1,0 +1,141 @@
+//! Pictures of what was found in a log.
+
+use tolman_draw::{Drawing, FloorPlan, Image, ImageError, Series};
+use tolman_formats::MapCell;
+use tolman_formats::RosMap;
+use tolman_geom::{Point, Pose};
+use tolman_maps::scan_matching::OccupancyGrid;
+use tolman_sim::Bounds;
+
+use super::RobotLog;
+
+/// What a picture of a log shows: occupancy, the way found, and what the wheels say.
+#[derive(Clone, Debug)]
+pub struct MapPicture {
+    /// Where beams ended and passed.
+    pub occupancy: OccupancyGrid,
+    /// The way found.
+    pub corrected: Vec<Point>,
+    /// What the wheels say, laid over the start of the way found.
+    pub raw: Vec<Point>,
+}
+
+/// Side of a cell of the occupancy, m.
+const CELL: f64 = 0.05;
+/// Longer beams are not drawn, m.
+const FARTHEST: f64 = 20.0;
+/// More occupied than that is a wall, less is floor.
+const WALL: f64 = 0.25;
+/// Scans are drawn that lie at least so far from the last that was, m and rad.
+const APART: (f64, f64) = (0.1, 0.1);
+
+impl MapPicture {
+    /// Draws the scans of a log from the poses found for them. O(scans · beams · range).
+    #[must_use]
+    pub fn of(log: &RobotLog, poses: &[Pose]) -> Self {
+        let drawn = apart(poses);
+        let ends = drawn.iter().flat_map(|index| {
+            let scan = &log.scans[*index];
+            let laser = poses[*index].compose(scan.robot_from_laser);
+            let beams = (0..).zip(&scan.scan.ranges);
+            beams.filter_map(move |(beam, range)| {
+                let bearing = tolman_geom::Heading::from_radians(scan.scan.ring.bearing(beam));
+                let met = *range < scan.scan.ring.max_range.min(FARTHEST);
+                met.then(|| laser.transform(Point::from(bearing.unit() * *range)))
+            })
+        });
+        let standing = poses.iter().map(|pose| pose.position);
+        let mut occupancy = OccupancyGrid::around(ends.chain(standing), CELL);
+        for index in drawn {
+            let scan = &log.scans[index];
+            let laser = poses[index].compose(scan.robot_from_laser);
+            occupancy.add(&scan.scan, laser, FARTHEST);
+        }
+        let odometry = log.odometry();
+        let over = match (poses.first(), odometry.first()) {
+            (Some(found), Some(raw)) => found.compose(raw.inverse()),
+            _ => Pose::IDENTITY,
+        };
+        Self {
+            occupancy,
+            corrected: poses.iter().map(|pose| pose.position).collect(),
+            raw: (odometry.iter())
+                .map(|pose| over.transform(pose.position))
+                .collect(),
+        }
+    }
+
+    /// Returns the picture, `width` user units wide: occupancy below, what the wheels say as a dashed line, the way found above.
+    ///
+    /// # Errors
+    /// If the occupancy is larger than a picture can be.
+    pub fn drawing(&self, width: f64) -> Result<Drawing, ImageError> {
+        let all = self.raw.iter().chain(&self.corrected).copied();
+        let Bounds { min, max } = self.bounds();
+        let bounds = Bounds::of(all.chain([min, max]));
+        let mut plan = FloorPlan::of_bounds(&bounds, width);
+        plan.image(&self.image()?, &self.bounds());
+        plan.doubtful_way(&self.raw, Series(1));
+        plan.trajectory(&self.corrected, Series(0));
+        Ok(plan.drawing(
+            "Occupancy of the floor in grey; dashed what the wheels say, solid the way found.",
+        ))
+    }
+
+    fn bounds(&self) -> Bounds {
+        let grid = &self.occupancy;
+        let size = tolman_geom::Vector::new(grid.columns as f64, grid.rows as f64) * grid.cell;
+        Bounds {
+            min: grid.origin,
+            max: grid.origin + size,
+        }
+    }
+
+    fn image(&self) -> Result<Image, ImageError> {
+        let grid = &self.occupancy;
+        let shades: Vec<u8> = grid.occupancy().map(shade).collect();
+        let rows = shades.chunks(grid.columns.max(1)).rev();
+        let pixels: Vec<u8> = rows.flatten().copied().collect();
+        Image::grey(grid.columns as u32, grid.rows as u32, &pixels)
+    }
+}
+
+/// Black for walls, white for floor, grey where nothing is known.
+fn shade(occupied: Option<f64>) -> u8 {
+    occupied.map_or(205, |occupied| {
+        let dark = (occupied / WALL).min(1.0);
+        (254.0 * (1.0 - dark)) as u8
+    })
+}
+
+/// Returns an occupancy as `map_server` of ROS knows it.
+#[must_use]
+pub fn ros_map(grid: &OccupancyGrid) -> RosMap {
+    let cell = |occupied: Option<f64>| match occupied {
+        None => MapCell::Unknown,
+        Some(occupied) if occupied >= WALL => MapCell::Occupied,
+        Some(_) => MapCell::Free,
+    };
+    RosMap {
+        width: grid.columns,
+        height: grid.rows,
+        resolution: grid.cell,
+        origin: grid.origin,
+        cells: grid.occupancy().map(cell).collect(),
+    }
+}
+
+/// The scans that show something new.
+fn apart(poses: &[Pose]) -> Vec<usize> {
+    let mut drawn: Vec<usize> = Vec::new();
+    for (index, pose) in poses.iter().enumerate() {
+        let is_new = drawn.last().is_none_or(|last| {
+            let step = poses[*last].between(*pose);
+            step.position.coords.norm() >= APART.0 || step.heading.radians().abs() >= APART.1
+        });
+        if is_new {
+            drawn.push(index);
+        }
+    }
+    drawn
+}

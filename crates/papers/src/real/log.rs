@@ -1,0 +1,160 @@
+use std::path::Path;
+
+use tolman_experiment::BoxError;
+use tolman_formats::{CarmenReader, LogEntry, LogReport, LogScan};
+use tolman_geom::Pose;
+use tolman_maps::scan_matching::{ScanMatching, ScanMatchingConfig, ScanStep};
+use tolman_robot::{MapView, Mapper, TimedPose, Trajectory};
+use tolman_systems::places::{PlacesConfig, PlacesError, PlacesMapper};
+
+/// The scans of a log, in the order of the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RobotLog {
+    /// The scans.
+    pub scans: Vec<LogScan>,
+    /// How the file was read.
+    pub report: LogReport,
+}
+
+/// What finds the way of a robot in its log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LogSystem {
+    /// The wheels alone.
+    Odometry,
+    /// Scans matched to those before.
+    Matching,
+    /// Scans matched to those before, and places seen again.
+    ScanMatching,
+    /// Scans matched to those before; junctions, bends, dead ends and rooms recognized.
+    Places,
+}
+
+/// What was found in a log.
+#[derive(Clone, Debug)]
+pub struct MappedLog {
+    /// The pose of each scan, in the order of the file.
+    pub poses: Vec<Pose>,
+    /// Places seen again.
+    pub closures: usize,
+    /// The numbers of the scans that the map keeps.
+    pub keyframes: Vec<usize>,
+    /// The map of places, of a system that has one.
+    pub places: MapView,
+}
+
+impl RobotLog {
+    /// Reads a CARMEN log, plain or packed by gzip.
+    ///
+    /// # Errors
+    /// If there is no such file, or it has no scan.
+    pub fn read(path: &Path) -> Result<Self, BoxError> {
+        let mut reader = CarmenReader::open(path)?;
+        let log = Self::of(&mut reader);
+        let report = reader.report().clone();
+        if log.is_empty() {
+            let told = report.sentences().join("; ");
+            let path = path.display();
+            return Err(format!("{path}: no scan can be used; give a CARMEN log with FLASER or ROBOTLASER1 lines ({told})").into());
+        }
+        Ok(Self { scans: log, report })
+    }
+
+    /// Reads a CARMEN log that lies in memory.
+    pub fn of_text(text: &[u8]) -> Self {
+        let mut reader = CarmenReader::new(text);
+        let scans = Self::of(&mut reader);
+        let report = reader.report().clone();
+        Self { scans, report }
+    }
+
+    fn of(entries: impl Iterator<Item = LogEntry>) -> Vec<LogScan> {
+        let scans = entries.filter_map(|entry| match entry {
+            LogEntry::Scan(scan) => Some(scan),
+            LogEntry::Odometry(_) => None,
+        });
+        scans.collect()
+    }
+
+    /// Returns what the wheels say, scan by scan.
+    #[must_use]
+    pub fn odometry(&self) -> Vec<Pose> {
+        self.scans.iter().map(|scan| scan.odometry).collect()
+    }
+
+    /// Finds the way of the robot by `system`, with `odometry` for what the wheels say; `see` is told after each scan how many there
+    /// were.
+    ///
+    /// # Errors
+    /// If a scan is none.
+    pub fn map(
+        &self,
+        system: LogSystem,
+        odometry: &[Pose],
+        see: impl FnMut(usize),
+    ) -> Result<MappedLog, PlacesError> {
+        let config = ScanMatchingConfig::indoor();
+        let mut mapper = match system {
+            LogSystem::Odometry => {
+                return Ok(MappedLog {
+                    poses: odometry.to_vec(),
+                    closures: 0,
+                    keyframes: Vec::new(),
+                    places: MapView::default(),
+                });
+            }
+            LogSystem::Places => {
+                let mut mapper = PlacesMapper::new(PlacesConfig::indoor())?;
+                self.show(&mut mapper, odometry, see)?;
+                mapper.finish()?;
+                let places = mapper.map();
+                return Ok(MappedLog::of(mapper.matching(), places));
+            }
+            LogSystem::Matching => ScanMatching::new(config.without_closures()),
+            LogSystem::ScanMatching => ScanMatching::new(config),
+        };
+        self.show(&mut mapper, odometry, see)?;
+        mapper.finish()?;
+        Ok(MappedLog::of(&mapper, MapView::default()))
+    }
+
+    /// Shows a mapper the log, step by step.
+    fn show<M: Mapper<Observation = ScanStep>>(
+        &self,
+        mapper: &mut M,
+        odometry: &[Pose],
+        mut see: impl FnMut(usize),
+    ) -> Result<(), M::Error> {
+        let mut before = odometry.first().copied().unwrap_or(Pose::IDENTITY);
+        for (index, (scan, odometry)) in self.scans.iter().zip(odometry).enumerate() {
+            mapper.observe(&ScanStep {
+                moved: before.between(*odometry),
+                scan: scan.scan.clone(),
+                robot_from_laser: scan.robot_from_laser,
+            })?;
+            before = *odometry;
+            see(index + 1);
+        }
+        Ok(())
+    }
+
+    /// Returns poses, one a scan, as a way in time.
+    #[must_use]
+    pub fn trajectory(&self, poses: &[Pose]) -> Trajectory {
+        let timed = self.scans.iter().zip(poses);
+        Trajectory::new(timed.map(|(scan, pose)| TimedPose {
+            time: scan.time,
+            pose: *pose,
+        }))
+    }
+}
+
+impl MappedLog {
+    fn of(matching: &ScanMatching, places: MapView) -> Self {
+        Self {
+            poses: matching.trajectory(),
+            closures: matching.closures(),
+            keyframes: matching.keyframes(),
+            places,
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The Intel lab: how far relative poses are from those that were verified by hand.
+
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use tolman_arena::log_score::RelationScore;
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
+use tolman_formats::ReadRelations;
+use tolman_robot::Trajectory;
+
+use super::{LogSystem, RobotLog};
+use crate::data;
+
+/// The table's name.
+pub(super) const NAME: &str = "relations";
+
+const LOG: &str = "logs/mrpt-intel/intel_raw_every5th.clf.gz";
+const RELATIONS: &str = "logs/intel-relations/intel.relations.gz";
+const PUBLISHED: &str = "logs/radish/intel-corrected.log.gz";
+
+/// What the times of the published log lack to those of the relations, s.
+const PUBLISHED_TIMES: f64 = 976_052_857.34;
+
+pub(super) const ROWS: [(&str, Option<LogSystem>); 5] = [
+    ("intel raw", Some(LogSystem::Odometry)),
+    ("intel published", None),
+    ("intel matching", Some(LogSystem::Matching)),
+    ("intel places", Some(LogSystem::Places)),
+    ("intel dense", Some(LogSystem::ScanMatching)),
+];
+
+/// The log, read when it is first needed.
+#[derive(Debug, Default)]
+pub(super) struct Intel {
+    log: OnceLock<RobotLog>,
+}
+
+/// A file of the data, if it is here.
+pub(super) fn file(name: &str) -> Option<PathBuf> {
+    let path = data::folder()?.join(name);
+    path.exists().then_some(path)
+}
+
+fn is_here() -> bool {
+    [LOG, RELATIONS, PUBLISHED]
+        .iter()
+        .all(|name| file(name).is_some())
+}
+
+/// What to tell where it is not here.
+pub(super) fn missing() -> Option<String> {
+    (!is_here()).then(|| data::missing("the logs of the Intel lab and their relations"))
+}
+
+record! {
+    /// A way through the Intel lab.
+    struct RelationRun {
+        /// Mean distance of the second pose of a relation, seen from the first, from where it was verified to be.
+        error_m: f64 => lower("error, all relations").unit("m").at_least(0).decimals(3),
+        /// The same over relations whose times lie more than 30 s apart: the robot has come back in between.
+        error_over_30s_m: f64 => lower("error, over 30 s").unit("m").at_least(0).decimals(3),
+        /// Relations that lie on the way.
+        relations: usize => neither("relations").decimals(0),
+        /// Places seen again.
+        closures: usize => neither("closures").decimals(0),
+        /// Places of the map of places.
+        places: usize => neither("places").decimals(0),
+    }
+}
+
+pub(super) fn table() -> Table {
+    let missing = missing();
+    let row = |(name, _): (&str, Option<LogSystem>)| match &missing {
+        Some(missing) => Row::new(name).missing(missing),
+        None => Row::new(name).runs(1),
+    };
+    Table::of::<RelationRun>(NAME, "The Intel lab, held against relations verified by hand")
+        .metrics_from(RelationRun::error_m)
+        .rows(ROWS.map(row))
+        .note(
+            "Every fifth scan of the raw log. Relations whose times lie within 30 s have a floor of 0.09 m, since their times lie between scans \
+             that are a second apart. Published: the corrected log that others map with, which went through a mapper of its authors. \
+             Matching: scans matched to those before, without closures. Places: with closures where a junction, a bend, a dead end or a room \
+             was recognized. Dense: with closures everywhere.",
+        )
+}
+
+impl Intel {
+    fn log(&self) -> Result<&RobotLog, BoxError> {
+        if let Some(log) = self.log.get() {
+            return Ok(log);
+        }
+        let path = file(LOG).ok_or("the log of the Intel lab is gone")?;
+        let log = RobotLog::read(&path)?;
+        Ok(self.log.get_or_init(|| log))
+    }
+
+    /// The way that a row has.
+    fn way(&self, row: &str) -> Result<(Trajectory, [usize; 2]), BoxError> {
+        let named = ROWS.iter().find(|(name, _)| *name == row);
+        let (_, system) = named.ok_or_else(|| format!("there is no row {row}"))?;
+        let Some(system) = system else {
+            let path = file(PUBLISHED).ok_or("the published log of the Intel lab is gone")?;
+            let mut log = RobotLog::read(&path)?;
+            for scan in &mut log.scans {
+                scan.time += PUBLISHED_TIMES;
+            }
+            return Ok((log.trajectory(&log.odometry()), [0, 0]));
+        };
+        let log = self.log()?;
+        let mapped = log.map(*system, &log.odometry(), |_| {})?;
+        let counts = [mapped.closures, mapped.places.places.len()];
+        Ok((log.trajectory(&mapped.poses), counts))
+    }
+
+    pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let (way, [closures, places]) = self.way(job.row)?;
+        let path = file(RELATIONS).ok_or("the relations of the Intel lab are gone")?;
+        let relations = ReadRelations::open(&path)?.relations;
+        let score = RelationScore::of(&way, &relations).ok_or("no relation lies on the way")?;
+        let run = RelationRun {
+            error_m: score.error,
+            error_over_30s_m: score.far_error.ok_or("no relation is far")?,
+            relations: score.relations,
+            closures,
+            places,
+        };
+        Ok(run.fields()?)
+    }
+}

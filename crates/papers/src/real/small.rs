@@ -1,0 +1,71 @@
+//! A small log of the project's own simulator, which is always here.
+
+use std::io::Read;
+
+use flate2::read::GzDecoder;
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
+use tolman_geom::Pose;
+
+use super::trajectories::aligned;
+use super::{LogSystem, RobotLog};
+
+/// The table's name.
+pub(super) const NAME: &str = "small log";
+
+const PACKED: &[u8] = include_bytes!("../../logs/office.clf.gz");
+
+const ROWS: [(&str, LogSystem); 4] = [
+    ("odometry", LogSystem::Odometry),
+    ("matching", LogSystem::Matching),
+    ("places", LogSystem::Places),
+    ("dense", LogSystem::ScanMatching),
+];
+
+/// The log, whose noted poses are the true ones.
+#[derive(Debug)]
+pub(super) struct Small {
+    pub(super) log: RobotLog,
+}
+
+record! {
+    /// A way through the simulated office.
+    struct SmallRun {
+        /// Root of the mean squared distance of a scan's position from the true one, once a turn and a shift are undone.
+        rms_m: f64 => lower("error, root mean square").unit("m").at_least(0).decimals(3),
+        /// Greatest of these distances.
+        largest_m: f64 => lower("largest error").unit("m").at_least(0).decimals(3),
+        /// Places seen again.
+        closures: usize => neither("closures").decimals(0),
+    }
+}
+
+pub(super) fn table() -> Table {
+    Table::of::<SmallRun>(NAME, "A simulated office")
+        .metrics_from(SmallRun::rms_m)
+        .rows(ROWS.map(|(name, _)| Row::new(name).runs(1)))
+        .note("The log `logs/office.clf.gz`, which the project's simulator wrote: 180 beams over half a circle, wheels that drift. Always here.")
+}
+
+impl Small {
+    pub(super) fn read() -> Result<Self, BoxError> {
+        let mut text = Vec::new();
+        GzDecoder::new(PACKED).read_to_end(&mut text)?;
+        Ok(Self {
+            log: RobotLog::of_text(&text),
+        })
+    }
+
+    pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let named = ROWS.iter().find(|(name, _)| *name == job.row);
+        let (_, system) = named.ok_or_else(|| format!("there is no row {}", job.row))?;
+        let truth: Vec<Pose> = self.log.scans.iter().map(|scan| scan.noted).collect();
+        let found = self.log.map(*system, &self.log.odometry(), |_| {})?;
+        let score = aligned(&found.poses, &truth)?;
+        let run = SmallRun {
+            rms_m: score.rms,
+            largest_m: score.largest,
+            closures: found.closures,
+        };
+        Ok(run.fields()?)
+    }
+}

@@ -1,0 +1,129 @@
+//! Other buildings: how far positions are from those of the corrected log.
+
+use core::f64::consts::TAU;
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_arena::log_score::AlignedScore;
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
+use tolman_geom::{Heading, Point, Pose};
+
+use super::relations::file;
+use super::{LogSystem, RobotLog};
+use crate::data;
+
+/// The table's name.
+pub(super) const NAME: &str = "trajectories";
+
+/// A row with its log, and whether its odometry is raw.
+pub(super) const ROWS: [(&str, &str, bool); 5] = [
+    ("csail", "logs/csail-raw/csail_raw_odom.clf.gz", true),
+    (
+        "freiburg-079",
+        "logs/radish/freiburg-079-corrected.log.gz",
+        false,
+    ),
+    (
+        "belgioioso",
+        "logs/radish/belgioioso-corrected.log.gz",
+        false,
+    ),
+    ("orebro", "logs/radish/orebro-corrected.log.gz", false),
+    ("edmonton", "logs/radish/edmonton-corrected.log.gz", false),
+];
+
+/// How much worse the wheels of a corrected log are made: a constant turn a metre to one side, and a random one each step.
+const TURN_A_METRE_DEG: f64 = 2.0;
+const TURN_A_STEP_DEG: f64 = 1.3;
+
+record! {
+    /// A way through a building.
+    struct TrajectoryRun {
+        /// Root of the mean squared distance of a scan's position from that in the corrected log, once a turn and a shift are undone.
+        rms_m: f64 => lower("error, root mean square").unit("m").at_least(0).decimals(3),
+        /// Greatest of these distances.
+        largest_m: f64 => lower("largest error").unit("m").at_least(0).decimals(3),
+        /// The same root by scans matched to those before alone.
+        matching_rms_m: f64 => lower("without closures").unit("m").at_least(0).decimals(3),
+        /// The same root by the wheels alone.
+        odometry_rms_m: f64 => neither("by the wheels alone").unit("m").at_least(0).decimals(2),
+        /// Places seen again.
+        closures: usize => neither("closures").decimals(0),
+    }
+}
+
+/// What to tell where a log is not here.
+pub(super) fn missing() -> Option<String> {
+    let here = ROWS.iter().all(|(_, name, _)| file(name).is_some());
+    (!here).then(|| data::missing("logs of buildings"))
+}
+
+pub(super) fn table() -> Table {
+    let row = |(name, path, is_raw): (&str, &str, bool)| match file(path) {
+        None => Row::new(name).missing(data::missing(&format!("the log of {name}"))),
+        Some(_) if is_raw => Row::new(name).runs(1),
+        Some(_) => Row::new(name),
+    };
+    Table::of::<TrajectoryRun>(NAME, "Other buildings, held against their corrected logs")
+        .metrics_from(TrajectoryRun::rms_m)
+        .rows(ROWS.map(row))
+        .note(
+            "By scan matching with closures, the configuration of the Intel lab. CSAIL has raw odometry. Of the others the corrected log alone \
+             is public, so its wheels are made worse: 2° a metre to one side, and 1.3° (standard deviation) each step.",
+        )
+}
+
+/// The wheels of a robot whose log was corrected, made worse.
+pub(super) fn worse(odometry: &[Pose], seed: u64) -> Vec<Pose> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let side = if rng.random::<bool>() { 1.0 } else { -1.0 };
+    let mut at = odometry.first().copied().unwrap_or(Pose::IDENTITY);
+    let mut worse = vec![at];
+    for pair in odometry.windows(2) {
+        let step = pair[0].between(pair[1]);
+        let off = side * TURN_A_METRE_DEG * step.position.coords.norm()
+            + TURN_A_STEP_DEG * gaussian(&mut rng);
+        let turned = Pose::new(step.position, step.heading.turned(off.to_radians()));
+        at = at.compose(turned);
+        worse.push(at);
+    }
+    worse
+}
+
+/// A number of the standard normal distribution (Box and Muller).
+fn gaussian(rng: &mut ChaCha8Rng) -> f64 {
+    let unit = |rng: &mut ChaCha8Rng| (f64::from(rng.random::<u32>()) + 0.5) / 4_294_967_296.0;
+    let (radius, turn) = (unit(rng), unit(rng));
+    libm::sqrt(-2.0 * libm::log(radius)) * Heading::from_radians(TAU * turn).unit().x
+}
+
+pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
+    let named = ROWS.iter().find(|(name, _, _)| *name == job.row);
+    let (_, name, is_raw) = named.ok_or_else(|| format!("there is no row {}", job.row))?;
+    let path = file(name).ok_or_else(|| format!("the log of {} is gone", job.row))?;
+    let log = RobotLog::read(&path)?;
+    let truth: Vec<Pose> = log.scans.iter().map(|scan| scan.noted).collect();
+    let odometry = match is_raw {
+        true => log.odometry(),
+        false => worse(&log.odometry(), job.seed),
+    };
+    let matching = log.map(LogSystem::Matching, &odometry, |_| {})?;
+    let dense = log.map(LogSystem::ScanMatching, &odometry, |_| {})?;
+    let score = aligned(&dense.poses, &truth)?;
+    let run = TrajectoryRun {
+        rms_m: score.rms,
+        largest_m: score.largest,
+        matching_rms_m: aligned(&matching.poses, &truth)?.rms,
+        odometry_rms_m: aligned(&odometry, &truth)?.rms,
+        closures: dense.closures,
+    };
+    Ok(run.fields()?)
+}
+
+/// How far poses are from the true ones.
+pub(super) fn aligned(found: &[Pose], truth: &[Pose]) -> Result<AlignedScore, BoxError> {
+    let pairs = found.iter().zip(truth);
+    let pairs: Vec<(Point, Point)> = pairs.map(|(a, b)| (a.position, b.position)).collect();
+    Ok(AlignedScore::of(&pairs).ok_or("the log has no scan")?)
+}

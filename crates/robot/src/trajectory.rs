@@ -1,0 +1,77 @@
+use alloc::vec::Vec;
+
+use tolman_geom::{Point, Pose};
+
+/// Where a robot was when: a way in time, on which it can be asked for any time between.
+///
+/// ```
+/// use tolman_robot::{TimedPose, Trajectory};
+/// use tolman_geom::{Heading, Point, Pose};
+///
+/// let at = |time, x| TimedPose { time, pose: Pose::new(Point::new(x, 0.0), Heading::EAST) };
+/// let way = Trajectory::new([at(3.0, 2.0), at(1.0, 0.0)]);
+/// assert_eq!(way.poses()[0].time, 1.0);
+/// assert!((way.at(1.5).unwrap().position.x - 0.5).abs() < 1e-12);
+/// assert_eq!(way.at(3.5), None);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trajectory {
+    poses: Vec<TimedPose>,
+}
+
+/// Where a robot was at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimedPose {
+    /// Time, s.
+    pub time: f64,
+    /// The pose.
+    pub pose: Pose,
+}
+
+impl Trajectory {
+    /// Returns the way through these poses, in the order of time; of equal times in the order given. Poses and times that are not finite
+    /// are left out. O(n log n).
+    #[must_use]
+    pub fn new(poses: impl IntoIterator<Item = TimedPose>) -> Self {
+        let is_finite = |timed: &TimedPose| timed.time.is_finite() && timed.pose.is_finite();
+        let mut poses: Vec<TimedPose> = poses.into_iter().filter(is_finite).collect();
+        poses.sort_by(|a, b| a.time.total_cmp(&b.time));
+        Self { poses }
+    }
+
+    /// Returns the poses, in the order of time.
+    #[must_use]
+    pub fn poses(&self) -> &[TimedPose] {
+        &self.poses
+    }
+
+    /// Returns where it was at `time`, s, between the poses before and after in proportion; `None` before the first and after the
+    /// last. O(log n).
+    #[must_use]
+    pub fn at(&self, time: f64) -> Option<Pose> {
+        let after = self.poses.partition_point(|timed| timed.time < time);
+        let next = self.poses.get(after)?;
+        let Some(before) = after.checked_sub(1).map(|before| self.poses[before]) else {
+            return (next.time <= time).then_some(next.pose);
+        };
+        let share = (time - before.time) / (next.time - before.time);
+        let way = next.pose.position - before.pose.position;
+        let turn = before.pose.heading.turn_to(next.pose.heading);
+        let position: Point = before.pose.position + way * share;
+        Some(Pose::new(
+            position,
+            before.pose.heading.turned(turn * share),
+        ))
+    }
+}
+
+/// A pose as seen from an earlier or later one, known from elsewhere to be so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoseRelation {
+    /// Time of the pose from which it is seen, s.
+    pub from: f64,
+    /// Time of the pose seen, s.
+    pub to: f64,
+    /// The second as seen from the first.
+    pub seen: Pose,
+}

@@ -1,0 +1,40 @@
+use tolman_maps::scan_matching::ScanMatchingConfig;
+
+/// What a [`PlacesMapper`](super::PlacesMapper) reckons with.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
+pub struct PlacesConfig {
+    /// How scans are matched, and how places are compared.
+    pub matching: ScanMatchingConfig,
+    /// How wide corridors are, m.
+    pub corridor_width: f64,
+    /// Keyframes that pass before one is judged, so that what lies ahead of it has been seen.
+    pub lag: usize,
+    /// Way without a corridor that makes a place, m.
+    pub least_way: f64,
+    /// Way without a corridor after which another place begins, m.
+    pub most_way: f64,
+    /// A place is not the one that was left less way ago, m.
+    pub least_absence: f64,
+    /// Places that lie so far apart may be one, beside what the way leaves in doubt, m.
+    pub apart: f64,
+    /// Places that one is compared with at most, the nearest first.
+    pub most_compared: usize,
+}
+
+impl PlacesConfig {
+    /// Returns the values for corridors of offices.
+    #[must_use]
+    pub fn indoor() -> Self {
+        Self {
+            matching: ScanMatchingConfig::indoor().with_places(),
+            corridor_width: 2.0,
+            lag: 6,
+            least_way: 0.5,
+            most_way: 3.0,
+            least_absence: 8.0,
+            apart: 1.5,
+            most_compared: 3,
+        }
+    }
+}

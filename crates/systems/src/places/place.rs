@@ -1,0 +1,51 @@
+use tolman_robot::{Ring, Scan};
+
+/// A place of a map of places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SitePlace {
+    /// What it is.
+    pub kind: SiteKind,
+    /// The keyframe in its middle, by its number.
+    pub keyframe: usize,
+    /// The place on the map that it is: its own number, or that of an earlier one.
+    pub id: u32,
+}
+
+/// What a place is, by which of the four ways lead on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SiteKind {
+    /// One way or none.
+    DeadEnd,
+    /// Two ways, side by side.
+    Bend,
+    /// Two ways, opposite: a wide part of a corridor, or a room that it goes through.
+    Passage,
+    /// Three ways or four.
+    Junction,
+}
+
+/// A way leads on if the nearest thing in it is so many corridor widths away.
+const OPEN_WIDTHS: f64 = 1.25;
+
+impl SiteKind {
+    /// Returns what a scan of a `ring` that looks along the axes of a building shows, where corridors are `width` m wide.
+    #[must_use]
+    pub fn of(scan: &Scan, width: f64) -> Self {
+        let open = [0, 1, 2, 3].map(|quarter| is_open(&scan.ranges, &scan.ring, quarter, width));
+        match open.iter().filter(|open| **open).count() {
+            0 | 1 => Self::DeadEnd,
+            2 if open[0] == open[2] => Self::Passage,
+            2 => Self::Bend,
+            _ => Self::Junction,
+        }
+    }
+}
+
+/// Whether the middle half of a quarter's beams see nothing near in the mean.
+fn is_open(ranges: &[f64], ring: &Ring, quarter: u32, width: f64) -> bool {
+    let beams = ring.beams as usize;
+    let spread = beams / 36;
+    let middle = quarter as usize * beams / 4 + beams;
+    let seen = (middle - spread..=middle + spread).filter_map(|beam| ranges.get(beam % beams));
+    seen.fold(f64::INFINITY, |least, range| least.min(*range)) > OPEN_WIDTHS * width
+}
