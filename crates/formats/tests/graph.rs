@@ -1,5 +1,4 @@
 //! Graphs are read by the programs of others: `cargo test -p tolman-formats --test graph -- --ignored` fetches networkx and evo from PyPI.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -76,7 +75,6 @@ fn python(folder: &Path, arguments: &[&str]) -> bool {
 
 #[test]
 #[ignore = "fetches networkx and evo from PyPI"]
-#[expect(clippy::print_stderr, reason = "what is skipped is said")]
 fn others_read_what_is_written() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("graph");
     fs::create_dir_all(&folder).unwrap();

@@ -28,7 +28,7 @@ pub use belief::StandpointBelief;
 pub use chart::{ChartError, ChartParts, ScanChart};
 pub use clearings::{Clearings, WayToGap};
 pub use config::ScanMapConfig;
-pub use ground_plan::{Ground, GroundPlan};
+pub use ground_plan::{GroundKind, GroundPlan};
 pub use map::{Advance, ScanMap, ScanPlace};
 pub use standpoints::{StandpointViews, Standpoints};
 pub use wall_grid::WallGrid;

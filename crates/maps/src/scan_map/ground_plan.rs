@@ -23,7 +23,7 @@ pub struct GroundPlan {
 
 /// What a cell of a [`GroundPlan`] holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ground {
+pub enum GroundKind {
     /// No beam has reached it.
     Unknown,
     /// Beams passed it.
@@ -35,7 +35,7 @@ pub enum Ground {
 /// Cells lie no farther than that from the origin, in cells: 50 km.
 const FARTHEST: i32 = 1_000_000;
 
-impl Ground {
+impl GroundKind {
     const ALL: [Self; 3] = [Self::Unknown, Self::Floor, Self::Wall];
 
     /// How it is written.
@@ -65,7 +65,7 @@ impl GroundPlan {
     pub fn of(grid: &WallGrid) -> Self {
         let known = || {
             grid.indices()
-                .filter(|at| grid.ground(*at) != Ground::Unknown)
+                .filter(|at| grid.ground(*at) != GroundKind::Unknown)
         };
         let Some(any) = known().next() else {
             return Self::unknown([0, 0], 0, 0);
@@ -109,7 +109,7 @@ impl GroundPlan {
                 });
             }
             for (column, letter) in (0..).zip(row.chars()) {
-                let ground = Ground::of_letter(letter).ok_or(ChartError::Letter {
+                let ground = GroundKind::of_letter(letter).ok_or(ChartError::Letter {
                     row: number,
                     column,
                     letter,
@@ -144,20 +144,20 @@ impl GroundPlan {
     /// Returns whether no wall stands on the straight line between two points. O(distance).
     #[must_use]
     pub fn sees(&self, from: Point, to: Point) -> bool {
-        sees(from, to, |at| self.at(index_of(at)) == Ground::Wall)
+        sees(from, to, |at| self.at(index_of(at)) == GroundKind::Wall)
     }
 
     /// What a cell holds.
-    pub(super) fn at(&self, index: GridIndex) -> Ground {
+    pub(super) fn at(&self, index: GridIndex) -> GroundKind {
         let Some(slot) = self.slot(index) else {
-            return Ground::Unknown;
+            return GroundKind::Unknown;
         };
         if is_set(&self.floor, slot) {
-            Ground::Floor
+            GroundKind::Floor
         } else if is_set(&self.walls, slot) {
-            Ground::Wall
+            GroundKind::Wall
         } else {
-            Ground::Unknown
+            GroundKind::Unknown
         }
     }
 
@@ -178,14 +178,14 @@ impl GroundPlan {
         }
     }
 
-    fn set(&mut self, index: GridIndex, ground: Ground) {
+    fn set(&mut self, index: GridIndex, ground: GroundKind) {
         let Some(slot) = self.slot(index) else {
             return;
         };
         let bits = match ground {
-            Ground::Unknown => return,
-            Ground::Floor => &mut self.floor,
-            Ground::Wall => &mut self.walls,
+            GroundKind::Unknown => return,
+            GroundKind::Floor => &mut self.floor,
+            GroundKind::Wall => &mut self.walls,
         };
         bits[slot / WORD] |= 1 << (slot % WORD);
     }

@@ -4,7 +4,7 @@ use tolman_geom::Heading;
 use tolman_robot::Ring;
 
 use super::wall_grid::GridIndex;
-use super::{Ground, GroundPlan, WallGrid};
+use super::{GroundKind, GroundPlan, WallGrid};
 
 /// The cells that the beams of a ring pass from the middle of a cell, beam 0 to the north: the same from every cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -77,9 +77,9 @@ impl Rays {
             let [column, row] = from;
             for RayCell { offset, range } in cells {
                 match ground.at([column + i32::from(offset[0]), row + i32::from(offset[1])]) {
-                    Ground::Floor => {}
-                    Ground::Wall => return *range,
-                    Ground::Unknown => return UNKNOWN,
+                    GroundKind::Floor => {}
+                    GroundKind::Wall => return *range,
+                    GroundKind::Unknown => return UNKNOWN,
                 }
             }
             self.clear

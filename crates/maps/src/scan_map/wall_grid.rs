@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use tolman_geom::{Heading, Point, Vector};
 use tolman_robot::Scan;
 
-use super::Ground;
+use super::GroundKind;
 
 /// Where walls were met and where beams passed, on a square grid that grows.
 ///
@@ -110,7 +110,7 @@ impl WallGrid {
     }
 
     /// Returns a grid of cells between these bounds that hold what `ground` says, each wall as seen once. O(cells).
-    pub(super) fn of(bounds: [GridIndex; 2], ground: impl Fn(GridIndex) -> Ground) -> Self {
+    pub(super) fn of(bounds: [GridIndex; 2], ground: impl Fn(GridIndex) -> GroundKind) -> Self {
         let [first, end] = bounds;
         let [columns, rows] = [0, 1].map(|axis| end[axis] - first[axis]);
         let mut grid = Self {
@@ -125,9 +125,9 @@ impl WallGrid {
                 continue;
             };
             match ground(index) {
-                Ground::Unknown => {}
-                Ground::Floor => grid.cells[slot].passes = 1,
-                Ground::Wall => {
+                GroundKind::Unknown => {}
+                GroundKind::Floor => grid.cells[slot].passes = 1,
+                GroundKind::Wall => {
                     grid.cells[slot].hits = 1;
                     grid.stamp(index, &reach);
                 }
@@ -144,11 +144,11 @@ impl WallGrid {
     }
 
     /// What a cell holds.
-    pub(super) fn ground(&self, index: GridIndex) -> Ground {
+    pub(super) fn ground(&self, index: GridIndex) -> GroundKind {
         match self.cell(index) {
-            Some(cell) if cell.is_wall() => Ground::Wall,
-            Some(cell) if cell.passes > 0 => Ground::Floor,
-            _ => Ground::Unknown,
+            Some(cell) if cell.is_wall() => GroundKind::Wall,
+            Some(cell) if cell.passes > 0 => GroundKind::Floor,
+            _ => GroundKind::Unknown,
         }
     }
 

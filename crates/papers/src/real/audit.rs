@@ -110,9 +110,8 @@ pub(super) fn table(graphs: &Graphs, options: &Options) -> Table {
         .rows(rows)
         .note(format!(
             "{MANY} false closures of each kind are added to a graph, {FEW} to the project's own `rooms`. A closure is false that is off by more than 1 m or 20°; those of the kind near are off \
-             by less, but beyond five standard deviations. Groups are 10 to 20 consecutive pairs that agree with each other. Stated standard deviations × {} for manhattan, whose file \
-             understates its information, × 1 for the others.{gtsam}",
-            MANHATTAN_SCALE
+             by less, but beyond five standard deviations. Groups are 10 to 20 consecutive pairs that agree with each other. Stated standard deviations × {MANHATTAN_SCALE} for manhattan, whose file \
+             understates its information, × 1 for the others.{gtsam}"
         ))
 }
 

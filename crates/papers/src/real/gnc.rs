@@ -2,12 +2,12 @@
 //!
 //! Source: H. Yang, P. Antonante, V. Tzoumas, L. Carlone: Graduated Non-Convexity for Robust Spatial Perception, 2020.
 
+use core::time::Duration;
 use std::env;
 use std::fs;
 use std::io::Read;
 use std::process::{Command, Stdio};
 use std::thread;
-use core::time::Duration;
 use std::time::Instant;
 
 use tolman_experiment::BoxError;
