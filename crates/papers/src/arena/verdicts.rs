@@ -242,7 +242,7 @@ mod tests {
 
     fn pool() -> VerdictPool {
         let worlds = ArenaWorld::families().into_iter().take(2).collect();
-        VerdictPool::new(worlds, 1, 3, 20)
+        VerdictPool::new(worlds, 1, 6, 20)
     }
 
     #[test]

@@ -138,14 +138,15 @@ mod tests {
     use super::*;
     use core::f64::consts::{FRAC_PI_2, TAU};
 
-    /// A robot that turns round once and drives 2 cm, again and again, and reads the walls after each.
+    /// A robot that turns round once and drives 25 cm, again and again, and reads the walls after each: a turn tells the sum of the
+    /// errors, a way their difference.
     fn calibrated(errors: [f64; 2], rounds: u32) -> WheelCalibration {
         let mut calibration = WheelCalibration::UNKNOWN;
         // By how much its heading is more than it believes.
         let mut off = 0.0;
         for _ in 0..rounds {
             let turn = TAU * TRACK / 2.0;
-            for counted in [[-turn, turn], [0.02, 0.02]] {
+            for counted in [[-turn, turn], [0.25, 0.25]] {
                 let turns = counted.map(|way| way / WHEEL_RADIUS);
                 let sensing = EpuckSensing {
                     encoders: Some(WheelTurns {
@@ -158,10 +159,10 @@ mod tests {
                 let [left, right] = [0, 1].map(|wheel| counted[wheel] * (1.0 + errors[wheel]));
                 let believed = (told.right - told.left) * WHEEL_RADIUS / TRACK;
                 off += (right - left) / TRACK - believed;
+                off -= libm::round(off / FRAC_PI_2) * FRAC_PI_2;
+                let deviation = 0.02;
+                off -= calibration.read(Reading { off, deviation });
             }
-            off -= libm::round(off / FRAC_PI_2) * FRAC_PI_2;
-            let deviation = 0.02;
-            off -= calibration.read(Reading { off, deviation });
         }
         calibration
     }

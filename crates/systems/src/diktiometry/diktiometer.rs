@@ -20,8 +20,8 @@ use super::{
 /// Each action is one control routine, from a place to the next. Its tasks:
 ///
 /// - **Explore**: the [`Planner`](super::Planner)'s walk, until nothing is left to try at any place
-///   that the map leads to, and nothing speaks against the map. It gives up a map that has spoken
-///   against itself for 300 moves.
+///   that the map leads to, and no two places may be one. It gives up a map that has not been folded
+///   for 300 moves.
 /// - **Reach** a place: the map's plan, made anew after every routine. It gives up if the map knows
 ///   no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the

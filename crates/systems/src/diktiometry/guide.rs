@@ -3,7 +3,7 @@ use alloc::format;
 use core::ops::ControlFlow;
 
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::diktiometry::{Action, Config, Identity, Observer, PlaceId};
+use tolman_maps::diktiometry::{Action, Config, Identity, MapState, Observer, PlaceId};
 use tolman_maze::Direction;
 use tolman_planners::path_to;
 use tolman_robot::{Goal, Landmark, Standing, Task};
@@ -24,14 +24,14 @@ pub(super) struct Guide {
     landmarks: BTreeMap<Landmark, PlaceId>,
     /// Number of moves so far.
     moves: u32,
-    /// Since which of them the map has spoken against itself.
-    at_odds: Option<u32>,
+    /// Since which of them some places of the map may be one.
+    unfolded: Option<u32>,
 }
 
-/// The map is asked what speaks against it after every so many moves.
+/// The map is asked whether it is folded after every so many moves.
 const CHECKED: u32 = 10;
 
-/// A map that has spoken against itself for so many moves is given up: most that fold do sooner.
+/// A map that has not been folded for so many moves is given up: most that fold do sooner.
 const PATIENCE: u32 = 300;
 
 /// What is known of where the rover stands.
@@ -79,7 +79,7 @@ impl Guide {
             walk: stream(seed, WALK_STREAM),
             landmarks: BTreeMap::new(),
             moves: 0,
-            at_odds: None,
+            unfolded: None,
         }
     }
 
@@ -156,8 +156,8 @@ impl Guide {
         self.whereabouts = before.after_a_move(history);
         self.moves = self.moves.saturating_add(1);
         if self.moves.is_multiple_of(CHECKED) {
-            let is_sound = self.observer().is_none_or(is_sound);
-            self.at_odds = (!is_sound).then(|| self.at_odds.unwrap_or(self.moves));
+            let is_folded = self.observer().is_none_or(is_folded);
+            self.unfolded = (!is_folded).then(|| self.unfolded.unwrap_or(self.moves));
         }
         Ok(())
     }
@@ -181,7 +181,7 @@ impl Guide {
             return false;
         };
         match task {
-            Task::Explore => is_explored(observer) && is_sound(observer),
+            Task::Explore => is_explored(observer) && is_folded(observer),
             Task::Localize => self.whereabouts == Whereabouts::Followed && is_sure(observer),
             Task::Reach(Goal::Landmark(landmark)) => here == Some(landmark),
             Task::Reach(Goal::Place(id)) => {
@@ -192,7 +192,7 @@ impl Guide {
     }
 
     fn is_out_of_patience(&self) -> bool {
-        self.at_odds
+        self.unfolded
             .is_some_and(|since| self.moves - since >= PATIENCE)
     }
 
@@ -277,7 +277,10 @@ impl Guide {
             (_, 1) => format!("at place {place}"),
             (_, tracks) => format!("at place {place}, or at one of {} others", tracks - 1),
         };
-        match self.at_odds.and_then(|_| observer.self_check().complaint()) {
+        match self
+            .unfolded
+            .and_then(|_| observer.self_check().complaint())
+        {
             Some(complaint) => format!("{at}; {complaint}"),
             None => at,
         }
@@ -301,10 +304,10 @@ fn give_up(why: &str) -> Next {
     Next::Break(Standing::GaveUp { why })
 }
 
-/// Returns whether nothing speaks against the map. By the paper's rule of matching, nothing ever does.
-fn is_sound(observer: &Observer) -> bool {
+/// Returns whether no places of the map may be one. By the paper's rule of matching, nobody asks.
+fn is_folded(observer: &Observer) -> bool {
     observer.config().matching.identity == Identity::Meets
-        || observer.self_check().complaint().is_none()
+        || observer.self_check().state() != MapState::Unfolded
 }
 
 /// Returns whether nothing is left to try at any place that a plan leads to. O(places + links ·

@@ -192,7 +192,7 @@ fn what_is_no_graph_is_refused() {
     let audit = |arguments: &[&str]| tolman_in(&folder, &[&["audit"], arguments].concat());
     audit(&["empty.g2o"]).refused(2, &["empty.g2o", "no EDGE_SE2"]);
     audit(&["nowhere.g2o"]).refused(2, &["cannot read nowhere.g2o", "give a pose graph"]);
-    audit(&["empty.g2o", "--sigma-scale", "-1"]).refused(2, &["positive number, or auto"]);
+    audit(&["empty.g2o", "--sigma-scale=-1"]).refused(2, &["positive number, or auto"]);
     fs::copy(rooms(), folder.join("rooms.g2o")).unwrap();
     audit(&["rooms.g2o", "--verify"]).refused(2, &["certificates.json", "without --verify first"]);
     let auto = audit(&["rooms.g2o", "--sigma-scale", "auto"]);
