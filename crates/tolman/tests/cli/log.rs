@@ -77,12 +77,12 @@ fn a_log_is_mapped_and_scored() {
         "--world",
         "map/map.yaml",
         "--goal",
-        "3,0",
+        "8,0",
         "--start",
-        "0,0",
+        "3,0",
     ];
     let ended = tolman_in(&folder, &run);
-    assert!(matches!(ended.code, Some(0 | 1)), "{ended:?}");
+    ended.done();
 }
 
 #[test]
