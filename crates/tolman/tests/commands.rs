@@ -97,7 +97,8 @@ fn commands_of_help(verb: &[String]) -> Vec<String> {
     let help = String::from_utf8(help.stdout).unwrap();
     let lines = help.lines().map(str::trim);
     lines
-        .filter(|line| line.starts_with("tolman "))
+        // A second line of usage is no command.
+        .filter(|line| line.starts_with("tolman ") && !line.ends_with("<COMMAND>"))
         .map(str::to_owned)
         .collect()
 }
