@@ -120,8 +120,8 @@ fn tests() -> Result<Outcome> {
 /// Every command that README, pages and help texts show.
 fn commands() -> Result<Outcome> {
     let release = workspace::target_folder()?.join("release/tolman");
-    let mut test =
-        cargo("test --package tolman --all-features --test commands --quiet -- --ignored");
+    // For the whole workspace, so that what the tests have compiled serves.
+    let mut test = cargo("test --workspace --all-features --test commands --quiet -- --ignored");
     passed(succeed(test.env("TOLMAN", release)))
 }
 

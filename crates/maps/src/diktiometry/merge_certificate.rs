@@ -9,6 +9,9 @@
 //! - *looks* ([`MergeProof::Looks`]): the two look alike, and so do the places that the same actions
 //!   lead to. A chance of being wrong, stated.
 //!
+//! A proof by bounds may lead through places that are one by looks. It is then no surer than these,
+//! and says so ([`MergeCertificate::rests_on_looks`]).
+//!
 //! In a [static](super::WorldKind::Static) world an action leads from a place to one place and its
 //! reverse from there back. What follows from that is known without a route; a move along a way that
 //! was gone before has no certificate.
@@ -24,6 +27,7 @@ mod seal;
 mod verifier;
 
 use alloc::vec::Vec;
+use core::iter;
 
 use tolman_geom::PointBox;
 
@@ -47,6 +51,8 @@ pub struct MergeCertificate {
     pub visits: [usize; 2],
     /// The ground.
     pub proof: MergeProof,
+    /// Whether it is by looks, or leads through places that are one by an earlier one that is.
+    pub rests_on_looks: bool,
     /// A checksum of all that, so that one that was changed is told from one that is wrong.
     pub seal: u64,
 }
@@ -79,7 +85,8 @@ pub struct JournalSpan {
 pub struct LookEvidence {
     /// Pairs of visits that look alike; the first pair is at the two places.
     pub pairs: Vec<LookPair>,
-    /// How well looks tell places apart, as the map had counted.
+    /// How well looks tell places apart, as the map had counted. The checker takes these counts as
+    /// they are told.
     pub looks: Looks,
     /// The chance that they agree so far at two places, 0 … 1.
     pub chance: f64,
@@ -94,6 +101,20 @@ pub struct LookPair {
     /// The number of the earlier pair from whose places one action leads to these, and the action;
     /// `None` of the first pair.
     pub after: Option<(usize, Action)>,
+}
+
+/// Returns whether each route leads from one visit to another through what is known to be one place.
+fn connect(
+    [one, other]: [usize; 2],
+    routes: &[Vec<JournalSpan>],
+    identities: &Identities<'_>,
+) -> bool {
+    routes.iter().all(|route| {
+        let here = iter::once(one).chain(route.iter().map(|span| span.end));
+        let next = route.iter().map(|span| span.begin).chain([other]);
+        here.zip(next)
+            .all(|(here, next)| identities.same(here, next))
+    })
 }
 
 impl JournalSpan {

@@ -85,6 +85,7 @@ fn changed(certificate: &MergeCertificate, by: usize) -> Vec<MergeCertificate> {
     };
     push(&|one| one.visits[0] += by);
     push(&|one| one.visits[1] += by);
+    push(&|one| one.rests_on_looks = !one.rests_on_looks);
     push(&|one| one.seal = one.seal.wrapping_add(by as u64));
     let routes = match &certificate.proof {
         MergeProof::Bounds(routes) => routes.as_slice(),

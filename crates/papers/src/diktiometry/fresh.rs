@@ -10,8 +10,7 @@ use tolman_arena::diktiometry::{
 };
 use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record, require};
 use tolman_maps::diktiometry::{
-    CertifiedMerges, Identity, JournalLength, MergeCertificate, MergeProof, Use, certify_merges,
-    verify_merges,
+    CertifiedMerges, Identity, JournalLength, MergeProof, Use, certify_merges, verify_merges,
 };
 use tolman_maze::drawings::{eight, ladder_of, office, ring, spiral};
 use tolman_maze::{GenerateError, Maze};
@@ -207,6 +206,10 @@ record! {
         geometric_certificates: Option<usize> => neither("proofs by bounds"),
         /// Those of them that join two true places.
         false_geometric: Option<usize> => lower("false proofs by bounds"),
+        /// Merges proven by bounds through places that are one by looks.
+        bounds_after_looks: Option<usize> => neither("proofs by bounds after looks"),
+        /// Those of them that join two true places.
+        false_after_looks: Option<usize> => lower("false proofs by bounds after looks"),
         /// Merges by looks, each with its chance, checked against the journal.
         look_certificates: Option<usize> => neither("proofs by looks"),
         /// Those of them that join two true places.
@@ -247,6 +250,8 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
         .metric(Metric::mean(FreshRun::link_precision))
         .metric(Metric::total(FreshRun::geometric_certificates))
         .metric(Metric::total(FreshRun::false_geometric))
+        .metric(Metric::total(FreshRun::bounds_after_looks))
+        .metric(Metric::total(FreshRun::false_after_looks))
         .metric(Metric::total(FreshRun::look_certificates))
         .metric(Metric::total(FreshRun::false_looks))
         .metric(Metric::total(FreshRun::stated_chances).decimals(4))
@@ -258,7 +263,8 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
              the ways walled up, all places alike; 700, 3000 and 6000 moves. Doorways: a fifth of the passages, walls of eight colours. Ladders \
              (corridors of so many cells), eights, spirals and rings have walls of eight colours, the office floor has one; 1000 moves with \
              scripts. Scripts are begun with a chance of 30 %, in 20x20 always. Constant error: odometry and compass are wrong by the same \
-             all along. Paper's rule: a place is known again if boxes meet, and places merge by their estims.",
+             all along. Paper's rule: a place is known again if boxes meet, and places merge by their estims. The row of all runs has those by \
+             the paper's rule, too.",
         )
 }
 
@@ -342,16 +348,21 @@ impl FreshRun {
         let mut run = Self {
             geometric_certificates: Some(0),
             false_geometric: Some(0),
+            bounds_after_looks: Some(0),
+            false_after_looks: Some(0),
             look_certificates: Some(0),
             false_looks: Some(0),
             stated_chances: Some(0.0),
             unproven: Some(unproven.len()),
             ..self
         };
-        for MergeCertificate { visits, proof, .. } in &certificates {
-            let [one, other] = visits.map(site);
+        for certificate in &certificates {
+            let [one, other] = certificate.visits.map(site);
             let wrong = usize::from(one != other);
-            let (all, bad) = match proof {
+            let (all, bad) = match &certificate.proof {
+                MergeProof::Bounds(_) if certificate.rests_on_looks => {
+                    (&mut run.bounds_after_looks, &mut run.false_after_looks)
+                }
                 MergeProof::Bounds(_) => {
                     (&mut run.geometric_certificates, &mut run.false_geometric)
                 }

@@ -4,20 +4,14 @@ use super::{LookEvidence, LookPair};
 use crate::diktiometry::{Config, Journal, Looks, Percepts, Signature, alike};
 
 impl LookEvidence {
-    /// Returns the evidence of some pairs, with its chance.
-    pub(super) fn of(
-        pairs: Vec<LookPair>,
-        looks: Looks,
-        config: &Config,
-        journal: &Journal,
-    ) -> Self {
-        let mut evidence = Self {
-            pairs,
+    /// Returns the evidence of two visits alone, of which no chance is known yet.
+    pub(super) fn first(visits: [usize; 2], looks: Looks) -> Self {
+        let after = None;
+        Self {
+            pairs: Vec::from([LookPair { visits, after }]),
             looks,
             chance: 1.0,
-        };
-        evidence.chance = evidence.stated(config, journal);
-        evidence
+        }
     }
 
     /// Returns the chance that so many kinds of looks agree at two places, one of which may be taken

@@ -7,7 +7,7 @@ use super::look_evidence::look_alike;
 use super::verifier::least_distance;
 use super::{
     Constraints, Identities, JournalSpan, LONGEST, LookEvidence, LookPair, MergeCertificate,
-    MergeProof,
+    MergeProof, connect,
 };
 use crate::diktiometry::{
     Config, Journal, JournalError, Looks, MoveOutcome, Observer, PlaceId, Restructured, StepReport,
@@ -40,6 +40,7 @@ pub fn certify_merges(config: &Config, journal: &Journal) -> Result<CertifiedMer
         config,
         journal,
         identities: Identities::new(config),
+        proven: Identities::new(config),
         constraints: Constraints::default(),
         views: BTreeMap::from([(0, Vec::from([0]))]),
         visits: BTreeMap::from([(observer.place(), 0)]),
@@ -49,7 +50,7 @@ pub fn certify_merges(config: &Config, journal: &Journal) -> Result<CertifiedMer
         let told = observer.step(step);
         let report = told.map_err(|source| JournalError::Move { number, source })?;
         match step.outcome {
-            MoveOutcome::Blocked => prover.identities.stay(),
+            MoveOutcome::Blocked => prover.stay(),
             MoveOutcome::Arrived => prover.follow(number, &observer, &report),
         }
     }
@@ -60,6 +61,8 @@ struct Prover<'a> {
     config: &'a Config,
     journal: &'a Journal,
     identities: Identities<'a>,
+    /// What of it holds without looks.
+    proven: Identities<'a>,
     constraints: Constraints,
     /// By class: visits that look different.
     views: BTreeMap<usize, Vec<usize>>,
@@ -69,9 +72,15 @@ struct Prover<'a> {
 }
 
 impl Prover<'_> {
+    fn stay(&mut self) {
+        self.identities.stay();
+        self.proven.stay();
+    }
+
     fn follow(&mut self, visit: usize, observer: &Observer, report: &StepReport) {
         let action = self.journal.moves[visit - 1].action;
         let joined = self.identities.arrive(action);
+        self.proven.arrive(action);
         self.views.insert(visit, Vec::from([visit]));
         self.rename(joined);
         self.measure(visit);
@@ -143,6 +152,9 @@ impl Prover<'_> {
             return false;
         };
         let [one, other] = certificate.visits;
+        if !certificate.rests_on_looks {
+            self.proven.join(one, other);
+        }
         self.said.certificates.push(certificate);
         let joined = self.identities.join(one, other);
         self.rename(joined);
@@ -163,29 +175,26 @@ impl Prover<'_> {
             .into_iter()
             .try_fold(PointBox::UNBOUNDED, |known, one| known.intersection(one?))?;
         let least = least_distance(visits, self.config, self.journal);
+        let rests_on_looks = !connect(visits, &routes, &self.proven);
         let proof = MergeProof::Bounds(routes);
-        (self.config.apart.most(between) < least).then(|| MergeCertificate::sealed(visits, proof))
+        (self.config.apart.most(between) < least)
+            .then(|| MergeCertificate::sealed(visits, proof, rests_on_looks))
     }
 
     fn by_looks(&self, pair: [usize; 2], looks: Looks) -> Option<MergeCertificate> {
         let visits = self.alike(pair)?;
-        let mut pairs = Vec::from([LookPair {
-            visits,
-            after: None,
-        }]);
+        let sealed = |evidence| MergeCertificate::sealed(visits, MergeProof::Looks(evidence), true);
+        let mut evidence = LookEvidence::first(visits, looks);
         let mut seen = BTreeSet::from([pair.map(|visit| self.identities.find(visit))]);
         let mut next = 0;
         while let Some(&LookPair {
             visits: [one, other],
             ..
-        }) = pairs.get(next)
+        }) = evidence.pairs.get(next)
         {
-            let evidence = LookEvidence::of(pairs.clone(), looks, self.config, self.journal);
+            evidence.chance = evidence.stated(self.config, self.journal);
             if evidence.chance < self.config.restructuring.look_error {
-                return Some(MergeCertificate::sealed(
-                    visits,
-                    MergeProof::Looks(evidence),
-                ));
+                return Some(sealed(evidence));
             }
             for (action, to) in self.identities.ways(one) {
                 let Some(other) = self.identities.leads(other, action) else {
@@ -194,17 +203,14 @@ impl Prover<'_> {
                 if to == other || !seen.insert([to, other]) {
                     continue;
                 }
-                let visits = self.alike([to, other])?;
-                pairs.push(LookPair {
-                    visits,
+                evidence.pairs.push(LookPair {
+                    visits: self.alike([to, other])?,
                     after: Some((next, action)),
                 });
             }
             next += 1;
         }
-        let evidence = LookEvidence::of(pairs, looks, self.config, self.journal);
-        let is_evidence = evidence.chance < 1.0;
-        is_evidence.then(|| MergeCertificate::sealed(visits, MergeProof::Looks(evidence)))
+        (evidence.chance < 1.0).then(|| sealed(evidence))
     }
 
     /// Two visits to the places of a pair that look alike.

@@ -21,10 +21,11 @@ impl Seal {
 
 impl MergeCertificate {
     /// Returns the certificate of a proof, sealed.
-    pub(super) fn sealed(visits: [usize; 2], proof: MergeProof) -> Self {
+    pub(super) fn sealed(visits: [usize; 2], proof: MergeProof, rests_on_looks: bool) -> Self {
         let mut certificate = Self {
             visits,
             proof,
+            rests_on_looks,
             seal: 0,
         };
         certificate.seal = certificate.checksum();
@@ -35,6 +36,7 @@ impl MergeCertificate {
     pub(super) fn checksum(&self) -> u64 {
         let mut seal = Seal(0xcbf2_9ce4_8422_2325);
         seal.take_all(self.visits);
+        seal.take_all([usize::from(self.rests_on_looks)]);
         match &self.proof {
             MergeProof::Bounds(routes) => {
                 seal.take_all([0, routes.len()]);

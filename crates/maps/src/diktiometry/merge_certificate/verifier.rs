@@ -1,8 +1,10 @@
+use alloc::vec::Vec;
+
 use thiserror::Error;
 use tolman_geom::PointBox;
 
 use super::look_evidence::look_alike;
-use super::{Identities, JournalSpan, LookEvidence, MergeCertificate, MergeProof};
+use super::{Identities, JournalSpan, LookEvidence, MergeCertificate, MergeProof, connect};
 use crate::diktiometry::{Config, Journal, MoveOutcome, Percepts};
 
 /// Why certificates do not hold. Each names the first that does not, from 0.
@@ -30,6 +32,30 @@ pub enum MergeCertificateError {
     Gap {
         /// Number of the certificate.
         number: usize,
+    },
+    /// It is said to rest on looks and does not, or the other way round.
+    #[error("certificate {number} does not say rightly whether it rests on looks")]
+    Ground {
+        /// Number of the certificate.
+        number: usize,
+    },
+    /// Looks that prove nothing: there is no pair, or it is as likely as not at two places.
+    #[error("certificate {number} has looks that two places would have as well")]
+    NoEvidence {
+        /// Number of the certificate.
+        number: usize,
+    },
+    /// Looks at one place agree anyhow.
+    #[error(
+        "certificate {number} counts looks at visits {one} and {other}, which are to one place anyhow"
+    )]
+    OnePlace {
+        /// Number of the certificate.
+        number: usize,
+        /// One visit.
+        one: usize,
+        /// The other.
+        other: usize,
     },
     /// A span is none: it has no moves, more than five, or a blocked one.
     #[error("certificate {number} has a span from visit {} to {} that no bound is known of", span.begin, span.end)]
@@ -93,6 +119,7 @@ pub fn verify_merges(
     let mut verifier = Verifier {
         config,
         journal,
+        proven: identities.clone(),
         identities,
     };
     for (number, certificate) in certificates.iter().enumerate() {
@@ -105,6 +132,8 @@ struct Verifier<'a> {
     config: &'a Config,
     journal: &'a Journal,
     identities: Identities<'a>,
+    /// What of it holds without looks.
+    proven: Identities<'a>,
 }
 
 impl Verifier<'_> {
@@ -118,7 +147,7 @@ impl Verifier<'_> {
             return Err(MergeCertificateError::Changed { number });
         }
         self.known(number, &certificate.visits)?;
-        match &certificate.proof {
+        let rests_on_looks = match &certificate.proof {
             MergeProof::Bounds(routes) => {
                 let between = self.between(number, certificate.visits, routes)?;
                 let least = least_distance(certificate.visits, self.config, self.journal);
@@ -131,10 +160,20 @@ impl Verifier<'_> {
                         least,
                     });
                 }
+                !connect(certificate.visits, routes, &self.proven)
             }
-            MergeProof::Looks(evidence) => self.looks(number, certificate.visits, evidence)?,
+            MergeProof::Looks(evidence) => {
+                self.looks(number, certificate.visits, evidence)?;
+                true
+            }
+        };
+        if certificate.rests_on_looks != rests_on_looks {
+            return Err(MergeCertificateError::Ground { number });
         }
         self.identities.join(one, other);
+        if !rests_on_looks {
+            self.proven.join(one, other);
+        }
         Ok(())
     }
 
@@ -154,24 +193,22 @@ impl Verifier<'_> {
     fn between(
         &self,
         number: usize,
-        [one, other]: [usize; 2],
-        routes: &[alloc::vec::Vec<JournalSpan>],
+        visits: [usize; 2],
+        routes: &[Vec<JournalSpan>],
     ) -> Result<PointBox, MergeCertificateError> {
+        for span in routes.iter().flatten() {
+            self.known(number, &[span.begin, span.end])?;
+        }
+        if !connect(visits, routes, &self.identities) {
+            return Err(MergeCertificateError::Gap { number });
+        }
         let mut between = PointBox::UNBOUNDED;
         for route in routes {
-            let (mut here, mut gone) = (one, PointBox::ORIGIN);
+            let mut gone = PointBox::ORIGIN;
             for &span in route {
-                self.known(number, &[span.begin, span.end])?;
-                if !self.identities.same(here, span.begin) {
-                    return Err(MergeCertificateError::Gap { number });
-                }
                 let way = span.displacement(&self.journal.moves, self.config);
                 let no_span = MergeCertificateError::NoSpan { number, span };
                 gone = gone + way.ok_or(no_span)?;
-                here = span.end;
-            }
-            if !self.identities.same(here, other) {
-                return Err(MergeCertificateError::Gap { number });
             }
             // Bounds that exclude each other prove nothing.
             let most = f64::INFINITY;
@@ -197,6 +234,9 @@ impl Verifier<'_> {
             if !look_alike(one, other, self.config, self.journal) {
                 return Err(MergeCertificateError::Unlike { number, one, other });
             }
+            if self.identities.same(one, other) {
+                return Err(MergeCertificateError::OnePlace { number, one, other });
+            }
             let expected = match pair.after {
                 None if index == 0 => visits.map(Some),
                 Some((before, action)) if before < index => {
@@ -220,6 +260,9 @@ impl Verifier<'_> {
                 found,
             });
         }
+        if found >= 1.0 {
+            return Err(MergeCertificateError::NoEvidence { number });
+        }
         Ok(())
     }
 }
@@ -234,5 +277,119 @@ pub(super) fn least_distance([one, other]: [usize; 2], config: &Config, journal:
         config.least_alike_distance()
     } else {
         config.least_distance()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec;
+
+    use tolman_geom::PoseBox;
+
+    use super::*;
+    use crate::diktiometry::merge_certificate::LookPair;
+    use crate::diktiometry::{
+        Action, Exits, FirstPlace, Looks, ObservedMove, Signature, SignatureKind, ViewRotation,
+        WorldKind,
+    };
+
+    const EAST: Action = Action(1);
+    const WEST: Action = Action(3);
+
+    fn config() -> Config {
+        let mut config = Config::new(Config::compass_actions(), 1.0);
+        config.world = WorldKind::Static;
+        config.percepts = Percepts::Signatures(SignatureKind {
+            rows: 1,
+            columns: 4,
+            tolerance: 0.4,
+            share: 1.0,
+            rotation: ViewRotation::Aligned,
+            views: 2,
+        });
+        config
+    }
+
+    /// A robot that goes along `actions` past places that all look alike.
+    fn journal(actions: &[Action]) -> Journal {
+        let percept = Some(Signature::new(1, vec![0.5; 4]).unwrap());
+        let moves = actions.iter().map(|&action| ObservedMove {
+            action,
+            odometry: PoseBox::IDENTITY,
+            percept: percept.clone(),
+            exits: Exits::Unknown,
+            outcome: MoveOutcome::Arrived,
+        });
+        Journal {
+            moves: moves.collect(),
+            start: FirstPlace {
+                percept: percept.clone(),
+                exits: Exits::Unknown,
+            },
+            distinctions: Vec::new(),
+        }
+    }
+
+    fn by_looks(pairs: &[[usize; 2]], looks: Looks, journal: &Journal) -> MergeCertificate {
+        let mut evidence = LookEvidence {
+            pairs: Vec::new(),
+            looks,
+            chance: 1.0,
+        };
+        evidence.pairs.extend(pairs.iter().map(|&visits| LookPair {
+            visits,
+            after: None,
+        }));
+        evidence.chance = evidence.stated(&config(), journal);
+        MergeCertificate::sealed([0, 2], MergeProof::Looks(evidence), true)
+    }
+
+    fn telling() -> Looks {
+        Looks {
+            kinds: 100,
+            different: 4000,
+            ..Looks::default()
+        }
+    }
+
+    #[test]
+    fn looks_that_say_nothing_are_refused() {
+        let ahead = journal(&[EAST, EAST]);
+        let verify = |certificate| verify_merges(&config(), &ahead, &[certificate]);
+        assert_eq!(verify(by_looks(&[[0, 2]], telling(), &ahead)), Ok(()));
+        let refused = Err(MergeCertificateError::NoEvidence { number: 0 });
+        assert_eq!(verify(by_looks(&[], telling(), &ahead)), refused);
+        let unknown = Looks::default();
+        assert_eq!(verify(by_looks(&[[0, 2]], unknown, &ahead)), refused);
+    }
+
+    #[test]
+    fn looks_at_one_place_are_refused() {
+        let there_and_back = journal(&[EAST, WEST]);
+        let found = verify_merges(
+            &config(),
+            &there_and_back,
+            &[by_looks(&[[0, 2]], telling(), &there_and_back)],
+        );
+        let (number, one, other) = (0, 0, 2);
+        let refused = MergeCertificateError::OnePlace { number, one, other };
+        assert_eq!(found, Err(refused));
+    }
+
+    #[test]
+    fn a_proof_by_bounds_through_looks_says_so() {
+        let ahead = journal(&[EAST, EAST, EAST]);
+        let first = by_looks(&[[0, 2]], telling(), &ahead);
+        // What is east of one place is one place.
+        let verify = |rests_on_looks| {
+            let second =
+                MergeCertificate::sealed([1, 3], MergeProof::Bounds(vec![vec![]]), rests_on_looks);
+            verify_merges(&config(), &ahead, &[first.clone(), second])
+        };
+        assert_eq!(verify(true), Ok(()));
+        assert_eq!(
+            verify(false),
+            Err(MergeCertificateError::Ground { number: 1 })
+        );
     }
 }
