@@ -10,6 +10,7 @@
 //! 4. The last keyframes together are matched to old ones that lie near, in a window that grows with the way since the last closure. Two
 //!    matches that agree become closures, and the graph is optimized.
 //! 5. [`ScanMatching::finish`] looks for all closures again, on the map that they made.
+//! 6. [`ScanMatching::overlay`] finds where the map of another day lies on this one.
 //!
 //! Sources: E. Olson: Real-Time Correlative Scan Matching, 2009; K. Konolige et al.: Efficient Sparse Pose Adjustment for 2D Mapping,
 //! 2010 (the program Karto). Unlike [`scan_map`](crate::scan_map), which has a compass and corrects positions on a map that never moves,
@@ -22,9 +23,11 @@ mod grid;
 mod mapper;
 mod occupancy;
 mod outline;
+mod overlay;
 mod refine;
 mod surroundings;
 
 pub use config::{ClosureConfig, ClosureSites, ScanMatchingConfig};
 pub use mapper::{ScanMatching, ScanMatchingError, ScanStep};
 pub use occupancy::OccupancyGrid;
+pub use overlay::MapOverlay;

@@ -147,6 +147,23 @@ impl PlaceMap {
         Ok(self.gng.nearest(features)?.id)
     }
 
+    /// Returns the node whose learned ranges are nearest to those that are known, m, by their squared differences: a
+    /// record of which only a part was sensed. `None` if no range is known, or places are not told by ranges.
+    /// O(nodes × ranges).
+    #[must_use]
+    pub fn nearest_by_ranges(&self, known: &[Option<f64>]) -> Option<UnitId> {
+        let count = known.iter().flatten().count();
+        let off = |node: UnitId| {
+            let learned = self.ranges(node)?;
+            let pairs = known.iter().zip(learned);
+            let squares = pairs.filter_map(|(range, learned)| Some((*range)? - learned));
+            Some((squares.map(|off| off * off).sum::<f64>(), node))
+        };
+        let nodes = self.network().ids().filter_map(off);
+        let nearest = nodes.min_by(|one, other| one.0.total_cmp(&other.0));
+        nearest.filter(|_| count > 0).map(|(_, node)| node)
+    }
+
     /// Returns where a node lies, m, in the frame of the odometry: its learned odometry (section 3.4, "Learning"). `None` of a
     /// node that is not there, or where places are not told by odometry.
     #[must_use]

@@ -234,7 +234,7 @@ impl ScanMatching {
     }
 
     /// Keyframes as one outline, seen from one of them.
-    fn put_together(&self, first: usize, last: usize, from: usize) -> ScanOutline {
+    pub(super) fn put_together(&self, first: usize, last: usize, from: usize) -> ScanOutline {
         let poses = self.graph.poses();
         let mut together = ScanOutline::default();
         for index in first..=last {

@@ -1,8 +1,8 @@
 use alloc::vec::Vec;
 
 use thiserror::Error;
-use tolman_geom::Pose;
 use tolman_geom::nalgebra::{Matrix3, Vector3};
+use tolman_geom::{Pose, Vector};
 use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Position, Scan};
 
 use super::ScanMatchingConfig;
@@ -75,6 +75,19 @@ pub(super) struct Keyframe {
     pub(super) way: f64,
     /// Number of the scan.
     pub(super) scan: usize,
+    /// Which way its surfaces run, as seen from it: [`ScanOutline::axis`].
+    pub(super) axis: Vector,
+}
+
+impl Keyframe {
+    fn new(outline: ScanOutline, way: f64, scan: usize) -> Self {
+        Self {
+            axis: outline.axis(),
+            outline,
+            way,
+            scan,
+        }
+    }
 }
 
 /// A pose as seen from a keyframe, with which it moves.
@@ -153,11 +166,8 @@ impl ScanMatching {
     fn begin(&mut self, step: &ScanStep) {
         self.graph.add_pose(Pose::IDENTITY);
         self.scans.push(self.matched);
-        self.keyframes.push(Keyframe {
-            outline: self.outline(step),
-            way: 0.0,
-            scan: 0,
-        });
+        self.keyframes
+            .push(Keyframe::new(self.outline(step), 0.0, 0));
     }
 
     fn outline(&self, step: &ScanStep) -> ScanOutline {
@@ -217,11 +227,8 @@ impl ScanMatching {
             kind: PoseEdgeKind::Odometry,
         })?;
         let way = self.keyframes[from as usize].way + measured.position.coords.norm();
-        self.keyframes.push(Keyframe {
-            outline,
-            way,
-            scan: self.scans.len(),
-        });
+        let scan = self.scans.len();
+        self.keyframes.push(Keyframe::new(outline, way, scan));
         self.matched = Anchored {
             keyframe: to,
             from_keyframe: Pose::IDENTITY,

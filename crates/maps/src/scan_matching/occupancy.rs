@@ -1,7 +1,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use tolman_geom::{Heading, Point, Pose};
+use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_robot::Scan;
 
 /// Where beams passed and where they ended, on a square grid of fixed bounds: the map that others' programs navigate on.
@@ -81,6 +81,41 @@ impl OccupancyGrid {
         if let (Some(slot), true) = (last, ends) {
             self.counts[slot].0 = self.counts[slot].0.saturating_add(1);
         }
+    }
+
+    /// Returns how many beams of a scan end on the map, and how many of these end where the map has floor: in a cell that, like all
+    /// beside it, was more often passed than hit, by a share of hits below `wall`. Where walls stand twice, many do.
+    /// O(beams).
+    #[must_use]
+    pub fn contradicted(
+        &self,
+        scan: &Scan,
+        map_from_laser: Pose,
+        farthest: f64,
+        wall: f64,
+    ) -> [usize; 2] {
+        let most = farthest.min(scan.ring.max_range);
+        let (mut all, mut on_floor) = (0, 0);
+        for (index, range) in (0..).zip(&scan.ranges) {
+            if !(*range > 0.0 && *range < most) {
+                continue;
+            }
+            let bearing = Heading::from_radians(scan.ring.bearing(index)).unit();
+            let end = map_from_laser.transform(Point::from(bearing * *range));
+            all += 1;
+            on_floor += usize::from(!self.is_wall_near(end, wall));
+        }
+        [all, on_floor]
+    }
+
+    fn is_wall_near(&self, at: Point, wall: f64) -> bool {
+        let beside = [-1.0, 0.0, 1.0];
+        let steps = beside.iter().flat_map(|x| beside.map(|y| [*x, y]));
+        let mut cells = steps.filter_map(|[x, y]| self.slot(at + Vector::new(x, y) * self.cell));
+        cells.any(|slot| {
+            let (hits, passes) = self.counts[slot];
+            f64::from(hits) > wall * (f64::from(hits) + f64::from(passes))
+        })
     }
 
     fn slot(&self, at: Point) -> Option<usize> {

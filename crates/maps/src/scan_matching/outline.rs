@@ -25,6 +25,9 @@ const SLANT: f64 = 6.0;
 /// Nearer than that no beam ends but on the robot itself, m.
 const NEAREST: f64 = 0.1;
 
+/// Every so many points tell of the axis.
+const AXIS_POINTS: usize = 5;
+
 impl ScanOutline {
     /// Returns the outline that a scan shows, of beams that end within `farthest` m. O(beams).
     pub(super) fn of(scan: &Scan, robot_from_laser: Pose, farthest: f64) -> Self {
@@ -53,6 +56,16 @@ impl ScanOutline {
         Self {
             points: points.collect(),
         }
+    }
+
+    /// Which way its surfaces run: the sum of unit vectors at four times the heading of each, since quarter turns
+    /// are the same.
+    pub(super) fn axis(&self) -> Vector {
+        let told = self.points.iter().step_by(AXIS_POINTS);
+        let told = told.filter(|point| point.normal != Vector::zeros());
+        let four_times = told
+            .map(|point| Heading::from_radians(4.0 * Heading::of(point.normal).radians()).unit());
+        four_times.sum()
     }
 
     /// Returns at most `most` of its points, spread over all of them.

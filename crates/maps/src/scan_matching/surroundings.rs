@@ -32,25 +32,20 @@ impl ScanMatching {
         Some(scan)
     }
 
-    /// Returns which way most surfaces run, up to quarter turns: the axis of the building. `None` before a surface was seen. O(points).
+    /// Returns which way most surfaces run, up to quarter turns: the axis of the building. `None` before a surface was seen.
+    /// O(keyframes).
     #[must_use]
     pub fn axis(&self) -> Option<Heading> {
-        let mut sum = Vector::zeros();
-        for (keyframe, pose) in self.keyframes.iter().zip(self.graph.poses()) {
-            for point in keyframe.outline.points.iter().step_by(AXIS_POINTS) {
-                if point.normal != Vector::zeros() {
-                    let normal = Heading::of(pose.heading.rotate(point.normal));
-                    sum += Heading::from_radians(4.0 * normal.radians()).unit();
-                }
-            }
-        }
+        let keyframes = self.keyframes.iter().zip(self.graph.poses());
+        let turned = keyframes.map(|(keyframe, pose)| {
+            let four_times = Heading::from_radians(4.0 * pose.heading.radians());
+            four_times.rotate(keyframe.axis)
+        });
+        let sum: Vector = turned.sum();
         let is_known = sum.norm() > 0.0;
         is_known.then(|| Heading::from_radians(0.25 * Heading::of(sum).radians()))
     }
 }
-
-/// Every so many points tell of the axis.
-const AXIS_POINTS: usize = 5;
 
 /// An angle from 0 to a full turn.
 fn positive(angle: f64) -> f64 {
