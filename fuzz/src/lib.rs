@@ -8,7 +8,7 @@
 //! `cargo xtask ci` holds the parsers to the same on the stable compiler, with proptest's texts.
 
 use tolman_formats::{
-    CarmenReader, G2o, GreyMap, LogEntry, ReadRelations, ReadTrajectory, RosMap, RosMapHeader,
+    LogReader, G2o, GreyMap, LogEntry, ReadRelations, ReadTrajectory, RosMap, RosMapHeader,
 };
 use tolman_maze::{Format, parse_as, read, read_as, write};
 
@@ -52,7 +52,7 @@ pub fn is_a_header_or_refused(text: &str) {
 
 /// What is used of a log has finite numbers and a range for every beam, and all of it is counted.
 pub fn is_used_or_left_out(bytes: &[u8]) {
-    let mut reader = CarmenReader::new(bytes);
+    let mut reader = LogReader::new(bytes);
     let mut count = 0;
     for entry in reader.by_ref() {
         count += 1;

@@ -14,6 +14,6 @@
 
 mod messages;
 mod parameters;
-mod reader;
 
-pub use reader::CarmenReader;
+pub(crate) use messages::{front_laser, mount, odometry, robot_laser};
+pub(crate) use parameters::Parameters;

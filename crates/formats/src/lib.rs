@@ -4,8 +4,8 @@
 //! picture beside it. [`RosMapHeader`] and [`GreyMap`] are the two files by themselves. [`G2o`] is a pose graph in the plane, read
 //! and written.
 //!
-//! [`CarmenReader`] reads logs of robots; what cannot be used of them stands in a [`LogReport`]. [`ReadTrajectory`] and [`tum`] are ways in
-//! time, [`ReadRelations`] what is known of them. [`dot`], [`graphml`], [`node_link_json`] and [`route_geojson`] write maps of places.
+//! [`LogReader`] reads logs of robots; what cannot be used of them stands in a [`LogReport`]. [`ReadTrajectory`] and [`tum`] are ways in
+//! time, [`ReadRelations`] what is known of them. [`UtiasRobot`], [`TucDrive`] and [`SonarTable`] are data sets of others. [`dot`], [`graphml`], [`node_link_json`] and [`route_geojson`] write maps of places.
 //!
 //! ```
 //! use tolman_formats::{GreyMap, MapCell, RosMap, RosMapHeader};
@@ -32,16 +32,27 @@ mod g2o;
 mod graph;
 mod log;
 mod ros_map;
+#[cfg(feature = "mcap")]
+mod rosbag;
+mod sonar_table;
 mod trajectory;
+mod tuc;
+mod utias;
+mod wean;
 
-pub use carmen::CarmenReader;
 pub use graph::{dot, graphml, node_link_json, route_geojson};
 pub use log::{
-    KindCount, LogEntry, LogError, LogOdometry, LogReport, LogScan, LogTrouble, TroubleCount,
+    KindCount, LogEntry, LogError, LogOdometry, LogReader, LogReport, LogScan, LogTrouble,
+    LogVelocity, TroubleCount, is_mcap,
 };
 
 pub use g2o::{G2o, G2oEdge, G2oError, G2oFault, G2oFaultKind, G2oPose};
 pub use ros_map::{
     GreyMap, GreyMapError, MapCell, RosMap, RosMapError, RosMapHeader, RosMapHeaderError,
 };
+#[cfg(feature = "mcap")]
+pub use rosbag::RosBag;
+pub use sonar_table::SonarTable;
 pub use trajectory::{ReadRelations, ReadTrajectory, tum};
+pub use tuc::{PlaceMatch, TucDrive};
+pub use utias::{Sighting, UtiasRobot};

@@ -2,11 +2,16 @@
 
 mod entry;
 mod lines;
+mod reader;
+mod records;
 mod report;
 mod source;
 
-pub use entry::{LogEntry, LogOdometry, LogScan};
+pub(crate) use entry::ReadScan;
+pub use entry::{LogEntry, LogOdometry, LogScan, LogVelocity};
 pub(crate) use lines::{Line, NumberedLines};
+pub use reader::LogReader;
+pub(crate) use records::{read_records, records};
 pub use report::{KindCount, LogReport, LogTrouble, TroubleCount};
-pub use source::LogError;
 pub(crate) use source::open;
+pub use source::{LogError, is_mcap};

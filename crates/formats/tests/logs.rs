@@ -9,7 +9,7 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use proptest::prelude::*;
 use tolman_formats::{
-    CarmenReader, LogEntry, LogReport, LogScan, LogTrouble, ReadRelations, ReadTrajectory, tum,
+    LogEntry, LogReader, LogReport, LogScan, LogTrouble, ReadRelations, ReadTrajectory, tum,
 };
 
 const LOG: &str = "\
@@ -24,7 +24,7 @@ ROBOTLASER1 0 -1.57 3.14 1.57 50.0 0.01 0 3 1.0 2.0 3.0 1.1 0.5 0.1 1.0 0.5 0.1 
 ";
 
 fn read(text: &[u8]) -> (Vec<LogEntry>, LogReport) {
-    let mut reader = CarmenReader::new(text);
+    let mut reader = LogReader::new(text);
     let entries = reader.by_ref().collect();
     (entries, reader.report().clone())
 }
@@ -121,7 +121,7 @@ fn a_packed_log_that_was_cut_is_used_as_far_as_it_goes() {
     let packed = encoder.finish().unwrap();
     for (name, share, all) in [("whole.gz", 1, true), ("cut.gz", 2, false)] {
         let path = temporary(name, &packed[..packed.len() / share]);
-        let mut reader = CarmenReader::open(&path).unwrap();
+        let mut reader = LogReader::open(&path).unwrap();
         let count = reader.by_ref().count();
         assert_eq!(count == 2000, all, "{count}");
         assert!(count > 100);
@@ -139,7 +139,7 @@ fn a_file_of_something_else_is_refused_by_name() {
     );
     let error = ReadTrajectory::open(&path).unwrap_err().to_string();
     assert!(error.contains("qx"), "{error}");
-    let error = CarmenReader::open(&path.with_file_name("nowhere"))
+    let error = LogReader::open(&path.with_file_name("nowhere"))
         .err()
         .unwrap();
     assert!(error.to_string().contains("nowhere"));

@@ -5,25 +5,19 @@ use tolman_robot::{Ring, Scan};
 
 use super::parameters::{NOTHING_HIT, Parameters};
 use crate::fields::{Fields, Wrong};
-use crate::log::{LogOdometry, LogScan, LogTrouble};
-
-/// A scan, and how many of its ranges are none.
-pub(super) struct ReadScan {
-    pub(super) scan: LogScan,
-    pub(super) bad_ranges: usize,
-}
+use crate::log::{LogOdometry, LogScan, LogTrouble, ReadScan};
 
 /// More beams are those of no laser.
 const MOST_BEAMS: u32 = 100_000;
 
-pub(super) fn odometry(line: u64, fields: &mut Fields<'_>) -> Result<LogOdometry, Wrong> {
+pub(crate) fn odometry(line: u64, fields: &mut Fields<'_>) -> Result<LogOdometry, Wrong> {
     let pose = fields.pose("the pose")?;
     fields.pass(3, "a velocity")?;
     let time = fields.number("the time")?;
     Ok(LogOdometry { line, time, pose })
 }
 
-pub(super) fn front_laser(
+pub(crate) fn front_laser(
     line: u64,
     fields: &mut Fields<'_>,
     parameters: &Parameters,
@@ -45,14 +39,14 @@ pub(super) fn front_laser(
             ranges: Vec::new(),
         },
     };
-    Ok(with_ranges(scan, &ranges))
+    Ok(ReadScan::of(scan, &ranges))
 }
 
 /// Fields behind the ranges of a ROBOTLASER1 of the older age: two poses, four of velocity and safety, the time, the host, the
 /// logger's time.
 const OLDER_FIELDS: usize = 6 + 4 + 3;
 
-pub(super) fn robot_laser(line: u64, fields: &mut Fields<'_>) -> Result<ReadScan, Wrong> {
+pub(crate) fn robot_laser(line: u64, fields: &mut Fields<'_>) -> Result<ReadScan, Wrong> {
     fields.pass(1, "the kind of laser")?;
     let first_bearing = fields.number("the first bearing")?;
     fields.pass(1, "the field of view")?;
@@ -89,13 +83,13 @@ pub(super) fn robot_laser(line: u64, fields: &mut Fields<'_>) -> Result<ReadScan
             ranges: Vec::new(),
         },
     };
-    Ok(with_ranges(scan, &ranges))
+    Ok(ReadScan::of(scan, &ranges))
 }
 
 /// Farther from the robot's middle no laser sits, m: such a pose is one that somebody has corrected.
 const FARTHEST_MOUNT: f64 = 0.5;
 
-fn mount(robot: Pose, laser: Pose) -> Pose {
+pub(crate) fn mount(robot: Pose, laser: Pose) -> Pose {
     let mount = robot.between(laser);
     let is_mount = mount.position.coords.norm() < FARTHEST_MOUNT;
     if is_mount { mount } else { Pose::IDENTITY }
@@ -110,13 +104,4 @@ fn ranges(fields: &mut Fields<'_>) -> Result<Vec<Option<f64>>, Wrong> {
         ));
     }
     fields.ranges(beams)
-}
-
-/// The scan with its ranges, of which those too long have hit nothing.
-fn with_ranges(mut scan: LogScan, ranges: &[Option<f64>]) -> ReadScan {
-    let most = scan.scan.ring.max_range;
-    let length = |range: &Option<f64>| range.map_or(most, |range| range.min(most));
-    scan.scan.ranges = ranges.iter().map(length).collect();
-    let bad_ranges = ranges.iter().filter(|range| range.is_none()).count();
-    ReadScan { scan, bad_ranges }
 }

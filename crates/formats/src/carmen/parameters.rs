@@ -10,7 +10,7 @@ pub(super) const NOTHING_HIT: f64 = 80.0;
 
 /// What PARAM lines say of the front laser.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Parameters {
+pub(crate) struct Parameters {
     /// How far the laser sits ahead of the robot's middle, m.
     offset: Option<f64>,
     /// How far beams are apart, degrees.
@@ -19,7 +19,7 @@ pub(super) struct Parameters {
 
 impl Parameters {
     /// Takes in a line of that kind; those of other things tell nothing.
-    pub(super) fn take(&mut self, fields: &mut Fields<'_>) {
+    pub(crate) fn take(&mut self, fields: &mut Fields<'_>) {
         let (Ok(name), Ok(value)) = (fields.word("name"), fields.number("value")) else {
             return;
         };
@@ -33,7 +33,7 @@ impl Parameters {
 
     /// Returns how the beams of a FLASER with this many ranges lie: from −90° on, over half a circle as far as whole or half
     /// degrees go, so that 180 beams are 1° apart like 181, and 360 half a degree like 361.
-    pub(super) fn ring(&self, beams: u32) -> Ring {
+    pub(crate) fn ring(&self, beams: u32) -> Ring {
         let even = beams - beams % 2;
         let usual = PI / f64::from(even.max(1));
         let said = self.spacing_deg.map(f64::to_radians);
@@ -47,7 +47,7 @@ impl Parameters {
     }
 
     /// Returns where the laser sits, by the parameters if the two poses of a FLASER bear them out, else in the middle.
-    pub(super) fn robot_from_laser(&self, odometry: Pose, laser: Pose) -> Pose {
+    pub(crate) fn robot_from_laser(&self, odometry: Pose, laser: Pose) -> Pose {
         let offset = Pose::new(Point::new(self.offset.unwrap_or(0.0), 0.0), Heading::EAST);
         let off = odometry.compose(offset).between(laser);
         let agrees = off.position.coords.norm() < 0.01 && off.heading.radians().abs() < 0.01;

@@ -1,5 +1,5 @@
-use tolman_geom::Pose;
-use tolman_robot::Scan;
+use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_robot::{Scan, TimedPose, Trajectory};
 
 /// One thing that a robot noted.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +21,50 @@ pub struct LogOdometry {
     pub pose: Pose,
 }
 
+/// How fast a robot goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LogVelocity {
+    /// From when on, s.
+    pub time: f64,
+    /// Straight ahead, m/s.
+    pub forward: f64,
+    /// To its left, m/s.
+    pub left: f64,
+    /// Its turn rate, rad/s, to the left.
+    pub turn: f64,
+}
+
+impl LogVelocity {
+    /// Returns dead reckoning: where these velocities have the robot at their times, each kept until the next. It begins at the
+    /// origin, looking east. O(n).
+    #[must_use]
+    pub fn dead_reckoning(velocities: &[Self]) -> Trajectory {
+        let mut pose = Pose::IDENTITY;
+        let mut before: Option<&Self> = None;
+        let poses = velocities.iter().map(|now| {
+            if let Some(Self {
+                time,
+                forward,
+                left,
+                turn,
+            }) = before
+            {
+                let duration = (now.time - time).max(0.0);
+                // The way of an arc lies halfway between the headings at its ends.
+                let half = Heading::from_radians(0.5 * duration * turn);
+                let way = duration * Vector::new(*forward, *left);
+                let moved = Pose::new(Point::from(half.rotate(way)), half);
+                pose = pose.compose(moved);
+                pose.heading = pose.heading.turned(half.radians());
+            }
+            before = Some(now);
+            let time = now.time;
+            TimedPose { time, pose }
+        });
+        Trajectory::new(poses.collect::<Vec<_>>())
+    }
+}
+
 /// What the laser of a robot read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogScan {
@@ -37,4 +81,21 @@ pub struct LogScan {
     pub robot_from_laser: Pose,
     /// The ranges; `ring.max_range` where nothing was hit.
     pub scan: Scan,
+}
+
+/// A scan, and how many of its ranges are none.
+pub(crate) struct ReadScan {
+    pub(crate) scan: LogScan,
+    pub(crate) bad_ranges: usize,
+}
+
+impl ReadScan {
+    /// The scan with its ranges, m, of which those too long have hit nothing.
+    pub(crate) fn of(mut scan: LogScan, ranges: &[Option<f64>]) -> Self {
+        let most = scan.scan.ring.max_range;
+        let length = |range: &Option<f64>| range.map_or(most, |range| range.min(most));
+        scan.scan.ranges = ranges.iter().map(length).collect();
+        let bad_ranges = ranges.iter().filter(|range| range.is_none()).count();
+        Self { scan, bad_ranges }
+    }
 }

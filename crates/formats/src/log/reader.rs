@@ -1,19 +1,20 @@
 use std::io::BufRead;
 use std::path::Path;
 
-use super::messages::{self, ReadScan};
-use super::parameters::Parameters;
+use super::{Line, LogEntry, LogError, LogReport, LogTrouble, NumberedLines, ReadScan, open};
+use crate::carmen::{self, Parameters};
 use crate::fields::{Fields, Wrong};
-use crate::log::{self, Line, LogEntry, LogError, LogReport, LogTrouble, NumberedLines};
+use crate::wean;
 
-/// Reads a log line by line. What cannot be used is left out and told in the [report](Self::report).
+/// Reads a log of one message a line, CARMEN's and Wean Hall's, which no first word has in common. What cannot
+/// be used is left out and told in the [report](Self::report).
 ///
 /// ```
-/// use tolman_formats::{CarmenReader, LogEntry, LogTrouble};
+/// use tolman_formats::{LogReader, LogEntry, LogTrouble};
 /// let log = "ODOM 0 0 0 0 0 0 1.5 pippo 1.5\n\
 ///            FLASER 3 1.0 nan 81.9 0 0 0 0.1 0 0 2.5 pippo 2.5\n\
 ///            FLASER 3 1.0\n";
-/// let mut reader = CarmenReader::new(log.as_bytes());
+/// let mut reader = LogReader::new(log.as_bytes());
 /// let entries: Vec<LogEntry> = reader.by_ref().collect();
 /// let LogEntry::Scan(scan) = &entries[1] else { panic!() };
 /// assert_eq!(scan.scan.ranges, [1.0, 80.0, 80.0]);
@@ -21,7 +22,7 @@ use crate::log::{self, Line, LogEntry, LogError, LogReport, LogTrouble, Numbered
 /// assert_eq!(reader.report().count(LogTrouble::Cut), 1);
 /// ```
 #[derive(Debug)]
-pub struct CarmenReader<R> {
+pub struct LogReader<R> {
     lines: NumberedLines<R>,
     parameters: Parameters,
     report: LogReport,
@@ -32,17 +33,17 @@ pub struct CarmenReader<R> {
 /// A greater step of the clock is a jump, s.
 const JUMP_S: f64 = 60.0;
 
-impl CarmenReader<Box<dyn BufRead + Send>> {
+impl LogReader<Box<dyn BufRead + Send>> {
     /// Opens a file, plain or packed by gzip.
     ///
     /// # Errors
     /// If there is no such file.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        Ok(Self::new(log::open(path)?))
+        Ok(Self::new(open(path)?))
     }
 }
 
-impl<R: BufRead> CarmenReader<R> {
+impl<R: BufRead> LogReader<R> {
     /// Reads from `source`.
     pub fn new(source: R) -> Self {
         Self {
@@ -74,12 +75,14 @@ impl<R: BufRead> CarmenReader<R> {
                 parameters.take(&mut fields);
                 return Ok(None);
             }
-            "ODOM" => LogEntry::Odometry(messages::odometry(line, &mut fields)?),
+            "ODOM" => LogEntry::Odometry(carmen::odometry(line, &mut fields)?),
             "FLASER" => {
-                let read = messages::front_laser(line, &mut fields, parameters)?;
+                let read = carmen::front_laser(line, &mut fields, parameters)?;
                 Self::scan(report, read)
             }
-            "ROBOTLASER1" => Self::scan(report, messages::robot_laser(line, &mut fields)?),
+            "ROBOTLASER1" => Self::scan(report, carmen::robot_laser(line, &mut fields)?),
+            "O" => LogEntry::Odometry(wean::odometry(line, &mut fields)?),
+            "L" => Self::scan(report, wean::laser(line, &mut fields, parameters)?),
             _ if kind.starts_with('#') => return Ok(None),
             _ => {
                 report.met_other_kind(kind, line);
@@ -133,7 +136,7 @@ impl<R: BufRead> CarmenReader<R> {
     }
 }
 
-impl<R: BufRead> Iterator for CarmenReader<R> {
+impl<R: BufRead> Iterator for LogReader<R> {
     type Item = LogEntry;
 
     fn next(&mut self) -> Option<LogEntry> {

@@ -59,6 +59,12 @@ pub enum LogTrouble {
     ClockJump,
     /// The file cannot be read any further. What stands above is used.
     EndsEarly,
+    /// It is of a kind that is not known. Left out.
+    UnknownKind,
+    /// A scan of a time at which no odometry was told. Left out.
+    NoOdometry,
+    /// Nobody tells where the laser sits. It is taken to sit in the robot's middle.
+    NoMount,
     /// Fields stand behind the last one. It is used without them.
     TooManyFields,
 }
@@ -152,6 +158,11 @@ impl fmt::Display for LogTrouble {
             Self::BackInTime => "times before those of the line above, used in the file's order",
             Self::ClockJump => "jumps of the clock by more than a minute, used",
             Self::EndsEarly => "the file cannot be read to its end; what stands above is used",
+            Self::UnknownKind => "lines of a kind that is not known, left out",
+            Self::NoOdometry => "scans of times without odometry, left out",
+            Self::NoMount => {
+                "scans of lasers that sit nobody says where, taken for the robot's middle"
+            }
             Self::TooManyFields => {
                 "lines with more fields than they should have, used without them"
             }

@@ -1,5 +1,5 @@
 use std::fs::File;
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use flate2::bufread::MultiGzDecoder;
@@ -29,6 +29,17 @@ pub enum LogError {
 
 /// The first bytes of what gzip has packed.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
+
+/// The first bytes of an MCAP file.
+const MCAP: [u8; 8] = *b"\x89MCAP0\r\n";
+
+/// Returns whether a file begins as an MCAP file does, in which ROS 2 keeps bags.
+#[must_use]
+pub fn is_mcap(path: &Path) -> bool {
+    let mut first = [0; MCAP.len()];
+    let read = File::open(path).and_then(|mut file| file.read_exact(&mut first));
+    read.is_ok() && first == MCAP
+}
 
 /// Opens a file, plain or packed by gzip.
 pub(crate) fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, LogError> {

@@ -5,9 +5,8 @@ use std::path::Path;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_robot::{TimedPose, Trajectory};
 
-use super::relations::content;
 use crate::fields::{Fields, Wrong};
-use crate::log::{self, LogError, LogReport, NumberedLines};
+use crate::log::{self, LogError, LogReport};
 
 /// Returns a trajectory as text, one pose a line, `time x y z qx qy qz qw`: the format of the RGB-D benchmark of the Technical
 /// University of Munich, which evo and others read.
@@ -49,26 +48,16 @@ impl ReadTrajectory {
     /// # Errors
     /// If there is no such file, or it holds no pose.
     pub fn open(path: &Path) -> Result<Self, LogError> {
-        let read = Self::from_lines(log::open(path)?);
-        if read.trajectory.poses().is_empty() {
-            let what = "no line of `time x y z qx qy qz qw`";
-            return Err(read.report.nothing(path, what));
-        }
-        Ok(read)
+        let (poses, report) = log::read_records(path, "time x y z qx qy qz qw", timed)?;
+        Ok(Self {
+            trajectory: Trajectory::new(poses),
+            report,
+        })
     }
 
     /// Reads from `source`; what is no pose is left out and reported.
     pub fn from_lines(source: impl BufRead) -> Self {
-        let mut report = LogReport::default();
-        let mut poses = Vec::new();
-        let mut lines = NumberedLines::new(source);
-        while let Some((number, line)) = lines.next_line() {
-            report.lines = number;
-            match content(&line).and_then(|text| text.map(timed).transpose()) {
-                Ok(pose) => poses.extend(pose),
-                Err((trouble, what)) => report.met_trouble(trouble, number, what),
-            }
-        }
+        let (poses, report) = log::records(source, timed);
         Self {
             trajectory: Trajectory::new(poses),
             report,
@@ -76,8 +65,7 @@ impl ReadTrajectory {
     }
 }
 
-fn timed(text: &str) -> Result<TimedPose, Wrong> {
-    let mut fields = Fields::of(text);
+fn timed(fields: &mut Fields<'_>) -> Result<TimedPose, Wrong> {
     let time = fields.number("the time")?;
     let [x, y] = [fields.number("x")?, fields.number("y")?];
     fields.pass(1, "z")?;

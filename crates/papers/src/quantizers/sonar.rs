@@ -1,10 +1,7 @@
 //! A real ring of 24 sonars: what units say of what the robot did.
 
-use std::fs::File;
-use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-use flate2::read::GzDecoder;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -12,6 +9,7 @@ use rand_chacha::rand_core::SeedableRng;
 use super::any::{ROWS, quantizer};
 use crate::data;
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
+use tolman_formats::SonarTable;
 
 /// The table's name.
 pub(super) const NAME: &str = "sonar ring";
@@ -47,33 +45,16 @@ impl Log {
     }
 
     fn read(path: &Path) -> Result<Self, BoxError> {
-        let lines = BufReader::new(GzDecoder::new(File::open(path)?)).lines();
+        let table = SonarTable::read(path)?;
         let (mut readings, mut actions) = (Vec::new(), Vec::<String>::new());
-        for (number, line) in (1_u32..).zip(lines) {
-            let line = line?;
-            if line.starts_with('S') || line.trim().is_empty() {
-                continue;
-            }
-            let wrong = || {
-                format!(
-                    "{}: line {number} is not {SONARS} ranges and an action",
-                    path.display()
-                )
-            };
-            let mut ranges = [0.0; SONARS];
-            let mut columns = line.split(',');
-            for range in &mut ranges {
-                *range = columns
-                    .next()
-                    .ok_or_else(wrong)?
-                    .trim()
-                    .parse()
-                    .map_err(|_| wrong())?;
-            }
-            let action = columns.next().ok_or_else(wrong)?.trim();
-            let known = actions.iter().position(|known| known == action);
+        for (ranges, action) in table.scans.into_iter().zip(table.actions) {
+            let ranges: [f64; SONARS] = ranges.try_into().map_err(|ranges: Vec<f64>| {
+                let (path, found) = (path.display(), ranges.len());
+                format!("{path}: {found} ranges a line; give the log of {SONARS} sonars")
+            })?;
+            let known = actions.iter().position(|known| *known == action);
             let action = known.unwrap_or_else(|| {
-                actions.push(action.to_owned());
+                actions.push(action);
                 actions.len() - 1
             });
             readings.push((ranges, action));

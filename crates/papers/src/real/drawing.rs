@@ -18,6 +18,8 @@ pub struct MapPicture {
     pub corrected: Vec<Point>,
     /// What the wheels say, laid over the start of the way found.
     pub raw: Vec<Point>,
+    /// Share of the beams that end where the map has floor, 0 … 1.
+    pub contradicted: f64,
 }
 
 /// Side of a cell of the occupancy, m.
@@ -26,6 +28,8 @@ const CELL: f64 = 0.05;
 const FARTHEST: f64 = 20.0;
 /// More occupied than that is a wall, less is floor.
 const WALL: f64 = 0.25;
+/// A map is doubtful if a larger share of its beams end on floor.
+const DOUBT: f64 = 0.12;
 /// Scans are drawn that lie at least so far from the last that was, m and rad.
 const APART: (f64, f64) = (0.1, 0.1);
 
@@ -46,11 +50,20 @@ impl MapPicture {
         });
         let standing = poses.iter().map(|pose| pose.position);
         let mut occupancy = OccupancyGrid::around(ends.chain(standing), CELL);
-        for index in drawn {
-            let scan = &log.scans[index];
-            let laser = poses[index].compose(scan.robot_from_laser);
-            occupancy.add(&scan.scan, laser, FARTHEST);
+        let seen = |index: &usize| {
+            let scan = &log.scans[*index];
+            (&scan.scan, poses[*index].compose(scan.robot_from_laser))
+        };
+        for (scan, laser) in drawn.iter().map(seen) {
+            occupancy.add(scan, laser, FARTHEST);
         }
+        let counted = drawn
+            .iter()
+            .map(seen)
+            .fold([0, 0], |sum: [usize; 2], (scan, laser)| {
+                let [all, on_floor] = occupancy.contradicted(scan, laser, FARTHEST, WALL);
+                [sum[0] + all, sum[1] + on_floor]
+            });
         let odometry = log.odometry();
         let over = match (poses.first(), odometry.first()) {
             (Some(found), Some(raw)) => found.compose(raw.inverse()),
@@ -58,11 +71,23 @@ impl MapPicture {
         };
         Self {
             occupancy,
+            contradicted: counted[1] as f64 / counted[0].max(1) as f64,
             corrected: poses.iter().map(|pose| pose.position).collect(),
             raw: (odometry.iter())
                 .map(|pose| over.transform(pose.position))
                 .collect(),
         }
+    }
+
+    /// Returns what speaks against the map, in a sentence without a full stop; `None` if nothing does.
+    #[must_use]
+    pub fn doubt(&self) -> Option<String> {
+        let percent = 100.0 * self.contradicted;
+        (self.contradicted > DOUBT).then(|| {
+            format!(
+                "{percent:.1} % of all beams end where the map has floor: walls stand where they do not, or twice"
+            )
+        })
     }
 
     /// Returns the picture, `width` user units wide: occupancy below, what the wheels say as a dashed line, the way found above.
@@ -98,6 +123,11 @@ impl MapPicture {
         let pixels: Vec<u8> = rows.flatten().copied().collect();
         Image::grey(grid.columns as u32, grid.rows as u32, &pixels)
     }
+}
+
+/// Whether a cell is a wall.
+pub(super) fn is_wall(occupied: Option<f64>) -> bool {
+    occupied.is_some_and(|occupied| occupied >= WALL)
 }
 
 /// Black for walls, white for floor, grey where nothing is known.

@@ -1,8 +1,12 @@
+use alloc::collections::BTreeMap;
 use std::path::Path;
 
 use tolman_experiment::BoxError;
-use tolman_formats::{CarmenReader, LogEntry, LogReport, LogScan};
+#[cfg(feature = "mcap")]
+use tolman_formats::RosBag;
+use tolman_formats::{LogEntry, LogReader, LogReport, LogScan, is_mcap};
 use tolman_geom::Pose;
+use tolman_maps::pose_graph::PoseEdgeKind;
 use tolman_maps::scan_matching::{ScanMatching, ScanMatchingConfig, ScanStep};
 use tolman_robot::{MapView, Mapper, TimedPose, Trajectory};
 use tolman_systems::places::{PlacesConfig, PlacesError, PlacesMapper};
@@ -38,30 +42,54 @@ pub struct MappedLog {
     pub closures: usize,
     /// The numbers of the scans that the map keeps.
     pub keyframes: Vec<usize>,
+    /// The keyframes' numbers of the two ends of each closure, the earlier first.
+    pub closed: Vec<[usize; 2]>,
     /// The map of places, of a system that has one.
     pub places: MapView,
+    /// The scan at which each place was first come to, by its id.
+    pub founded: BTreeMap<u32, usize>,
 }
 
 impl RobotLog {
-    /// Reads a CARMEN log, plain or packed by gzip.
+    /// Reads a log of lines, plain or packed by gzip, or a bag of ROS 2.
     ///
     /// # Errors
-    /// If there is no such file, or it has no scan.
+    /// If there is no such file, it has no scan, or it is a bag and the feature `mcap` is off.
     pub fn read(path: &Path) -> Result<Self, BoxError> {
-        let mut reader = CarmenReader::open(path)?;
+        if is_mcap(path) {
+            return Self::read_bag(path);
+        }
+        let mut reader = LogReader::open(path)?;
         let log = Self::of(&mut reader);
         let report = reader.report().clone();
         if log.is_empty() {
             let told = report.sentences().join("; ");
             let path = path.display();
-            return Err(format!("{path}: no scan can be used; give a CARMEN log with FLASER or ROBOTLASER1 lines ({told})").into());
+            return Err(format!("{path}: no scan can be used; give a log of CARMEN with FLASER or ROBOTLASER1 lines, or one of Wean Hall ({told})").into());
         }
         Ok(Self { scans: log, report })
     }
 
-    /// Reads a CARMEN log that lies in memory.
+    #[cfg(feature = "mcap")]
+    fn read_bag(path: &Path) -> Result<Self, BoxError> {
+        let RosBag { entries, report } = RosBag::read(path)?;
+        let scans = Self::of(entries.into_iter());
+        if scans.is_empty() {
+            let told = report.sentences().join("; ");
+            return Err(format!("{}: no scan can be used ({told})", path.display()).into());
+        }
+        Ok(Self { scans, report })
+    }
+
+    #[cfg(not(feature = "mcap"))]
+    fn read_bag(path: &Path) -> Result<Self, BoxError> {
+        let path = path.display();
+        Err(format!("{path} is a bag of ROS 2; build with `--features mcap` to read it").into())
+    }
+
+    /// Reads a log of lines that lies in memory.
     pub fn of_text(text: &[u8]) -> Self {
-        let mut reader = CarmenReader::new(text);
+        let mut reader = LogReader::new(text);
         let scans = Self::of(&mut reader);
         let report = reader.report().clone();
         Self { scans, report }
@@ -99,26 +127,33 @@ impl RobotLog {
                     poses: odometry.to_vec(),
                     closures: 0,
                     keyframes: Vec::new(),
+                    closed: Vec::new(),
                     places: MapView::default(),
+                    founded: BTreeMap::new(),
                 });
             }
             LogSystem::Places => {
                 let mut mapper = PlacesMapper::new(PlacesConfig::indoor())?;
                 self.show(&mut mapper, odometry, see)?;
                 mapper.finish()?;
-                let places = mapper.map();
-                return Ok(MappedLog::of(mapper.matching(), places));
+                let mut found = MappedLog::of(mapper.matching());
+                found.places = mapper.map();
+                for site in mapper.sites() {
+                    let scan = found.keyframes.get(site.keyframe).copied();
+                    found.founded.entry(site.id).or_insert(scan.unwrap_or(0));
+                }
+                return Ok(found);
             }
             LogSystem::Matching => ScanMatching::new(config.without_closures()),
             LogSystem::ScanMatching => ScanMatching::new(config),
         };
         self.show(&mut mapper, odometry, see)?;
         mapper.finish()?;
-        Ok(MappedLog::of(&mapper, MapView::default()))
+        Ok(MappedLog::of(&mapper))
     }
 
     /// Shows a mapper the log, step by step.
-    fn show<M: Mapper<Observation = ScanStep>>(
+    pub(super) fn show<M: Mapper<Observation = ScanStep>>(
         &self,
         mapper: &mut M,
         odometry: &[Pose],
@@ -149,12 +184,18 @@ impl RobotLog {
 }
 
 impl MappedLog {
-    fn of(matching: &ScanMatching, places: MapView) -> Self {
+    fn of(matching: &ScanMatching) -> Self {
+        let edges = matching.graph().edges().iter();
+        let closures = edges.filter(|edge| edge.kind == PoseEdgeKind::Closure);
         Self {
             poses: matching.trajectory(),
             closures: matching.closures(),
             keyframes: matching.keyframes(),
-            places,
+            closed: closures
+                .map(|edge| [edge.from as usize, edge.to as usize])
+                .collect(),
+            places: MapView::default(),
+            founded: BTreeMap::new(),
         }
     }
 }

@@ -5,14 +5,19 @@ mod audit;
 mod drawing;
 mod false_closures;
 mod figures;
+mod film;
 mod gnc;
 mod graph;
+mod landmarks;
 mod log;
 mod relations;
 mod small;
 #[cfg(test)]
 mod tests;
 mod trajectories;
+mod tuc;
+mod utias;
+mod wean;
 
 use serde::Serialize;
 use tolman_draw::Figure;
@@ -74,11 +79,17 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         small::table(),
         relations::table(),
         trajectories::table(),
+        utias::table(),
+        wean::table(),
+        tuc::table(),
         audit::table(&real.graphs, options),
     ];
     let missing = [
         relations::missing(),
         trajectories::missing(),
+        utias::missing(),
+        wean::missing(),
+        tuc::missing(),
         real.graphs.missing(),
     ];
     let missing: Vec<String> = missing.into_iter().flatten().collect();
@@ -92,6 +103,9 @@ impl Procedure for Real {
             small::NAME => self.small.run(job),
             relations::NAME => self.relations.run(job),
             trajectories::NAME => trajectories::run(job),
+            utias::NAME => utias::run(job),
+            wean::NAME => wean::run(job),
+            tuc::NAME => tuc::run(job),
             audit::NAME => self.graphs.run(job),
             table => Err(format!("there is no table {table}").into()),
         }

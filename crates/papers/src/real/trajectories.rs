@@ -33,9 +33,31 @@ pub(super) const ROWS: [(&str, &str, bool); 5] = [
     ("edmonton", "logs/radish/edmonton-corrected.log.gz", false),
 ];
 
-/// How much worse the wheels of a corrected log are made: a constant turn a metre to one side, and a random one each step.
-const TURN_A_METRE_DEG: f64 = 2.0;
-const TURN_A_STEP_DEG: f64 = 1.3;
+/// How much worse the wheels of a log are made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wear {
+    /// A constant turn a metre to one side, drawn for each run, degrees.
+    turn_a_metre_deg: f64,
+    /// A random turn each step, degrees (standard deviation).
+    turn_a_step_deg: f64,
+    /// A constant share by which all ways are too long or too short, drawn for each run.
+    length: f64,
+}
+
+impl Wear {
+    /// Of a corrected log.
+    const OF_CORRECTED: Self = Self {
+        turn_a_metre_deg: 2.0,
+        turn_a_step_deg: 1.3,
+        length: 0.0,
+    };
+    /// Of raw odometry, which errs already.
+    pub(super) const OF_RAW: Self = Self {
+        turn_a_metre_deg: 2.0,
+        turn_a_step_deg: 0.0,
+        length: 0.05,
+    };
+}
 
 record! {
     /// A way through a building.
@@ -74,17 +96,30 @@ pub(super) fn table() -> Table {
         )
 }
 
-/// The wheels of a robot whose log was corrected, made worse.
-pub(super) fn worse(odometry: &[Pose], seed: u64) -> Vec<Pose> {
+/// The wheels of a robot, made worse.
+pub(super) fn worse(odometry: &[Pose], wear: Wear, seed: u64) -> Vec<Pose> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let side = if rng.random::<bool>() { 1.0 } else { -1.0 };
+    let mut side = || if rng.random::<bool>() { 1.0 } else { -1.0 };
+    let Wear {
+        turn_a_metre_deg,
+        turn_a_step_deg,
+        length,
+    } = wear;
+    let turn = turn_a_metre_deg * side();
+    let stretched = match length > 0.0 {
+        true => 1.0 + length * side(),
+        false => 1.0,
+    };
     let mut at = odometry.first().copied().unwrap_or(Pose::IDENTITY);
     let mut worse = vec![at];
     for pair in odometry.windows(2) {
         let step = pair[0].between(pair[1]);
-        let off = side * TURN_A_METRE_DEG * step.position.coords.norm()
-            + TURN_A_STEP_DEG * gaussian(&mut rng);
-        let turned = Pose::new(step.position, step.heading.turned(off.to_radians()));
+        let random = turn_a_step_deg * gaussian(&mut rng);
+        let off = turn * step.position.coords.norm() + random;
+        let turned = Pose::new(
+            step.position * stretched,
+            step.heading.turned(off.to_radians()),
+        );
         at = at.compose(turned);
         worse.push(at);
     }
@@ -106,7 +141,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let truth: Vec<Pose> = log.scans.iter().map(|scan| scan.noted).collect();
     let odometry = match is_raw {
         true => log.odometry(),
-        false => worse(&log.odometry(), job.seed),
+        false => worse(&log.odometry(), Wear::OF_CORRECTED, job.seed),
     };
     let matching = log.map(LogSystem::Matching, &odometry, |_| {})?;
     let dense = log.map(LogSystem::ScanMatching, &odometry, |_| {})?;

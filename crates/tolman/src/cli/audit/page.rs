@@ -70,7 +70,7 @@ fn picture(audited: &Audited<'_>, laid_out: &PoseGraph) -> Figure {
     plan.segments(&lines(&undecided), false, UNDECIDED);
     plan.segments(&lines(&ClosureVerdict::is_supported), false, SUPPORTED);
     Figure::new("graph", "The graph by what is supported.", plan.drawing(audited.counted())).caption(
-        "Blue the way by odometry and supported closures, green supported closures (short where the poses meet), yellow undecided ones, red dashes refuted ones.",
+        "Blue the way by odometry and supported closures, green supported closures (short where the poses meet), yellow undecided ones, orange dashes refuted ones.",
     )
 }
 

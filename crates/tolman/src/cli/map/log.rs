@@ -6,15 +6,16 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use clap::ValueEnum;
-use tolman_draw::Figure;
+use tolman_draw::{Figure, Page, PageTable};
 use tolman_formats::{dot, graphml, node_link_json, route_geojson, tum};
 use tolman_papers::real::{LogSystem, MapPicture, MappedLog, RobotLog, ros_map};
 
 use crate::cli::bar::bar;
-use crate::cli::{Failure, OrBadInput, file};
+use crate::cli::replay_file::{self, Overwrite};
+use crate::cli::{Failure, OrBadInput, called, file};
 
 pub(super) const EXAMPLES: &str = "\
-Into the folder go map.svg (occupancy, and both ways over it), trajectory.tum, odometry.tum and noted.tum (the way found, by the wheels, and as
+Into the folder go report.html, replay.html (the log played beside its map), map.svg (occupancy, and both ways over it), trajectory.tum, odometry.tum and noted.tum (the way found, by the wheels, and as
 the log notes it: time x y z qx qy qz qw, as evo reads them), and map.yaml with map.pgm, as map_server of ROS and `tolman run --world` read them; of a map of
 places also places.graphml, places.dot, places.json (node-link, as networkx reads it) and places.geojson (for nav2_route).
 
@@ -27,7 +28,7 @@ Examples:
 #[derive(clap::Args)]
 #[group(skip)]
 pub(super) struct Arguments {
-    /// The log, in the format of CARMEN, plain or packed by gzip
+    /// The log: CARMEN's or Wean Hall's lines, plain or packed by gzip, or a bag of ROS 2 (MCAP; feature `mcap`)
     #[arg(long, value_name = "FILE", required = true)]
     log: Option<PathBuf>,
     /// What finds the way
@@ -67,12 +68,24 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         writeln!(out, "{sentence}")?;
     }
     let found = found(&log, *system)?;
-    write_all(folder, &log, &found)?;
-    for line in sentences(&found) {
+    let picture = MapPicture::of(&log, &found.poses);
+    let told = sentences(&found);
+    let mapped = Mapped {
+        path,
+        log: &log,
+        found: &found,
+        picture: &picture,
+        told: &told,
+    };
+    mapped.write_all(folder)?;
+    for line in &told {
         writeln!(out, "{line}")?;
     }
-    writeln!(out, "The map: {}", folder.join("map.svg").display())?;
-    Ok(())
+    writeln!(out, "The report: {}", folder.join("report.html").display())?;
+    match picture.doubt() {
+        None => Ok(()),
+        Some(doubt) => Err(Failure::Failed(anyhow!("the map is doubtful: {doubt}"))),
+    }
 }
 
 /// What was found, a line each.
@@ -111,32 +124,82 @@ fn found(log: &RobotLog, system: System) -> Result<MappedLog, Failure> {
     found.or_bad_input()
 }
 
-fn write_all(folder: &Path, log: &RobotLog, found: &MappedLog) -> Result<(), Failure> {
-    fs::create_dir_all(folder).with_context(|| {
-        let folder = folder.display();
-        format!("cannot make {folder}: give a folder in one that can be written to")
-    })?;
-    let write = |name: &str, contents: &[u8]| file::write(&folder.join(name), contents);
-    let noted: Vec<_> = log.scans.iter().map(|scan| scan.noted).collect();
-    for (name, poses) in [
-        ("trajectory.tum", &found.poses),
-        ("odometry.tum", &log.odometry()),
-        ("noted.tum", &noted),
-    ] {
-        write(name, tum(&log.trajectory(poses)).as_bytes())?;
+/// All that there is to be written.
+struct Mapped<'a> {
+    path: &'a Path,
+    log: &'a RobotLog,
+    found: &'a MappedLog,
+    picture: &'a MapPicture,
+    /// What was found, a line each.
+    told: &'a [String],
+}
+
+impl Mapped<'_> {
+    fn write_all(&self, folder: &Path) -> Result<(), Failure> {
+        fs::create_dir_all(folder).with_context(|| {
+            let folder = folder.display();
+            format!("cannot make {folder}: give a folder in one that can be written to")
+        })?;
+        let Self { log, found, .. } = self;
+        let write = |name: &str, contents: &[u8]| file::write(&folder.join(name), contents);
+        let noted: Vec<_> = log.scans.iter().map(|scan| scan.noted).collect();
+        for (name, poses) in [
+            ("trajectory.tum", &found.poses),
+            ("odometry.tum", &log.odometry()),
+            ("noted.tum", &noted),
+        ] {
+            write(name, tum(&log.trajectory(poses)).as_bytes())?;
+        }
+        if !found.places.places.is_empty() {
+            write("places.graphml", graphml(&found.places).as_bytes())?;
+            write("places.json", node_link_json(&found.places).as_bytes())?;
+            write("places.geojson", route_geojson(&found.places).as_bytes())?;
+            write("places.dot", dot(&found.places).as_bytes())?;
+        }
+        let map = ros_map(&self.picture.occupancy);
+        write("map.yaml", map.yaml("map.pgm").as_bytes())?;
+        write("map.pgm", &map.pgm())?;
+        let title = format!("The way found in {}", self.name());
+        let figure = Figure::new("map", title, self.picture.drawing(WIDTH)?);
+        write("map.svg", figure.standalone().as_bytes())?;
+        write("report.html", self.report(&figure).as_bytes())?;
+        let replay = found.replay(log, self.picture, &self.name());
+        replay_file::write(&folder.join("replay.html"), replay, Overwrite::Anything)
     }
-    if !found.places.places.is_empty() {
-        write("places.graphml", graphml(&found.places).as_bytes())?;
-        write("places.json", node_link_json(&found.places).as_bytes())?;
-        write("places.geojson", route_geojson(&found.places).as_bytes())?;
-        write("places.dot", dot(&found.places).as_bytes())?;
+
+    fn name(&self) -> String {
+        let name = self.path.file_name().unwrap_or_default();
+        name.to_string_lossy().into_owned()
     }
-    let picture = MapPicture::of(log, &found.poses);
-    let map = ros_map(&picture.occupancy);
-    write("map.yaml", map.yaml("map.pgm").as_bytes())?;
-    write("map.pgm", &map.pgm())?;
-    let figure = Figure::new("map", "The way found in a log", picture.drawing(WIDTH)?);
-    write("map.svg", figure.standalone().as_bytes())
+
+    fn report(&self, figure: &Figure) -> String {
+        let Self { log, found, .. } = self;
+        let verdict = match self.picture.doubt() {
+            None => "Nothing that the laser read speaks against the map.".to_owned(),
+            Some(doubt) => format!("The map is doubtful: {doubt}."),
+        };
+        let way: f64 = (found.poses.windows(2))
+            .map(|pair| (pair[1].position - pair[0].position).norm())
+            .sum();
+        let mut page = Page::new(format!("The map of {}", self.name()))
+            .fact("scans", log.scans.len().to_string())
+            .fact("way", format!("{way:.0} m"))
+            .fact("closures", found.closures.to_string())
+            .fact(
+                "beams that end on floor",
+                format!("{:.1} %", 100.0 * self.picture.contradicted),
+            )
+            .text(verdict)
+            .figure(figure)
+            .text("replay.html plays the log: what the laser read, the map as it grew, and the way by the wheels.");
+        let all = self.told.iter().cloned().chain(log.report.sentences());
+        let rows = all.fold(
+            PageTable::new("What was read and found", ["in words"]),
+            |table, line| table.row([line]),
+        );
+        page = page.table(&rows);
+        page.text(format!("Made by {}", called::command())).html()
+    }
 }
 
 /// Of the picture, in user units.

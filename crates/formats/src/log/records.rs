@@ -1,0 +1,53 @@
+use std::io::BufRead;
+use std::path::Path;
+
+use super::{Line, LogError, LogReport, LogTrouble, NumberedLines, open};
+use crate::fields::{Fields, Wrong};
+
+/// What a file holds of which each line says one thing, and how it was read.
+pub(crate) type Records<T> = (Vec<T>, LogReport);
+
+/// Reads a file, plain or packed by gzip, whose lines `parse` understands; `what` it is to hold.
+///
+/// # Errors
+/// If there is no such file, or no line says anything.
+pub(crate) fn read_records<T>(
+    path: &Path,
+    what: &str,
+    parse: impl Fn(&mut Fields<'_>) -> Result<T, Wrong>,
+) -> Result<Records<T>, LogError> {
+    let (records, report) = records(open(path)?, parse);
+    match records.is_empty() {
+        true => Err(report.nothing(path, &format!("no line of `{what}`"))),
+        false => Ok((records, report)),
+    }
+}
+
+/// Reads from `source`; a line that `parse` does not understand is left out and reported. Empty lines and comments say
+/// nothing.
+pub(crate) fn records<T>(
+    source: impl BufRead,
+    parse: impl Fn(&mut Fields<'_>) -> Result<T, Wrong>,
+) -> Records<T> {
+    let (mut records, mut report) = (Vec::new(), LogReport::default());
+    let mut lines = NumberedLines::new(source);
+    while let Some((number, line)) = lines.next_line() {
+        report.lines = number;
+        let content = content(&line).map(|text| text.map(Fields::of));
+        match content.and_then(|fields| fields.map(|mut fields| parse(&mut fields)).transpose()) {
+            Ok(record) => records.extend(record),
+            Err((trouble, what)) => report.met_trouble(trouble, number, what),
+        }
+    }
+    (records, report)
+}
+
+/// The text of a line that is neither empty nor a comment.
+fn content<'a>(line: &Line<'a>) -> Result<Option<&'a str>, Wrong> {
+    match line {
+        Line::Text(text) => Ok((!text.is_empty() && !text.starts_with('#')).then_some(*text)),
+        Line::NoText => Err((LogTrouble::NoText, String::new())),
+        Line::TooLong => Err((LogTrouble::TooLong, String::new())),
+        Line::Lost(kind) => Err((LogTrouble::EndsEarly, kind.to_string())),
+    }
+}

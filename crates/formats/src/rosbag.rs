@@ -1,0 +1,244 @@
+//! Bags of ROS 2 in MCAP files: laser scans, odometry, and where the laser sits.
+//!
+//! Read are `sensor_msgs/msg/LaserScan`, `nav_msgs/msg/Odometry`, and of `tf2_msgs/msg/TFMessage` the topic `/tf_static`.
+//! All else is counted and left out, and so are a second laser and a second odometry.
+//!
+//! Sources: the format's specification (mcap.dev), and the interface definitions of ROS 2.
+
+mod messages;
+mod mounts;
+
+use alloc::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::Path;
+
+use mcap::records::Record;
+use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::{McapResult, parse_record};
+use tolman_geom::Pose;
+use tolman_robot::{TimedPose, Trajectory};
+
+use crate::log::{LogEntry, LogError, LogOdometry, LogReport, LogScan, LogTrouble};
+use messages::{Decoded, LaserScan, Odometry, Transforms, decode};
+use mounts::Mounts;
+
+/// A longer record is none of a bag of scans, bytes.
+const LONGEST: usize = 1 << 26;
+
+const SCAN: &str = "sensor_msgs/msg/LaserScan";
+const ODOMETRY: &str = "nav_msgs/msg/Odometry";
+const TRANSFORMS: &str = "tf2_msgs/msg/TFMessage";
+
+/// What a bag holds. Entries are in the order of the file; instead of a line, the number of the message stands, from 1.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RosBag {
+    /// Scans and odometry. A scan before the first odometry or after the last is left out.
+    pub entries: Vec<LogEntry>,
+    /// How it was read.
+    pub report: LogReport,
+}
+
+/// A scan whose place is not known yet.
+struct PlacelessScan {
+    number: u64,
+    topic: String,
+    scan: LaserScan,
+}
+
+#[derive(Default)]
+struct Reader {
+    report: LogReport,
+    /// By id: what messages are.
+    schemas: BTreeMap<u16, String>,
+    /// By id: the topic, and what its messages are.
+    channels: BTreeMap<u16, [String; 2]>,
+    scans: Vec<PlacelessScan>,
+    odometry: Vec<LogOdometry>,
+    /// The topics of the scans and of the odometry, once one was met.
+    topics: [Option<String>; 2],
+    /// The frame whose pose the odometry tells.
+    base: String,
+    mounts: Mounts,
+}
+
+impl RosBag {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// If it cannot be opened, or nothing in it can be used.
+    pub fn read(path: &Path) -> Result<Self, LogError> {
+        let file = File::open(path).map_err(|source| LogError::File {
+            path: path.to_owned(),
+            source,
+        })?;
+        let bag = Self::of(BufReader::new(file));
+        match bag.entries.is_empty() {
+            true => Err(bag.report.nothing(path, "no scan with odometry")),
+            false => Ok(bag),
+        }
+    }
+
+    /// Reads from `source`; what cannot be used is left out and reported.
+    #[must_use]
+    pub fn of(source: impl Read) -> Self {
+        let mut reader = Reader::default();
+        if let Err(error) = reader.take_all(source) {
+            let number = reader.report.lines + 1;
+            let what = error.to_string();
+            reader
+                .report
+                .met_trouble(LogTrouble::EndsEarly, number, what);
+        }
+        reader.finish()
+    }
+}
+
+impl Reader {
+    /// Takes in all messages, up to the end or to what cannot be read.
+    fn take_all(&mut self, mut source: impl Read) -> McapResult<()> {
+        let options = LinearReaderOptions::default()
+            .with_record_length_limit(LONGEST)
+            .with_validate_chunk_crcs(true)
+            .with_skip_end_magic(true);
+        let mut reader = LinearReader::new_with_options(options);
+        while let Some(event) = reader.next_event() {
+            match event? {
+                LinearReadEvent::ReadRequest(needed) => {
+                    let read = source.read(reader.insert(needed))?;
+                    reader.notify_read(read);
+                }
+                LinearReadEvent::Record { data, opcode } => match parse_record(opcode, data)? {
+                    Record::Schema { header, .. } => {
+                        self.schemas.insert(header.id, header.name);
+                    }
+                    Record::Channel(channel) => {
+                        let kind = self.schemas.get(&channel.schema_id).cloned();
+                        let kind = kind.unwrap_or_else(|| "no schema".to_owned());
+                        self.channels.insert(channel.id, [channel.topic, kind]);
+                    }
+                    Record::Message { header, data } => {
+                        self.report.lines += 1;
+                        let channel = self.channels.get(&header.channel_id).cloned();
+                        let [topic, kind] = channel.unwrap_or_default();
+                        self.take(&topic, &kind, &data);
+                    }
+                    _ => {}
+                },
+            }
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, topic: &str, kind: &str, data: &[u8]) {
+        let number = self.report.lines;
+        let taken = match kind {
+            SCAN if self.is_first(0, topic) => decode(data).map(|Decoded(scan)| {
+                let topic = topic.to_owned();
+                self.scans.push(PlacelessScan {
+                    number,
+                    topic,
+                    scan,
+                });
+            }),
+            ODOMETRY if self.is_first(1, topic) => {
+                decode(data).map(|Decoded(odometry)| self.moved(number, odometry))
+            }
+            TRANSFORMS if topic.ends_with("tf_static") => {
+                decode(data).map(|Decoded(Transforms { transforms })| {
+                    self.mounts.extend(transforms);
+                })
+            }
+            _ => {
+                self.report
+                    .met_other_kind(&format!("{topic} ({kind})"), number);
+                return;
+            }
+        };
+        if let Err(what) = taken {
+            self.report.met_trouble(LogTrouble::Cut, number, what);
+        }
+    }
+
+    /// Whether a topic is the one that is read of its kind: the first that was met.
+    fn is_first(&mut self, kind: usize, topic: &str) -> bool {
+        self.topics[kind].get_or_insert_with(|| topic.to_owned()) == topic
+    }
+
+    fn moved(&mut self, number: u64, odometry: Odometry) {
+        let pose = odometry.pose();
+        if !pose.is_finite() {
+            let what = "a pose that is no number";
+            self.report.met_trouble(LogTrouble::NoNumber, number, what);
+            return;
+        }
+        self.base = odometry.child_frame_id;
+        self.odometry.push(LogOdometry {
+            line: number,
+            time: odometry.header.stamp.seconds(),
+            pose,
+        });
+    }
+
+    fn finish(mut self) -> RosBag {
+        let timed = self.odometry.iter().map(|moved| TimedPose {
+            time: moved.time,
+            pose: moved.pose,
+        });
+        let way = Trajectory::new(timed.collect::<Vec<_>>());
+        let mut entries: Vec<LogEntry> = Vec::new();
+        for placeless in core::mem::take(&mut self.scans) {
+            entries.extend(self.placed(placeless, &way).map(LogEntry::Scan));
+        }
+        self.report.odometry = self.odometry.len() as u64;
+        entries.extend(self.odometry.drain(..).map(LogEntry::Odometry));
+        entries.sort_by_key(|entry| match entry {
+            LogEntry::Odometry(odometry) => odometry.line,
+            LogEntry::Scan(scan) => scan.line,
+        });
+        RosBag {
+            entries,
+            report: self.report,
+        }
+    }
+
+    /// A scan with where the odometry had the robot then.
+    fn placed(&mut self, placeless: PlacelessScan, way: &Trajectory) -> Option<LogScan> {
+        let PlacelessScan {
+            number,
+            topic,
+            scan,
+        } = placeless;
+        let time = scan.header.stamp.seconds();
+        let Some(odometry) = way.at(time) else {
+            let what = format!("{topic} at {time:.3} s, when no odometry was told");
+            self.report
+                .met_trouble(LogTrouble::NoOdometry, number, what);
+            return None;
+        };
+        let mount = self.mounts.of(&self.base, &scan.header.frame_id);
+        let robot_from_laser = mount.unwrap_or_else(|| {
+            let what = format!("{topic}: {}", scan.header.frame_id);
+            self.report.met_trouble(LogTrouble::NoMount, number, what);
+            Pose::IDENTITY
+        });
+        let Some((scan, bad_ranges)) = scan.scan() else {
+            let what = format!("{topic}: angles that are no numbers");
+            self.report.met_trouble(LogTrouble::NoNumber, number, what);
+            return None;
+        };
+        if bad_ranges > 0 {
+            let what = format!("{bad_ranges} of {}", scan.ranges.len());
+            self.report.met_trouble(LogTrouble::NoRange, number, what);
+        }
+        self.report.scans += 1;
+        Some(LogScan {
+            line: number,
+            time,
+            odometry,
+            noted: odometry,
+            robot_from_laser,
+            scan,
+        })
+    }
+}

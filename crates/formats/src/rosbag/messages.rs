@@ -1,0 +1,128 @@
+//! Messages of ROS 2 in the common data representation (CDR), as far as they are needed.
+
+use byteorder::{BigEndian, LittleEndian};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use tolman_geom::{Heading, Point, Pose};
+use tolman_robot::{Ring, Scan};
+
+/// A message that was decoded.
+pub(super) struct Decoded<T>(pub(super) T);
+
+#[derive(Deserialize)]
+pub(super) struct Header {
+    pub(super) stamp: Stamp,
+    pub(super) frame_id: String,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Stamp {
+    sec: i32,
+    nanosec: u32,
+}
+
+#[derive(Deserialize)]
+pub(super) struct LaserScan {
+    pub(super) header: Header,
+    angle_min: f32,
+    _angle_max: f32,
+    angle_increment: f32,
+    _time_increment: f32,
+    _scan_time: f32,
+    range_min: f32,
+    range_max: f32,
+    ranges: Vec<f32>,
+}
+
+/// What comes after the pose is not read.
+#[derive(Deserialize)]
+pub(super) struct Odometry {
+    pub(super) header: Header,
+    pub(super) child_frame_id: String,
+    position: [f64; 3],
+    orientation: [f64; 4],
+}
+
+#[derive(Deserialize)]
+pub(super) struct Transforms {
+    pub(super) transforms: Vec<Transform>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Transform {
+    pub(super) header: Header,
+    pub(super) child_frame_id: String,
+    translation: [f64; 3],
+    rotation: [f64; 4],
+}
+
+/// Bytes before a message that tell its byte order.
+const ENCAPSULATION: usize = 4;
+
+/// Reads a message; what comes after its last field is left.
+pub(super) fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<Decoded<T>, String> {
+    let (head, body) = bytes
+        .split_at_checked(ENCAPSULATION)
+        .ok_or("a message of less than four bytes")?;
+    let decoded = match head[1] & 1 {
+        1 => cdr_encoding::from_bytes::<T, LittleEndian>(body),
+        _ => cdr_encoding::from_bytes::<T, BigEndian>(body),
+    };
+    match decoded {
+        Ok((message, _)) => Ok(Decoded(message)),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+impl Stamp {
+    /// Returns the time, s.
+    pub(super) fn seconds(&self) -> f64 {
+        f64::from(self.sec) + 1e-9 * f64::from(self.nanosec)
+    }
+}
+
+impl LaserScan {
+    /// Returns the scan, and how many of its ranges are none; `None` if its angles are none. What is nearer than the
+    /// laser sees or farther has hit nothing.
+    pub(super) fn scan(&self) -> Option<(Scan, usize)> {
+        let (first, spacing, most) = (self.angle_min, self.angle_increment, self.range_max);
+        let are_numbers =
+            first.is_finite() && spacing.is_finite() && most.is_finite() && most > 0.0;
+        if !are_numbers || self.ranges.is_empty() {
+            return None;
+        }
+        let max_range = f64::from(most);
+        let seen = self.range_min..=most;
+        let length = |range: &f32| match seen.contains(range) {
+            true => f64::from(*range),
+            false => max_range,
+        };
+        let ring = Ring {
+            beams: u32::try_from(self.ranges.len()).ok()?,
+            first_bearing: f64::from(first),
+            spacing: f64::from(spacing),
+            max_range,
+        };
+        let bad = self.ranges.iter().filter(|range| range.is_nan()).count();
+        let ranges = self.ranges.iter().map(length).collect();
+        Some((Scan { ring, ranges }, bad))
+    }
+}
+
+impl Odometry {
+    pub(super) fn pose(&self) -> Pose {
+        pose(self.position, self.orientation)
+    }
+}
+
+impl Transform {
+    pub(super) fn pose(&self) -> Pose {
+        pose(self.translation, self.rotation)
+    }
+}
+
+/// What of a pose lies on the floor.
+fn pose([x, y, _]: [f64; 3], [qx, qy, qz, qw]: [f64; 4]) -> Pose {
+    let yaw = libm::atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz));
+    Pose::new(Point::new(x, y), Heading::from_radians(yaw))
+}

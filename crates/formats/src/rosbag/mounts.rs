@@ -1,0 +1,42 @@
+use alloc::collections::BTreeMap;
+
+use tolman_geom::Pose;
+
+use super::messages::Transform;
+
+/// Where parts of a robot sit on each other.
+#[derive(Default)]
+pub(super) struct Mounts {
+    /// By a part: the one it sits on, and where.
+    parents: BTreeMap<String, (String, Pose)>,
+}
+
+/// Parts that one sits on, one above the other; more are a circle.
+const MOST: usize = 32;
+
+impl Mounts {
+    pub(super) fn extend(&mut self, transforms: Vec<Transform>) {
+        for transform in transforms {
+            let pose = transform.pose();
+            if pose.is_finite() {
+                let parent = transform.header.frame_id;
+                self.parents
+                    .insert(transform.child_frame_id, (parent, pose));
+            }
+        }
+    }
+
+    /// Returns where `part` sits on `base`, if that is known.
+    pub(super) fn of(&self, base: &str, part: &str) -> Option<Pose> {
+        let (mut pose, mut part) = (Pose::IDENTITY, part);
+        for _ in 0..MOST {
+            if part == base {
+                return Some(pose);
+            }
+            let (parent, on_parent) = self.parents.get(part)?;
+            pose = on_parent.compose(pose);
+            part = parent;
+        }
+        None
+    }
+}

@@ -1,0 +1,151 @@
+//! A map of landmarks that a robot recognizes, made of dead reckoning and of how far and which way they were seen.
+
+use alloc::collections::BTreeMap;
+
+use tolman_formats::{LogVelocity, Sighting};
+use tolman_geom::nalgebra::{Matrix3, Vector3};
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maps::pose_graph::{OptimizerConfig, PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
+use tolman_robot::{TimedPose, Trajectory};
+
+/// Time between two poses of the robot that are kept, s.
+const STEP_S: f64 = 1.0;
+/// Poses between two times that all are made to agree.
+const ROUND: usize = 60;
+/// A range errs by so much, m, and a bearing by so much, rad (standard deviations).
+const RANGE_ERROR: f64 = 0.15;
+const BEARING_ERROR: f64 = 0.05;
+/// Dead reckoning errs in each step by so much, m and rad, and by a share of the way and of the turn.
+const STEP_ERROR: [f64; 2] = [0.01, 0.01];
+const WAY_ERROR: f64 = 0.1;
+/// Which way a landmark looks means nothing.
+const NO_HEADING: f64 = 1e-6;
+
+/// Where a robot was, and where landmarks are, in the frame of its first pose.
+#[derive(Clone, Debug)]
+pub(super) struct LandmarkMap {
+    /// The robot's poses, one a second.
+    pub(super) way: Vec<TimedPose>,
+    /// The landmarks.
+    pub(super) landmarks: BTreeMap<u32, Point>,
+}
+
+impl LandmarkMap {
+    /// Maps what a robot noted: poses and landmarks are those of a pose graph that agree best with wheels and sightings.
+    pub(super) fn of(
+        odometry: &[LogVelocity],
+        sightings: &[Sighting],
+    ) -> Result<Self, PoseGraphError> {
+        let reckoned = LogVelocity::dead_reckoning(odometry);
+        let times = steps_of(&reckoned);
+        let mut seen = sightings.iter().filter(|one| one.is_landmark()).peekable();
+        let mut graph = PoseGraph::new();
+        let mut robot: Vec<u32> = Vec::new();
+        let mut landmarks: BTreeMap<u32, u32> = BTreeMap::new();
+        let mut before = Pose::IDENTITY;
+        for (index, time) in times.iter().enumerate() {
+            let Some(now) = reckoned.at(*time) else {
+                continue;
+            };
+            let here = step(&mut graph, robot.last().copied(), before.between(now))?;
+            robot.push(here);
+            before = now;
+            while let Some(one) = seen.next_if(|one| one.time < time + 0.5 * STEP_S) {
+                let Some(then) = reckoned.at(one.time) else {
+                    continue;
+                };
+                see(&mut graph, here, &mut landmarks, now.between(then), one)?;
+            }
+            if (index + 1) % ROUND == 0 {
+                graph.optimize(&on_the_way());
+            }
+        }
+        graph.optimize(&OptimizerConfig::robust());
+        let pose = |id: u32| graph.poses()[id as usize];
+        let way = times.iter().zip(&robot);
+        Ok(Self {
+            way: way
+                .map(|(&time, &id)| TimedPose {
+                    time,
+                    pose: pose(id),
+                })
+                .collect(),
+            landmarks: landmarks
+                .iter()
+                .map(|(&name, &id)| (name, pose(id).position))
+                .collect(),
+        })
+    }
+}
+
+/// How poses are made to agree while there are more to come: nearly.
+const fn on_the_way() -> OptimizerConfig {
+    OptimizerConfig {
+        most_steps: 4,
+        most_iterations: 100,
+        ..OptimizerConfig::robust()
+    }
+}
+
+/// The times of the poses that are kept, s.
+pub(super) fn steps_of(reckoned: &Trajectory) -> Vec<f64> {
+    let (Some(first), Some(last)) = (reckoned.poses().first(), reckoned.poses().last()) else {
+        return Vec::new();
+    };
+    let count = ((last.time - first.time) / STEP_S) as u32;
+    (0..=count)
+        .map(|number| first.time + STEP_S * f64::from(number))
+        .collect()
+}
+
+/// Adds a pose that the wheels have led to, and returns its id.
+fn step(graph: &mut PoseGraph, before: Option<u32>, moved: Pose) -> Result<u32, PoseGraphError> {
+    let Some(before) = before else {
+        return Ok(graph.add_pose(Pose::IDENTITY));
+    };
+    let here = graph.add_pose(graph.poses()[before as usize].compose(moved));
+    let [least, least_turn] = STEP_ERROR;
+    let error = least + WAY_ERROR * moved.position.coords.norm();
+    let turn = least_turn + WAY_ERROR * moved.heading.radians().abs();
+    graph.add_edge(PoseEdge {
+        from: before,
+        to: here,
+        measured: moved,
+        information: information([error, error, turn]),
+        kind: PoseEdgeKind::Odometry,
+    })?;
+    Ok(here)
+}
+
+/// Adds a landmark that was seen from where the robot had `moved` to since the pose `here`.
+fn see(
+    graph: &mut PoseGraph,
+    here: u32,
+    landmarks: &mut BTreeMap<u32, u32>,
+    moved: Pose,
+    seen: &Sighting,
+) -> Result<(), PoseGraphError> {
+    // The axes of the error are along the ray and across it.
+    let bearing = moved.heading.turned(seen.bearing);
+    let position = moved.position + seen.range * bearing.unit();
+    let measured = Pose::new(position, bearing);
+    let landmark = *landmarks.entry(seen.subject).or_insert_with(|| {
+        let there = graph.poses()[here as usize].compose(measured);
+        graph.add_pose(Pose::new(there.position, Heading::EAST))
+    });
+    let across = RANGE_ERROR.min(0.02 + BEARING_ERROR * seen.range);
+    let mut information = information([RANGE_ERROR, across, 1.0]);
+    information[(2, 2)] = NO_HEADING;
+    graph.add_edge(PoseEdge {
+        from: here,
+        to: landmark,
+        measured,
+        information,
+        // A barcode may be misread.
+        kind: PoseEdgeKind::Closure,
+    })
+}
+
+fn information(errors: [f64; 3]) -> Matrix3<f64> {
+    Matrix3::from_diagonal(&Vector3::from(errors).map(|error| 1.0 / (error * error)))
+}

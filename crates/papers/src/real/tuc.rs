@@ -1,0 +1,170 @@
+//! A corridor whose places look alike: which of the matches of an image to older ones are true.
+
+use alloc::collections::BTreeMap;
+
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
+use tolman_formats::{LogVelocity, PlaceMatch, TucDrive};
+use tolman_geom::Pose;
+use tolman_geom::nalgebra::{Matrix3, Vector3};
+use tolman_maps::audit::{AuditConfig, audit};
+use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
+use tolman_robot::Trajectory;
+
+use super::relations::file;
+use crate::data;
+
+/// The table's name.
+pub(super) const NAME: &str = "tuc";
+
+const DRIVE: &str = "logs/tuc-slam/Corridor_Input.txt.gz";
+const TRUTH: &str = "logs/tuc-slam/Corridor_GT.txt.gz";
+
+/// A row, and how alike places are at least that are looked at.
+const ROWS: [(&str, f64); 5] = [
+    ("alike by 0.1", 0.1),
+    ("alike by 0.2", 0.2),
+    ("alike by 0.3", 0.3),
+    ("alike by 0.5", 0.5),
+    ("alike by 0.7", 0.7),
+];
+
+/// A match is true if the robot was nowhere farther apart at its two times, m.
+const TRUE_M: f64 = 2.0;
+/// A camera recognizes a place from so far off, m and rad (standard deviations).
+const SEEN: [f64; 3] = [0.5, 0.5, 0.1];
+/// Dead reckoning errs by so much in each stretch, m and rad, and by a share of the way.
+const STRETCH: [f64; 2] = [0.02, 0.005];
+const WAY_ERROR: f64 = 0.05;
+/// Poses near by lie at most so far off, m: places that look alike lie far from each other.
+const NEAR: f64 = 30.0;
+
+record! {
+    /// Matches that were accepted.
+    struct TucRun {
+        /// Matches that are looked at.
+        matches: usize => neither("matches").decimals(0),
+        /// Share of them that are true, %.
+        true_percent: f64 => neither("true").unit("%").decimals(1),
+        /// Matches that other matches support.
+        accepted: usize => neither("accepted").decimals(0),
+        /// Share of the accepted that are true, 0 … 1.
+        precision: f64 => higher("precision").decimals(4),
+        /// Share of all true matches of the data set that are accepted, 0 … 1.
+        recall: f64 => higher("recall").decimals(3),
+    }
+}
+
+/// What to tell where the drive is not here.
+pub(super) fn missing() -> Option<String> {
+    let here = [DRIVE, TRUTH].iter().all(|name| file(name).is_some());
+    (!here).then(|| data::missing("the corridor of Chemnitz"))
+}
+
+pub(super) fn table() -> Table {
+    let row = |(name, _): (&str, f64)| match missing() {
+        Some(missing) => Row::new(name).missing(missing),
+        None => Row::new(name).runs(1),
+    };
+    Table::of::<TucRun>(NAME, "A corridor of places that look alike")
+        .metrics_from(TucRun::matches)
+        .rows(ROWS.map(row))
+        .note(
+            "864 m to and fro. Matches say that two places look alike, and how much; true is one whose places lie within 2 m. Accepted is what \
+             the audit of closures supports: matches that agree with each other by dead reckoning. Recall is of all true matches of the data set.",
+        )
+}
+
+pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
+    let named = ROWS.iter().find(|(name, _)| *name == job.row);
+    let (_, least) = named.ok_or_else(|| format!("there is no row {}", job.row))?;
+    let read = |name| file(name).ok_or("the corridor of Chemnitz is gone");
+    let drive = TucDrive::read(&read(DRIVE)?)?;
+    let truth = TucDrive::read_truth(&read(TRUTH)?)?;
+    let is_true = |one: &PlaceMatch| is_true(one, &truth);
+    let all_true = drive.matches.iter().filter(|one| is_true(one)).count();
+    let looked_at = drive.matches.iter().filter(|one| one.similarity >= *least);
+    let matches: Vec<PlaceMatch> = looked_at.copied().collect();
+    let accepted = accepted(&drive.odometry, &matches)?;
+    let right = accepted.iter().filter(|one| is_true(one)).count();
+    let share = |part: usize, whole: usize| part as f64 / whole.max(1) as f64;
+    let run = TucRun {
+        matches: matches.len(),
+        true_percent: 100.0
+            * share(
+                matches.iter().filter(|one| is_true(one)).count(),
+                matches.len(),
+            ),
+        accepted: accepted.len(),
+        precision: share(right, accepted.len()),
+        recall: share(right, all_true),
+    };
+    Ok(run.fields()?)
+}
+
+fn is_true(one: &PlaceMatch, truth: &Trajectory) -> bool {
+    let at = |time: f64| truth.at(time).map(|pose| pose.position);
+    let pair = at(one.time).zip(at(one.earlier));
+    pair.is_some_and(|(now, then)| (now - then).norm() < TRUE_M)
+}
+
+/// The matches that others support.
+fn accepted(odometry: &[LogVelocity], matches: &[PlaceMatch]) -> Result<Vec<PlaceMatch>, BoxError> {
+    let reckoned = LogVelocity::dead_reckoning(odometry);
+    let times = matches.iter().flat_map(|one| [one.earlier, one.time]);
+    let mut times: Vec<f64> = times.collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    let end = reckoned.poses().last().map(|timed| timed.pose);
+    let mut graph = PoseGraph::new();
+    let mut ids: BTreeMap<u64, u32> = BTreeMap::new();
+    let mut before: Option<(u32, Pose)> = None;
+    for time in times {
+        // The last image comes a moment after the last word of the wheels.
+        let pose = reckoned.at(time).or(end).ok_or("the drive is empty")?;
+        let id = graph.add_pose(pose);
+        ids.insert(time.to_bits(), id);
+        if let Some((from, last)) = before {
+            let measured = last.between(pose);
+            let [least, turn] = STRETCH;
+            let error = least + WAY_ERROR * measured.position.coords.norm();
+            graph.add_edge(edge(
+                from,
+                id,
+                measured,
+                [error, error, turn],
+                PoseEdgeKind::Odometry,
+            ))?;
+        }
+        before = Some((id, pose));
+    }
+    let mut edges: BTreeMap<u32, PlaceMatch> = BTreeMap::new();
+    for one in matches {
+        let [from, to] = [one.earlier, one.time].map(|time| ids[&time.to_bits()]);
+        let [then, now] = [from, to].map(|id| graph.poses()[id as usize]);
+        // A camera that sees all round does not tell which way it looks; the gyroscope does.
+        let turned = Pose::new(Pose::IDENTITY.position, then.between(now).heading);
+        edges.insert(graph.edges().len() as u32, *one);
+        graph.add_edge(edge(from, to, turned, SEEN, PoseEdgeKind::Closure))?;
+    }
+    let mut config = AuditConfig::standard();
+    config.near = NEAR;
+    let audit = audit(&graph, &config)?;
+    let supported = audit
+        .closures
+        .iter()
+        .filter(|one| one.verdict.is_supported());
+    Ok(supported
+        .filter_map(|one| edges.get(&one.edge).copied())
+        .collect())
+}
+
+fn edge(from: u32, to: u32, measured: Pose, errors: [f64; 3], kind: PoseEdgeKind) -> PoseEdge {
+    let sure = Vector3::from(errors).map(|error| 1.0 / (error * error));
+    PoseEdge {
+        from,
+        to,
+        measured,
+        information: Matrix3::from_diagonal(&sure),
+        kind,
+    }
+}

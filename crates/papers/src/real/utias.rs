@@ -1,0 +1,209 @@
+//! A place map of what one robot saw, by which others find where they are: the score of GNG-SLAM's paper on real robots.
+
+use std::path::PathBuf;
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_arena::gngslam::{CellGrid, LaidOver, PointScore};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
+use tolman_formats::{LogVelocity, Sighting, UtiasRobot};
+use tolman_geom::{Point, Pose};
+use tolman_maps::place_map::{
+    FeatureChoice, FeatureGroup, FeatureScaling, FeatureTable, FeatureWeights, ImageForm, PlaceMap,
+    PlaceMapConfig, PlaceRecord,
+};
+use tolman_quantizers::GngConfig;
+use tolman_robot::{Snapshot, Sounding, Trajectory};
+use tolman_sim::Bounds;
+
+use super::landmarks::{LandmarkMap, steps_of};
+use super::relations::file;
+use crate::data;
+
+/// The table's name.
+pub(super) const NAME: &str = "utias";
+
+const FOLDER: &str = "logs/utias";
+const PLACE_MAP: &str = "place map";
+const RANDOM: &str = "random";
+
+/// Which robot learns, and which tries its map.
+const PAIRS: [[u32; 2]; 6] = [[1, 2], [1, 3], [2, 1], [2, 3], [3, 1], [3, 2]];
+
+/// A robot knows what it saw in so long a time, s.
+const MEMORY_S: f64 = 10.0;
+/// It says where it is when it knows so many landmarks.
+const LEAST_SEEN: usize = 2;
+/// Nodes of the map: two for each cell.
+const NODES: usize = 128;
+
+record! {
+    /// A robot that says where it is by the map of another.
+    struct UtiasRun {
+        /// Mean score of its records: 1 inside the true cell of 8 × 8, else 0.5 / distance to its middle in cells.
+        score: f64 => higher("score").decimals(3),
+        /// Mean distance from where it truly was, m.
+        error_m: f64 => lower("error").unit("m").at_least(0).decimals(2),
+        /// How far the learning robot's corrected way is from the true one, root mean square, m.
+        map_error_m: f64 => lower("error of the map").unit("m").at_least(0).decimals(2),
+        /// Records that were scored.
+        records: usize => neither("records").decimals(0),
+    }
+}
+
+fn folder() -> Option<PathBuf> {
+    file(FOLDER)
+}
+
+/// What to tell where the set is not here.
+pub(super) fn missing() -> Option<String> {
+    folder()
+        .is_none()
+        .then(|| data::missing("the UTIAS set of robots and landmarks"))
+}
+
+pub(super) fn table() -> Table {
+    let row = |name| match missing() {
+        Some(missing) => Row::new(name).missing(missing),
+        None => Row::new(name).runs(PAIRS.len() as u32),
+    };
+    Table::of::<UtiasRun>(NAME, "A place map of one robot, tried by another")
+        .metrics_from(UtiasRun::score)
+        .rows([PLACE_MAP, RANDOM].map(row))
+        .note(
+            "Three robots among landmarks, each by itself; run n is pair n of who learns and who tries. The way of the learning robot is corrected \
+             by a pose graph of its wheels and of the landmarks it saw. A growing neural gas learns where it was and how far the landmarks \
+             are from there. The other robot takes itself to be at the node whose ranges are nearest to those it has seen in the last ten \
+             seconds. The map is laid over the world by the way of the robot that learned it. Random: at a node by chance.",
+        )
+}
+
+pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
+    let folder = folder().ok_or("the UTIAS set is gone")?;
+    let [learns, tries] = PAIRS[job.run as usize % PAIRS.len()];
+    let learner = UtiasRobot::read(&folder, learns)?;
+    let trier = UtiasRobot::read(&folder, tries)?;
+    let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
+    let known = LandmarkMap::of(&learner.odometry, &learner.sightings)?;
+    let map = place_map(&known, &mut rng)?;
+    let laid = laid_over(&known, &learner.truth).ok_or("nobody knows where the robot was")?;
+    let cells = CellGrid::over(bounds(&learner.truth).ok_or("the robot was nowhere")?);
+    let nodes: Vec<Point> = map.positions().map(|(_, position)| position).collect();
+    let names: Vec<u32> = known.landmarks.keys().copied().collect();
+    let (mut score, mut error, mut records) = (0.0, 0.0, 0);
+    for (time, ranges) in sensed(&trier.odometry, &trier.sightings, &names) {
+        let Some(truth) = trier.truth.at(time).map(|pose| pose.position) else {
+            continue;
+        };
+        let node = map
+            .nearest_by_ranges(&ranges)
+            .and_then(|node| map.position(node));
+        let guess = match job.row {
+            RANDOM => nodes
+                .get(rng.random_range(0..nodes.len() as u32) as usize)
+                .copied(),
+            _ => node,
+        };
+        let guess = laid
+            .world_from_map
+            .transform(guess.ok_or("the map has no places")?);
+        score += PointScore::of(cells.cell_of(truth), in_cells(&cells, guess)).by_centre;
+        error += (guess - truth).norm();
+        records += 1;
+    }
+    let count = f64::from(u32::try_from(records.max(1))?);
+    let run = UtiasRun {
+        score: score / count,
+        error_m: error / count,
+        map_error_m: laid.error_m,
+        records,
+    };
+    Ok(run.fields()?)
+}
+
+/// A map of where the robot was and how far the landmarks are from there.
+fn place_map(known: &LandmarkMap, rng: &mut ChaCha8Rng) -> Result<PlaceMap, BoxError> {
+    let record = |pose: Pose| {
+        let landmarks = known.landmarks.values();
+        let sounding = |landmark: &Point| Sounding {
+            mount: Pose::IDENTITY,
+            half_width: 0.0,
+            range: (landmark - pose.position).norm(),
+            max_range: f64::INFINITY,
+        };
+        PlaceRecord {
+            odometry: pose,
+            snapshot: Snapshot {
+                soundings: landmarks.map(sounding).collect(),
+                picture: None,
+            },
+        }
+    };
+    let records: Vec<PlaceRecord> = known.way.iter().map(|timed| record(timed.pose)).collect();
+    let choice = FeatureChoice {
+        groups: vec![FeatureGroup::Odometry, FeatureGroup::Sonar],
+        scaling: FeatureScaling::Group,
+    };
+    let table = FeatureTable::of(&records, &choice, ImageForm::Pixels)?;
+    let weights = FeatureWeights {
+        image: 0.0,
+        odometry: 1.0,
+        sonar: 1.0,
+    };
+    let gng = GngConfig {
+        max_units: NODES,
+        growth_period: 30,
+        ..GngConfig::fritzke()
+    };
+    let config = PlaceMapConfig::new(gng, weights).with_passes(10);
+    Ok(PlaceMap::learn(&table, 0..table.len(), config, rng)?)
+}
+
+fn laid_over(known: &LandmarkMap, truth: &Trajectory) -> Option<LaidOver> {
+    let pairs = known.way.iter();
+    let pairs =
+        pairs.filter_map(|timed| Some((timed.pose.position, truth.at(timed.time)?.position)));
+    let (found, sites): (Vec<Point>, Vec<Point>) = pairs.unzip();
+    LaidOver::of_places(found.into_iter(), &sites)
+}
+
+/// The rectangle that a robot was in.
+fn bounds(truth: &Trajectory) -> Option<Bounds> {
+    let mut points = truth.poses().iter().map(|timed| timed.pose.position);
+    let first = points.next()?;
+    let both = (first, first);
+    let (min, max) = points.fold(both, |(min, max), point| (min.inf(&point), max.sup(&point)));
+    Some(Bounds { min, max })
+}
+
+fn in_cells(cells: &CellGrid, point: Point) -> Point {
+    let from_corner = point - cells.bounds().min;
+    Point::from(from_corner.component_div(&cells.size()))
+}
+
+/// At each second at which enough landmarks are known, how far each is, m: those seen a moment ago from where the robot is by
+/// now.
+fn sensed(
+    odometry: &[LogVelocity],
+    sightings: &[Sighting],
+    names: &[u32],
+) -> Vec<(f64, Vec<Option<f64>>)> {
+    let reckoned = LogVelocity::dead_reckoning(odometry);
+    let of = |time: f64| {
+        let here = reckoned.at(time)?;
+        let mut ranges = vec![None; names.len()];
+        let recent = |seen: &&Sighting| seen.time <= time && seen.time > time - MEMORY_S;
+        for seen in sightings.iter().filter(recent) {
+            let index = names.iter().position(|name| *name == seen.subject);
+            if let (Some(index), Some(then)) = (index, reckoned.at(seen.time)) {
+                let bearing = then.heading.turned(seen.bearing);
+                let landmark = then.position + seen.range * bearing.unit();
+                ranges[index] = Some((landmark - here.position).norm());
+            }
+        }
+        let is_enough = ranges.iter().flatten().count() >= LEAST_SEEN;
+        is_enough.then_some((time, ranges))
+    };
+    steps_of(&reckoned).into_iter().filter_map(of).collect()
+}
