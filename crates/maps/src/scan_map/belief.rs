@@ -23,7 +23,7 @@ const THROUGH_A_WALL: f64 = 0.01;
 /// What it sees is suspect where it was less likely than that by what it believed.
 const SUSPECT: f64 = 1e-3;
 /// How probable it is at each look that the robot was lifted since the look before.
-const LIFTED: f64 = 1e-4;
+const LIFTED: f64 = 1e-7;
 /// How probable it is at each look that a wall is in sight that was not there when the map was learned.
 const NEW_WALLS: f64 = 1e-2;
 /// It is sure where it is with so much of its belief so near to the likeliest standpoint, m.
