@@ -113,7 +113,8 @@ fn learn_by(
         false => Lingerer::wandering(explorer),
     };
     let mut actor = Actor::new(brain, wanderer.drive, wanderer.rng);
-    let mut positions = Vec::new();
+    // It is put down on its first place.
+    let mut positions = vec![robot_in_run.robot().truth().pose.position];
     let mut true_places: Vec<Point> = Vec::new();
     let ended = run::until_done(&mut robot_in_run, |robot| {
         let standing = actor.act(robot, Task::Explore);

@@ -1,4 +1,5 @@
-//! The better MSLST's map of the Large maze: how much memory it takes, and that it comes back from its file.
+//! The better MSLST's map of the Large maze: how much memory it takes, that it comes back from its file, and what becomes of a
+//! robot or a world that is not as it was learned.
 #![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 extern crate alloc;
@@ -12,7 +13,8 @@ use tolman_arena::mslst::{BetterLearned, better_config, learn_better};
 use tolman_arena::pioneer::{ENCODER_SD, body, calibrated, with_sensor_noise};
 use tolman_arena::run::TaskEnd;
 use tolman_arena::{Mind, pioneer};
-use tolman_sim::robots::LaserPioneerConfig;
+use tolman_maze::{Cell, Direction};
+use tolman_sim::robots::{LaserPioneerConfig, StuckBeam};
 use tolman_systems::Origin;
 use tolman_systems::mslst::better::{BetterMap, BetterMapFile, BetterNavigator};
 
@@ -85,5 +87,73 @@ fn by_the_map_of_a_file_it_goes_the_very_same_way() {
             episode::run(&trial, &mut mind, |_| {}).unwrap()
         });
         assert_eq!(learned, read);
+    }
+}
+
+/// A loop, from which the goal lies off.
+const LOOP: &str = "\
++---+---+---+---+
+|               |
++   +---+---+   +
+|   | G     |   |
++   +---+   +   +
+| S             |
++---+---+---+---+
+";
+
+/// The map of the loop, and the loop with a wall since across its short way from the start to the goal.
+fn learned_before() -> (BetterLearned, Course) {
+    let course = |maze: &str| {
+        let maze = tolman_maze::read(maze).unwrap();
+        Course::for_body("loop", &maze, &body()).unwrap()
+    };
+    let shut = LOOP.replace("| S             |", "| S     |       |");
+    assert_ne!(shut, LOOP);
+    let learned = learn_better(&course(LOOP), &robot(), 1, 1).unwrap();
+    (learned, course(&shut))
+}
+
+#[test]
+fn it_goes_round_a_wall_that_was_not_there_when_it_learned() {
+    let (learned, shut) = learned_before();
+    for seed in 0..3 {
+        let trial = Trial {
+            course: &shut,
+            robot: robot(),
+            start: shut.in_cell(Cell::new(0, 2), Direction::North),
+            step_limit: 150,
+            seed,
+        };
+        let navigator = BetterNavigator::new(Arc::clone(&learned.map));
+        let mut mind = Mind::Rolling(Box::new(navigator));
+        let episode = episode::run(&trial, &mut mind, |_| {}).unwrap();
+        assert!(episode.reached, "seed {seed}");
+    }
+}
+
+#[test]
+fn a_stuck_beam_ahead_does_not_stop_it() {
+    let mut robot = robot();
+    let stuck = StuckBeam {
+        beam: 0,
+        range: 0.4,
+    };
+    robot.faults.stuck_beams.push(stuck);
+    let learned = learn_better(course(), &robot, 1, 3).unwrap();
+    assert_eq!(learned.ended.end, TaskEnd::Done);
+    let places = learned.positions.len() as f64;
+    assert!(places <= 1.25 * learned.true_places.len() as f64);
+    for seed in 0..3 {
+        let trial = Trial {
+            course: course(),
+            robot: robot.clone(),
+            start: random_start(course(), &body(), seed),
+            step_limit: 500,
+            seed,
+        };
+        let navigator = BetterNavigator::new(Arc::clone(&learned.map));
+        let mut mind = Mind::Rolling(Box::new(navigator));
+        let episode = episode::run(&trial, &mut mind, |_| {}).unwrap();
+        assert!(episode.reached, "seed {seed}");
     }
 }

@@ -87,6 +87,7 @@ mod read;
 mod settle;
 mod stack;
 mod straighten;
+mod stuck_beams;
 pub mod wander;
 
 pub use avoid::Avoid;
@@ -100,3 +101,4 @@ pub use outcome::Outcome;
 pub use settle::Settle;
 pub use stack::Stack;
 pub use straighten::straightened;
+pub use stuck_beams::StuckBeams;

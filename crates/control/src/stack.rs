@@ -8,7 +8,7 @@ use tolman_robot::Ring;
 
 use crate::{
     Avoid, Center, CorridorDetector, Layer, Move, Orient, Outcome, Proposal, RingError, Settle,
-    Situation, View, straightened,
+    Situation, StuckBeams, View, straightened,
 };
 
 /// The layers in their order, the highest first.
@@ -16,7 +16,8 @@ use crate::{
 pub struct Stack {
     detector: CorridorDetector,
     layers: Vec<Box<dyn Layer + Send>>,
-    straightens: bool,
+    /// What mends the scans of a laser that errs.
+    mending: Option<StuckBeams>,
 }
 
 impl Stack {
@@ -31,7 +32,7 @@ impl Stack {
         Self {
             detector,
             layers,
-            straightens: false,
+            mending: None,
         }
     }
 
@@ -57,11 +58,12 @@ impl Stack {
         ))
     }
 
-    /// Returns this stack, which sees scans [straightened]: for lasers that err, of which Orient would turn to and fro.
+    /// Returns this stack, which sees scans without [stuck beams](StuckBeams) and [straightened]: for lasers that err, of which Orient
+    /// would turn to and fro.
     #[must_use]
     pub fn straightening(self) -> Self {
         Self {
-            straightens: true,
+            mending: Some(StuckBeams::default()),
             ..self
         }
     }
@@ -90,7 +92,8 @@ impl Stack {
                 ..Proposal::default()
             };
         }
-        let straight = self.straightens.then(|| straightened(view.scan));
+        let mending = self.mending.as_mut();
+        let straight = mending.map(|beams| straightened(&beams.mended(view.scan)));
         let view = View {
             scan: straight.as_ref().unwrap_or(view.scan),
             ..view

@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 use tolman_geom::{Heading, Point, Vector};
 use tolman_maps::scan_map::{
-    Advance, ChartError, ChartParts, ScanChart, ScanMap, ScanMapConfig, StandpointBelief,
-    Standpoints, WallGrid,
+    Advance, ChartError, ChartParts, Explanation, ScanChart, ScanMap, ScanMapConfig,
+    StandpointBelief, Standpoints, WallGrid,
 };
 use tolman_robot::{Landmark, Ring, Scan};
 
@@ -111,6 +111,67 @@ fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     let at = on.position(belief.likeliest().unwrap()).unwrap();
     assert!((at - Point::new(1.9, 0.0)).norm() < 0.2, "{at}");
     assert!(belief.certainty(&on, DIAMETER) > 0.95);
+}
+
+/// What it believes who knows that it stands in a corridor 5 m long, `from` its western end, and then sees what is seen at `seen` from there
+/// in one of `length`, `looks` times; and what explained that best each time.
+fn surprised(
+    from: f64,
+    seen: f64,
+    length: f64,
+    looks: u32,
+) -> (Standpoints, StandpointBelief, Vec<Explanation>) {
+    let (map, _) = walked(5.0, &[0.0]);
+    let on = Standpoints::of(map.chart(), ring());
+    let mut belief = StandpointBelief::anywhere(&on);
+    let end = scan_of(5.0, Point::new(0.4, 0.475), Heading::EAST);
+    for _ in 0..8 {
+        belief.saw(&on, Heading::EAST, &end);
+    }
+    if from > 0.5 {
+        belief.moved(&on, Vector::new(from - 0.4, 0.0), Vector::new(0.05, 0.05));
+    }
+    let scan = scan_of(length, Point::new(seen, 0.475), Heading::EAST);
+    let explanations = (0..looks)
+        .map(|_| belief.saw(&on, Heading::EAST, &scan))
+        .collect();
+    (on, belief, explanations)
+}
+
+#[test]
+fn who_is_lifted_finds_out() {
+    let (on, belief, _) = surprised(0.4, 2.5, 5.0, 4);
+    let at = on.position(belief.likeliest().unwrap()).unwrap();
+    // Off both ends of the corridor, which are out of sight.
+    assert!((0.6..3.4).contains(&at.x), "{at}");
+}
+
+#[test]
+fn a_wall_that_is_new_moves_nobody() {
+    let (on, belief, explanations) = surprised(2.4, 2.4, 3.0, 2);
+    assert!(
+        !explanations.contains(&Explanation::Lifted),
+        "{explanations:?}"
+    );
+    let here = belief.likeliest().unwrap();
+    let at = on.position(here).unwrap();
+    assert!((at - Point::new(1.9, 0.0)).norm() < 0.2, "{at}");
+    let scan = scan_of(3.0, Point::new(2.4, 0.475), Heading::EAST);
+    let walls = on.new_walls(here, Heading::EAST, &scan);
+    assert!(!walls.is_empty());
+    for wall in &walls {
+        assert!((wall.x - 2.5).abs() < 0.25, "{wall}");
+    }
+    let known = scan_of(5.0, Point::new(2.4, 0.475), Heading::EAST);
+    assert!(on.new_walls(here, Heading::EAST, &known).is_empty());
+    // Drawn, it bars the way, and its robot knows no less where it is.
+    let drawn = Standpoints::of(on.chart().with_walls(&walls), ring());
+    let (west, east) = (Point::new(1.9, 0.0), Point::new(3.5, 0.0));
+    assert!(on.chart().ground().sees(west, east));
+    assert!(!drawn.chart().ground().sees(west, east));
+    let carried = belief.carried_over(&on, &drawn);
+    let at = drawn.position(carried.likeliest().unwrap()).unwrap();
+    assert!((at - Point::new(1.9, 0.0)).norm() < 0.3, "{at}");
 }
 
 /// Wherever on its map it believes to be, where the map ends too.

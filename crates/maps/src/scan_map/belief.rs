@@ -5,32 +5,30 @@ use tolman_geom::{Heading, Point, Vector};
 use tolman_robot::Scan;
 
 use super::Standpoints;
+use super::evidence::{Evidence, Explanation};
 
 /// What a robot believes of where it is: a Bayes filter over the [`Standpoints`] of its map.
 #[derive(Clone, Debug)]
 pub struct StandpointBelief {
     /// The probability of each standpoint.
     mass: Vec<f32>,
-    /// How often in a row nothing it believes in has fitted what it saw.
+    /// How often in a row nothing has fitted what it saw.
     surprises: u32,
 }
 
-/// By how much a range may differ from what is seen at the nearest standpoint, m (standard deviation).
-const RANGE_SD: f64 = 0.075;
-/// Beyond so many standard deviations a beam met something else; how far off says no more.
-const OUTLIER: f64 = 3.0;
-/// Beams see the same walls, so that all of them together say no more than so many.
-const INDEPENDENT_BEAMS: f64 = 8.0;
-/// A better fit than that tells no more: the map's own errors are as large, and are met at every look.
-const GOOD: f64 = 0.6;
-/// What the map does not show fits as a place does that is not the right one, but like it.
-const UNSHOWN: f64 = 2.0;
 /// Standpoints less probable than that are not followed.
 const NEGLIGIBLE: f32 = 1e-9;
 /// What the probability of a way through a wall is worth.
 const THROUGH_A_WALL: f64 = 0.01;
-/// A scan fits nowhere where it is off by so much, mean square.
-const SURPRISE: f64 = 3.0;
+/// What it sees is suspect where it was less likely than that by what it believed.
+const SUSPECT: f64 = 1e-3;
+/// How probable it is at each look that the robot was lifted since the look before.
+const LIFTED: f64 = 1e-7;
+/// How probable it is at each look that a wall is in sight that was not there when the map was learned.
+const NEW_WALLS: f64 = 1e-2;
+/// It is sure where it is with so much of its belief so near to the likeliest standpoint, m.
+const SURE: f64 = 0.9;
+const SURE_WITHIN: f64 = 0.5;
 /// How likely the landmark of the goal is not sensed where the map has it: near its border.
 const UNSENSED: f32 = 0.05;
 /// It begins anew after so many such scans in a row.
@@ -76,6 +74,22 @@ impl StandpointBelief {
         near.map(|(_, mass)| f64::from(*mass)).sum()
     }
 
+    /// Returns the same belief on other standpoints, which lie about where those lie that it was made `on`. O(standpoints · log standpoints).
+    #[must_use]
+    pub fn carried_over(&self, on: &Standpoints, to: &Standpoints) -> Self {
+        let mut carried = Self {
+            mass: vec![0.0; to.len()],
+            surprises: self.surprises,
+        };
+        for (position, mass) in on.positions().zip(&self.mass) {
+            if let Some(number) = to.at(position) {
+                carried.mass[number as usize] += mass;
+            }
+        }
+        carried.normalize(to);
+        carried
+    }
+
     /// Follows a robot that came `moved` along the compass's axes, m, give or take `sd`. O(standpoints believed in).
     pub fn moved(&mut self, on: &Standpoints, moved: Vector, sd: Vector) {
         let ground = on.chart().ground();
@@ -101,29 +115,56 @@ impl StandpointBelief {
         self.mass = after;
     }
 
-    /// Weighs what it believes by what a scan shows. O(standpoints believed in · beams · range).
-    pub fn saw(&mut self, on: &Standpoints, heading: Heading, scan: &Scan) {
+    /// Weighs what it believes by what a scan shows; returns what explains it best. Where nothing that it believes in fits, it reckons with
+    /// walls that were not there when the map was learned, and with having been lifted.
+    /// O(standpoints believed in · beams · range); O(standpoints · beams · range) where nothing fits.
+    pub fn saw(&mut self, on: &Standpoints, heading: Heading, scan: &Scan) -> Explanation {
         let Some(north) = on.northward(scan, heading) else {
-            return;
+            return Explanation::AsKnown;
         };
-        let mut best = f64::INFINITY;
-        for (cell, mass) in on.cells().zip(&mut self.mass) {
+        for mass in &mut self.mass {
             if *mass < NEGLIGIBLE {
                 *mass = 0.0;
-                continue;
             }
-            let misfit = on.misfit(cell, &north, RANGE_SD, OUTLIER);
-            best = best.min(misfit.unwrap_or(f64::INFINITY));
-            let misfit = misfit.unwrap_or(UNSHOWN);
-            *mass *= libm::exp(-0.5 * INDEPENDENT_BEAMS * misfit.max(GOOD)) as f32;
         }
-        // Where the map shows nothing that could fit, it is as surprised.
-        self.surprises = if best > SURPRISE {
-            self.surprises + 1
-        } else {
+        let before = self.clone();
+        let mut evidence = Evidence::default();
+        let believed = on.cells().zip(&mut self.mass);
+        for (cell, mass) in believed.filter(|(_, mass)| **mass > 0.0) {
+            let misfit = on.misfit(cell, &north);
+            *mass *= misfit.likelihood() as f32;
+            evidence.as_known += f64::from(*mass);
+            evidence.see(misfit);
+        }
+        if evidence.as_known < SUSPECT {
+            self.doubt(on, &north, &before, &mut evidence);
+        }
+        self.surprises = if evidence.fits_somewhere() {
             0
+        } else {
+            self.surprises + 1
         };
         self.normalize(on);
+        evidence.explanation()
+    }
+
+    /// Adds what a scan says if walls are new, and if the robot was lifted. `before` is the belief before the scan.
+    fn doubt(&mut self, on: &Standpoints, north: &[f64], before: &Self, evidence: &mut Evidence) {
+        let anywhere = LIFTED / on.len().max(1) as f64;
+        // Who is not sure where it is has no say in whether a wall is new.
+        let new_walls = match before.certainty(on, SURE_WITHIN) > SURE {
+            true => NEW_WALLS,
+            false => 0.0,
+        };
+        for ((cell, mass), before) in on.cells().zip(&mut self.mass).zip(&before.mass) {
+            let misfit = on.misfit(cell, north);
+            let lifted = anywhere * misfit.likelihood();
+            let new_walls = new_walls * f64::from(*before) * misfit.likelihood_with_new_walls();
+            *mass += (lifted + new_walls) as f32;
+            evidence.lifted += lifted;
+            evidence.new_walls += new_walls;
+            evidence.see(misfit);
+        }
     }
 
     /// Weighs what it believes by the landmark of the goal, which the robot does not sense. O(standpoints).

@@ -179,6 +179,15 @@ impl ScanChart {
         })
     }
 
+    /// Returns the chart with walls at these points, too, as far as they lie on its ground. O(cells + points).
+    #[must_use]
+    pub fn with_walls(&self, at: &[Point]) -> Self {
+        Self {
+            ground: self.ground.with_walls(at),
+            ..self.clone()
+        }
+    }
+
     /// Returns the ground.
     #[must_use]
     pub const fn ground(&self) -> &GroundPlan {

@@ -120,6 +120,16 @@ impl GroundPlan {
         Ok(plan)
     }
 
+    /// The same with walls at these points, too, as far as they lie within its bounds.
+    pub(super) fn with_walls(&self, at: &[Point]) -> Self {
+        let mut plan = self.clone();
+        for slot in at.iter().filter_map(|at| self.slot(index_of(*at))) {
+            plan.floor[slot / WORD] &= !(1 << (slot % WORD));
+            plan.walls[slot / WORD] |= 1 << (slot % WORD);
+        }
+        plan
+    }
+
     /// Returns column and row of the first cell; cell (0, 0) begins at the origin.
     #[must_use]
     pub const fn first(&self) -> [i32; 2] {

@@ -3,6 +3,7 @@ use alloc::vec::Vec;
 use tolman_geom::{Heading, Point};
 use tolman_robot::{Ring, Scan};
 
+use super::evidence::{Misfit, ends_before};
 use super::ranked_bits::RankedBits;
 use super::rays::{RANGE_UNIT, Rays, UNKNOWN};
 use super::wall_grid::{GridIndex, index_of, middle};
@@ -73,6 +74,12 @@ impl Standpoints {
         &self.chart
     }
 
+    /// Returns the ring of the scans that it compares.
+    #[must_use]
+    pub const fn ring(&self) -> Ring {
+        self.ring
+    }
+
     /// Returns how many there are.
     #[must_use]
     pub const fn len(&self) -> usize {
@@ -119,6 +126,31 @@ impl Standpoints {
         }
     }
 
+    /// Returns the walls that a scan shows from a standpoint and the map does not: points side by side. Empty where the scan fits, or does
+    /// not fit for other reasons. O(beams · range).
+    #[must_use]
+    pub fn new_walls(&self, number: u32, heading: Heading, scan: &Scan) -> Vec<Point> {
+        let slot = self.stands.slot(number);
+        let (Some(slot), Some(north)) = (slot, self.northward(scan, heading)) else {
+            return Vec::new();
+        };
+        let cell = self.index(slot);
+        if !self.misfit(cell, &north).fits_but_for_new_walls() {
+            return Vec::new();
+        }
+        let shown = self.rays.ranges(self.chart.ground(), cell);
+        let beams = (0..).zip(north.iter().zip(shown));
+        let new = beams.filter(|(_, (seen, shown))| ends_before(**seen, *shown));
+        // So that no gap is left between two beams, each is as wide as it is far from the next.
+        new.flat_map(|(beam, (seen, _))| {
+            [-0.25, 0.25].map(|aside| {
+                let bearing = self.ring.bearing(beam) + aside * self.ring.spacing;
+                middle(cell) + Heading::NORTH.turned(bearing).unit() * *seen
+            })
+        })
+        .collect()
+    }
+
     /// Returns those that lie round a point, with the share that each has of it.
     pub(super) fn around(&self, point: Point) -> [(Option<u32>, f64); 4] {
         let scaled = (point - middle([0, 0])) / Self::SPACING;
@@ -145,27 +177,10 @@ impl Standpoints {
         self.stands.slots().map(|slot| self.index(slot))
     }
 
-    /// Returns the mean square of how far a scan's ranges differ from those expected in a cell, each in `sd`s and at most
-    /// `outlier` of them; `None` where the map does not say what is seen there. `north` is the scan, beam 0 to the north.
+    /// Returns by how much a scan differs from what is seen in a cell. `north` is the scan, beam 0 to the north.
     /// O(beams · range).
-    pub(super) fn misfit(
-        &self,
-        cell: GridIndex,
-        north: &[f64],
-        sd: f64,
-        outlier: f64,
-    ) -> Option<f64> {
-        let expected = self.rays.ranges(self.chart.ground(), cell);
-        let (mut sum, mut known) = (0.0, 0_u32);
-        for (seen, expected) in north.iter().zip(expected) {
-            if expected == UNKNOWN {
-                continue;
-            }
-            let off = ((seen - f64::from(expected) * RANGE_UNIT).abs() / sd).min(outlier);
-            sum += off * off;
-            known += 1;
-        }
-        (2 * known >= self.ring.beams).then(|| sum / f64::from(known))
+    pub(super) fn misfit(&self, cell: GridIndex, north: &[f64]) -> Misfit {
+        Misfit::of(north, self.rays.ranges(self.chart.ground(), cell))
     }
 
     /// Returns a scan's ranges, beam 0 to the north; `None` if another ring made them.

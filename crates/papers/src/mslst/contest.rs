@@ -8,7 +8,7 @@ use tolman_control::Outcome;
 use tolman_maze::Direction;
 
 use super::MAPS;
-use super::entrant::{Entrant, Ready};
+use super::entrant::{Entrant, LearnerConfig, Ready};
 use crate::tolerances::{SUCCESS, TIME};
 use crate::venue::{self, MazeRun, Venue, World};
 use tolman_arena::Mind;
@@ -48,7 +48,7 @@ pub(super) struct ContestConfig<'a> {
     world: World,
     maps: u32,
     #[serde(flatten)]
-    mslst: BTreeMap<&'a str, MslstConfig>,
+    learners: BTreeMap<&'a str, LearnerConfig>,
 }
 
 /// One world, the brains that compete in it, and what they share.
@@ -208,11 +208,12 @@ impl Contest {
     /// What the runs depend on.
     pub(super) fn config(&self) -> ContestConfig<'_> {
         let learners = self.competitors.iter();
-        let learners = learners.filter_map(|one| Some((&*one.row, one.entrant.config()?)));
+        let width = self.venue.course.corridor_width;
+        let learners = learners.filter_map(|one| Some((&*one.row, one.entrant.config(width)?)));
         ContestConfig {
             world: self.venue.world(),
             maps: self.maps,
-            mslst: learners.collect(),
+            learners: learners.collect(),
         }
     }
 

@@ -2,16 +2,18 @@
 
 use alloc::sync::Arc;
 
+use serde::Serialize;
+
 use crate::venue::Venue;
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
 use tolman_arena::episode::EpisodeError;
-use tolman_arena::mslst::{BetterLearned, learn, learn_better};
-use tolman_arena::pioneer::{ENCODER_SD, with_sensor_noise};
+use tolman_arena::mslst::{BetterLearned, better_config, learn, learn_better};
+use tolman_arena::pioneer::{ENCODER_SD, calibrated, with_sensor_noise};
 use tolman_experiment::BoxError;
 use tolman_geom::Point;
 use tolman_sim::robots::LaserPioneerConfig;
-use tolman_systems::mslst::better::BetterNavigator;
+use tolman_systems::mslst::better::{BetterConfig, BetterNavigator};
 use tolman_systems::mslst::{Learned, MslstConfig, Navigator};
 
 /// Who competes.
@@ -34,6 +36,14 @@ pub(super) enum Ready {
         config: MslstConfig,
     },
     Better(Box<BetterLearned>),
+}
+
+/// What a learner reckons with.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(untagged)]
+pub(super) enum LearnerConfig {
+    Mslst(MslstConfig),
+    Better(BetterConfig),
 }
 
 impl Entrant {
@@ -67,11 +77,16 @@ impl Entrant {
         !matches!(self, Self::Agent(_))
     }
 
-    /// What its runs depend on beside the world.
-    pub(super) const fn config(self) -> Option<MslstConfig> {
+    /// What its runs depend on beside the world, where corridors are `corridor_width` m wide.
+    pub(super) fn config(self, corridor_width: f64) -> Option<LearnerConfig> {
         match self {
-            Self::Agent(_) | Self::Better => None,
-            Self::Mslst(config) => Some(config),
+            Self::Agent(_) => None,
+            Self::Mslst(config) => Some(LearnerConfig::Mslst(config)),
+            Self::Better => {
+                let robot = with_sensor_noise(&calibrated(), ENCODER_SD);
+                let config = better_config(corridor_width, &robot);
+                Some(LearnerConfig::Better(config))
+            }
         }
     }
 

@@ -12,7 +12,7 @@ use rand_chacha::rand_core::SeedableRng;
 use serde::Serialize;
 use tolman_maze::{Braided, MazeFile, Perfect};
 
-use super::entrant::Entrant;
+use super::entrant::{Entrant, LearnerConfig};
 use crate::venue::{Drawing, LARGE_DRAWINGS, Venue};
 use tolman_arena::cast::Agent;
 use tolman_arena::course::Course;
@@ -65,7 +65,7 @@ pub(super) struct FamilyConfig {
     starts: u32,
     limit: Option<u32>,
     #[serde(flatten)]
-    mslst: BTreeMap<String, MslstConfig>,
+    learners: BTreeMap<String, LearnerConfig>,
 }
 
 /// Sides of random mazes, cells.
@@ -134,11 +134,14 @@ impl Family {
 
     pub(super) fn config(&self) -> FamilyConfig {
         let entrants = self.entrants.iter();
-        let learners = entrants.filter_map(|entrant| Some((entrant.row(), entrant.config()?)));
+        let learners = entrants.filter_map(|entrant| {
+            let config = entrant.config(pioneer::CORRIDOR_WIDTH)?;
+            Some((entrant.row(), config))
+        });
         FamilyConfig {
             starts: self.starts,
             limit: self.limit,
-            mslst: learners.collect(),
+            learners: learners.collect(),
         }
     }
 

@@ -10,6 +10,7 @@ use serde::Serialize;
 use tolman_maze::{Maze, MazeFile};
 
 use super::condition::Condition;
+use super::entrant::{Entrant, LearnerConfig};
 use crate::venue::{self, Drawing, LARGE_DRAWINGS, Venue};
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
@@ -70,6 +71,8 @@ pub(super) struct Robustness {
 pub(super) struct RobustnessConfig {
     starts: u32,
     limit: Option<u32>,
+    /// What it reckons with in all rows; those of the ablation go without a part each.
+    better: Option<LearnerConfig>,
 }
 
 impl Robustness {
@@ -84,10 +87,11 @@ impl Robustness {
         }
     }
 
-    pub(super) const fn config(&self) -> RobustnessConfig {
+    pub(super) fn config(&self) -> RobustnessConfig {
         RobustnessConfig {
             starts: self.starts,
             limit: self.limit,
+            better: Entrant::Better.config(pioneer::CORRIDOR_WIDTH),
         }
     }
 

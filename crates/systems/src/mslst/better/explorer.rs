@@ -1,7 +1,7 @@
 use core::convert::Infallible;
 
 use rand::{Rng, RngExt};
-use tolman_control::{heading_of, unit_of};
+use tolman_control::{StuckBeams, heading_of, unit_of};
 use tolman_maps::scan_map::{Advance, Clearings, ScanMap, ScanMapConfig, WayToGap};
 use tolman_maze::Direction;
 use tolman_robot::{Guess, MapView, Mapper, Position, Scan, Standing, Task};
@@ -15,6 +15,8 @@ use crate::{Brain, Doing, RolledStep};
 pub struct BetterExplorer {
     config: BetterConfig,
     map: ScanMap,
+    /// What its laser is known to do wrong.
+    beams: StuckBeams,
     reckoning: Reckoning,
     /// What failed since the robot last moved.
     failed: Vec<Direction>,
@@ -47,6 +49,7 @@ impl BetterExplorer {
         Self {
             map: ScanMap::new(map),
             config,
+            beams: StuckBeams::default(),
             reckoning: Reckoning::default(),
             failed: Vec::new(),
             last: None,
@@ -66,8 +69,8 @@ impl BetterExplorer {
         self.map
     }
 
-    fn arrived(&mut self, seen: &RolledStep) {
-        let (Some(scan), Some(heading)) = (&seen.step.scan, seen.step.heading) else {
+    fn arrived(&mut self, seen: &RolledStep, scan: Option<&Scan>) {
+        let (Some(scan), Some(heading)) = (scan, seen.step.heading) else {
             return;
         };
         let (moved, sd) = self.reckoning.take();
@@ -151,11 +154,16 @@ impl Mapper for BetterExplorer {
 
     fn observe(&mut self, seen: &RolledStep) -> Result<(), Infallible> {
         if seen.step.doing == Doing::PutDown {
-            *self = Self::new(self.config);
+            *self = Self {
+                beams: core::mem::take(&mut self.beams),
+                ..Self::new(self.config)
+            };
         }
         self.reckoning.add(seen, &self.config);
+        let scan = seen.step.scan.as_ref();
+        let scan = scan.map(|scan| self.beams.mended(scan));
         match seen.step.doing {
-            Doing::PutDown => self.arrived(seen),
+            Doing::PutDown => self.arrived(seen, scan.as_ref()),
             Doing::UnderWay(_) => {
                 if let Some(landmark) = seen.step.landmark {
                     self.map.pass(self.reckoning.since(), landmark);
@@ -168,7 +176,7 @@ impl Mapper for BetterExplorer {
                 } else {
                     self.failed.push(action);
                 }
-                self.arrived(seen);
+                self.arrived(seen, scan.as_ref());
             }
         }
         Ok(())

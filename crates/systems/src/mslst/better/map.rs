@@ -1,4 +1,5 @@
 use tolman_control::RingError;
+use tolman_geom::Point;
 use tolman_maps::scan_map::{ScanChart, Standpoints};
 use tolman_maze::Direction;
 use tolman_planners::expected_costs;
@@ -22,6 +23,8 @@ pub struct BetterMap {
 /// Costs count as settled when none changes by more, time steps; and at the latest after so many rounds.
 const SETTLED: f32 = 0.01;
 const MOST_SWEEPS: usize = 200;
+/// A standpoint so near is about where the robot is, m.
+const ABOUT: f64 = 0.25;
 
 impl BetterMap {
     /// Works out where its robot can stand and what the ways to the goal cost.
@@ -42,10 +45,28 @@ impl BetterMap {
         })
     }
 
+    /// Returns the map with walls at these points, too; none where the layers cannot read the ring.
+    pub(super) fn with_walls(&self, at: &[Point]) -> Option<Self> {
+        let chart = self.chart().with_walls(at);
+        Self::of(chart, self.standpoints.ring(), &self.config).ok()
+    }
+
     /// Returns what was learned.
     #[must_use]
     pub const fn chart(&self) -> &ScanChart {
         self.standpoints.chart()
+    }
+
+    /// Returns whether a way leads to the goal from about a point.
+    pub(super) fn leads_on(&self, from: Point) -> bool {
+        let numbered = (0..).zip(self.standpoints.positions());
+        let near = numbered.filter(|(_, at)| (at - from).norm() < ABOUT);
+        let leads = |(number, _)| {
+            Direction::ALL
+                .into_iter()
+                .any(|action| self.cost(number, 0, action) < f64::from(HOPELESS) / 2.0)
+        };
+        near.into_iter().any(leads)
     }
 
     /// Returns the time steps to the goal on average from a standpoint by an action, facing along an axis.

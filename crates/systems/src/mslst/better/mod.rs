@@ -91,9 +91,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod changed_map;
 mod config;
 mod costs;
 mod explorer;
+mod failures;
 mod imagined;
 mod map;
 mod map_file;

@@ -2,11 +2,14 @@ use alloc::sync::Arc;
 use core::convert::Infallible;
 
 use rand::{Rng, RngExt};
-use tolman_geom::Heading;
-use tolman_maps::scan_map::{ScanChart, StandpointBelief};
+use tolman_control::{Outcome, StuckBeams};
+use tolman_geom::{Heading, Point};
+use tolman_maps::scan_map::{Explanation, ScanChart, StandpointBelief};
 use tolman_maze::Direction;
-use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, Task};
+use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Scan, Standing, Task};
 
+use super::changed_map::ChangedMap;
+use super::failures::Failures;
 use super::reckoning::Reckoning;
 use super::rehearsal::facing;
 use super::{BetterMap, BetterPart};
@@ -15,17 +18,22 @@ use crate::{Brain, Doing, RolledStep};
 /// Finds out where it is on its map, and does what leads to the goal soonest on average over all it believes.
 #[derive(Clone, Debug)]
 pub struct BetterNavigator {
-    map: Arc<BetterMap>,
+    maps: ChangedMap,
+    /// What its laser is known to do wrong.
+    beams: StuckBeams,
     belief: StandpointBelief,
     reckoning: Reckoning,
     heading: Heading,
     /// What failed since the robot last moved.
     failed: Vec<Direction>,
+    failures: Failures,
     next: Option<Direction>,
 }
 
 /// A standpoint less probable than that has no say.
 const NO_SAY: f64 = 1e-4;
+/// Who knows less surely where it is cannot tell what is new there.
+const SURE: f64 = 0.9;
 
 impl BetterNavigator {
     /// Returns one that knows `map` and has no idea where it is.
@@ -33,10 +41,12 @@ impl BetterNavigator {
     pub fn new(map: Arc<BetterMap>) -> Self {
         Self {
             belief: StandpointBelief::anywhere(&map.standpoints),
-            map,
+            maps: ChangedMap::new(map),
+            beams: StuckBeams::default(),
             reckoning: Reckoning::default(),
             heading: Heading::NORTH,
             failed: Vec::new(),
+            failures: Failures::default(),
             next: None,
         }
     }
@@ -44,40 +54,91 @@ impl BetterNavigator {
     /// Returns the map it goes by.
     #[must_use]
     pub fn chart(&self) -> &ScanChart {
-        self.map.chart()
+        self.current().chart()
     }
 
-    fn look(&mut self, seen: &RolledStep) {
+    /// The map as it is now.
+    fn current(&self) -> &BetterMap {
+        self.maps.now()
+    }
+
+    fn look(&mut self, seen: &RolledStep, scan: Option<&Scan>) {
         let (moved, sd) = self.reckoning.take();
-        let map = &*self.map;
+        let map = Arc::clone(self.maps.now());
         if moved != tolman_geom::Vector::zeros() {
             self.belief.moved(&map.standpoints, moved, sd);
         }
-        if let (Some(scan), Some(heading)) = (&seen.step.scan, seen.step.heading) {
+        if let (Some(scan), Some(heading)) = (scan, seen.step.heading) {
             self.heading = heading;
-            self.belief.saw(&map.standpoints, heading, scan);
+            let explanation = self.belief.saw(&map.standpoints, heading, scan);
+            if explanation == Explanation::Lifted && self.maps.forget() {
+                self.carry_over(&map);
+            }
         }
         if seen.step.landmark != Some(Landmark::Goal) && map.config.has(BetterPart::Absence) {
             self.belief.missed_the_goal(&map.standpoints);
         }
-        self.next = self.cheapest();
+    }
+
+    /// Where it most likely is.
+    fn likeliest(&self) -> Option<Point> {
+        let number = self.belief.likeliest()?;
+        self.current().standpoints.position(number)
+    }
+
+    /// How much it believes to know where it is, 0 … 1.
+    fn sure(&self) -> f64 {
+        let map = self.current();
+        let within = map.config.diameter;
+        self.belief.certainty(&map.standpoints, within)
+    }
+
+    /// Looks for walls that are not on its map and have just barred its way.
+    fn meet(&mut self, heading: Heading, scan: &Scan) {
+        let map = Arc::clone(self.maps.now());
+        let on = &map.standpoints;
+        let Some(here) = self.belief.likeliest() else {
+            return;
+        };
+        if self.sure() < SURE {
+            return;
+        }
+        let walls = on.new_walls(here, heading, scan);
+        if let Some(at) = on.position(here)
+            && !walls.is_empty()
+            && self.maps.bar(&walls, at)
+        {
+            self.carry_over(&map);
+        }
+    }
+
+    /// Believes on the map as it is now what it believed on that before.
+    fn carry_over(&mut self, before: &BetterMap) {
+        let now = &self.maps.now().standpoints;
+        self.belief = self.belief.carried_over(&before.standpoints, now);
     }
 
     /// The action that costs least on average over all it believes.
     fn cheapest(&self) -> Option<Direction> {
+        let map = self.current();
         let axis = facing(self.heading);
-        let only = match self.map.config.has(BetterPart::Average) {
+        let only = match map.config.has(BetterPart::Average) {
             true => None,
             false => self.belief.likeliest(),
         };
         let mut costs = [0.0; 4];
         let probabilities = self.belief.probabilities().iter().copied();
         for (number, mass) in (0..).zip(probabilities.map(f64::from)) {
-            let has_say = mass > NO_SAY / self.map.standpoints.len() as f64;
+            let has_say = mass > NO_SAY / map.standpoints.len() as f64;
             if has_say && only.is_none_or(|only| only == number) {
                 for action in Direction::ALL {
-                    costs[action.index()] += mass * self.map.cost(number, axis, action);
+                    costs[action.index()] += mass * map.cost(number, axis, action);
                 }
+            }
+        }
+        if let Some(here) = self.likeliest() {
+            for action in Direction::ALL {
+                costs[action.index()] += self.failures.cost(here, action);
             }
         }
         let allowed = Direction::ALL.into_iter();
@@ -92,25 +153,42 @@ impl Mapper for BetterNavigator {
 
     fn observe(&mut self, seen: &RolledStep) -> Result<(), Infallible> {
         if seen.step.doing == Doing::PutDown {
-            *self = Self::new(Arc::clone(&self.map));
+            *self = Self {
+                beams: core::mem::take(&mut self.beams),
+                ..Self::new(Arc::clone(self.maps.learned()))
+            };
         }
-        self.reckoning.add(seen, &self.map.config);
+        let config = self.maps.now().config;
+        self.reckoning.add(seen, &config);
+        let scan = seen.step.scan.as_ref();
+        let scan = scan.map(|scan| self.beams.mended(scan));
         match seen.step.doing {
             Doing::UnderWay(_) => return Ok(()),
             Doing::PutDown => {}
             Doing::Ended(_, outcome) if outcome.moved() => self.failed.clear(),
-            Doing::Ended(action, _) => self.failed.push(action),
+            Doing::Ended(action, _) => {
+                self.failed.push(action);
+                if let Some(here) = self.likeliest() {
+                    self.failures.add(here, action);
+                }
+            }
         }
-        self.look(seen);
+        self.look(seen, scan.as_ref());
+        if let (Doing::Ended(_, Outcome::Failed | Outcome::CutShort), Some(heading), Some(scan)) =
+            (seen.step.doing, seen.step.heading, &scan)
+        {
+            self.meet(heading, scan);
+        }
+        self.next = self.cheapest();
         Ok(())
     }
 
     fn map(&self) -> MapView {
-        self.map.chart().view()
+        self.current().chart().view()
     }
 
     fn belief(&self) -> Vec<Guess> {
-        let positions = self.map.standpoints.positions();
+        let positions = self.current().standpoints.positions();
         let probabilities = self.belief.probabilities().iter().copied();
         let guesses = positions.zip(probabilities.map(f64::from));
         let guesses = guesses.filter(|(_, mass)| *mass > NO_SAY);
@@ -125,7 +203,7 @@ impl Mapper for BetterNavigator {
     }
 
     fn map_bytes(&self) -> Option<usize> {
-        Some(self.map.chart().bytes())
+        Some(self.current().chart().bytes())
     }
 }
 
@@ -141,10 +219,7 @@ impl Brain for BetterNavigator {
             Task::Reach(Goal::Landmark(Landmark::Goal)) => Standing::UnderWay,
             Task::Reach(_) => Standing::gave_up("its map leads to the landmark of the goal alone"),
             Task::Localize => {
-                let sure = self
-                    .belief
-                    .certainty(&self.map.standpoints, self.map.config.diameter);
-                if sure > 0.95 {
+                if self.sure() > 0.95 {
                     Standing::Done
                 } else {
                     Standing::UnderWay
@@ -154,13 +229,11 @@ impl Brain for BetterNavigator {
     }
 
     fn sees_straight(&self) -> bool {
-        self.map.config.has(BetterPart::Straightening)
+        self.current().config.has(BetterPart::Straightening)
     }
 
     fn words(&self) -> String {
-        let sure = self
-            .belief
-            .certainty(&self.map.standpoints, self.map.config.diameter);
-        format!("believes with {:.0} % to know where it is", 100.0 * sure)
+        let sure = 100.0 * self.sure();
+        format!("believes with {sure:.0} % to know where it is")
     }
 }

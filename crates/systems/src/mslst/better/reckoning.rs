@@ -9,13 +9,21 @@ use crate::{Doing, RolledStep};
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Reckoning {
     heading: Option<Heading>,
+    /// Whether the compass told it at the end of the step before.
+    is_fresh: bool,
     moved: Vector,
     variance: Vector,
     /// How far the wheels say that the action under way has led.
     rolled: Vector,
-    /// Whether they said nothing in one of its time steps.
-    has_gap: bool,
+    /// In how many of its time steps they said so, and in how many they said nothing.
+    heard: u32,
+    unheard: u32,
 }
+
+/// Time steps in which a whole action leads on.
+const STEPS_OF_ACTION: u32 = 2;
+/// A step that leads on leads so far at least, as a share of what an action does.
+const LEADS_ON: f64 = 0.1;
 
 /// Standard deviation of how far an action leads aside whose way the wheels do not tell, as a share of it.
 const ASIDE: f64 = 0.05;
@@ -23,15 +31,14 @@ const ASIDE: f64 = 0.05;
 impl Reckoning {
     /// Adds a time step. Where the wheels tell nothing, what the action is made of stands for it.
     pub(super) fn add(&mut self, seen: &RolledStep, config: &BetterConfig) {
-        let before = self.heading;
-        self.heading = seen.step.heading.or(before);
-        if let (Some(before), Some(now), Some(odometry)) = (before, self.heading, seen.odometry) {
-            let along = before.turned(0.5 * before.turn_to(now)).unit();
-            self.rolled += along * odometry.distance;
+        let along = self.along(seen.step.heading);
+        if let (Some(along), Some(odometry)) = (along, seen.odometry) {
+            self.rolled += along.unit() * odometry.distance;
+            self.heard += u32::from(odometry.distance.abs() > LEADS_ON * config.action_way);
             let sd = config.odometry_sd * odometry.distance.abs();
             self.variance += Vector::new(sd * sd, sd * sd);
         } else {
-            self.has_gap |= seen.step.doing != Doing::PutDown;
+            self.unheard += u32::from(seen.step.doing != Doing::PutDown);
         }
         if seen.bump == Some(true) {
             let sd = config.slide_sd;
@@ -39,6 +46,18 @@ impl Reckoning {
         }
         if let Doing::Ended(action, outcome) = seen.step.doing {
             self.end(action, outcome, config);
+        }
+    }
+
+    /// Which way a time step led at whose end the compass says `now`; nothing where it has never said anything.
+    fn along(&mut self, now: Option<Heading>) -> Option<Heading> {
+        let (before, was_fresh) = (self.heading, self.is_fresh);
+        (self.heading, self.is_fresh) = (now.or(before), now.is_some());
+        match (before?, now) {
+            // It turned in part before and in part after the middle of the step.
+            (before, Some(now)) if was_fresh => Some(before.turned(0.5 * before.turn_to(now))),
+            // Who knows not how far it had turned before takes it that it had turned already.
+            (before, now) => Some(now.unwrap_or(before)),
         }
     }
 
@@ -55,24 +74,25 @@ impl Reckoning {
         self.moved + self.rolled
     }
 
-    /// Ends an action. What the wheels did not tell of its way is what it lacks to the way of such actions.
+    /// Ends an action. Of the steps in which such actions lead on, those that the wheels did not tell led as far as such steps do.
     fn end(&mut self, action: Direction, outcome: Outcome, config: &BetterConfig) {
-        let way = match outcome {
-            Outcome::Completed => config.action_way,
-            Outcome::CutShort => 0.5 * config.action_way,
-            Outcome::Failed | Outcome::TimedOut => 0.0,
+        let steps = match outcome {
+            Outcome::Completed => STEPS_OF_ACTION,
+            Outcome::CutShort => 1,
+            Outcome::Failed | Outcome::TimedOut => 0,
         };
-        if self.has_gap && way > 0.0 {
+        let unheard = f64::from(steps.saturating_sub(self.heard).min(self.unheard));
+        if unheard > 0.0 {
             let along = unit_of(action);
-            let rest = (way - self.rolled.dot(&along)).max(0.0);
+            let rest = unheard * config.action_way / f64::from(STEPS_OF_ACTION);
             self.moved += along * rest;
             let sd = along.map(|along| {
-                config.action_sd * rest * along.abs() + ASIDE * way * (1.0 - along.abs())
+                config.action_sd * rest * along.abs() + ASIDE * rest * (1.0 - along.abs())
             });
             self.variance += sd.component_mul(&sd);
         }
         self.moved += self.rolled;
-        (self.rolled, self.has_gap) = (Vector::zeros(), false);
+        (self.rolled, self.heard, self.unheard) = (Vector::zeros(), 0, 0);
     }
 }
 

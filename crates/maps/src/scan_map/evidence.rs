@@ -1,0 +1,178 @@
+use super::rays::{RANGE_UNIT, UNKNOWN};
+
+/// What explains best what a robot saw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Explanation {
+    /// Its map, about where it believed to be.
+    AsKnown,
+    /// Walls that were not there when the map was learned.
+    NewWalls,
+    /// It was lifted.
+    Lifted,
+}
+
+/// How probable a scan is by each [`Explanation`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Evidence {
+    pub(super) as_known: f64,
+    pub(super) new_walls: f64,
+    pub(super) lifted: f64,
+    /// The least misfit.
+    least: f64,
+}
+
+/// By how much a scan differs from what the map shows at a standpoint: mean squares, in standard deviations of a range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Misfit {
+    /// Of all beams; none where the map does not say what is seen there.
+    all: Option<f64>,
+    /// Of the beams that do not end on new walls; none where no new wall is in sight.
+    but_for_new_walls: Option<f64>,
+}
+
+/// By how much a range may differ from what is seen at the nearest standpoint, m (standard deviation).
+const RANGE_SD: f64 = 0.075;
+/// Beyond so many standard deviations a beam met something else; how far off says no more.
+const OUTLIER: f64 = 3.0;
+/// Beams see the same walls, so that all of them together say no more than so many.
+const INDEPENDENT_BEAMS: f64 = 8.0;
+/// A better fit than that tells no more: the map's own errors are as large, and are met at every look.
+const GOOD: f64 = 0.6;
+/// What the map does not show fits as a place does that is not the right one, but like it.
+const UNSHOWN: f64 = 2.0;
+/// A scan fits nowhere where it is off by so much, mean square.
+const SURPRISE: f64 = 3.0;
+/// A scan fits well where it is off by less, mean square.
+const WELL: f64 = 1.5;
+/// As many beams side by side end before they should on a new wall, at least.
+const BEAMS_OF_A_WALL: u32 = 8;
+
+impl Default for Evidence {
+    fn default() -> Self {
+        Self {
+            as_known: 0.0,
+            new_walls: 0.0,
+            lifted: 0.0,
+            least: f64::INFINITY,
+        }
+    }
+}
+
+impl Evidence {
+    pub(super) fn see(&mut self, misfit: Misfit) {
+        self.least = self.least.min(misfit.all.unwrap_or(f64::INFINITY));
+    }
+
+    /// Whether there is a standpoint where the map shows what could be the scan.
+    pub(super) fn fits_somewhere(&self) -> bool {
+        self.least <= SURPRISE
+    }
+
+    pub(super) fn explanation(&self) -> Explanation {
+        if self.as_known >= self.new_walls.max(self.lifted) {
+            Explanation::AsKnown
+        } else if self.new_walls >= self.lifted {
+            Explanation::NewWalls
+        } else {
+            Explanation::Lifted
+        }
+    }
+}
+
+/// Whether a beam ends long before the wall that the map shows.
+pub(super) fn ends_before(seen: f64, shown: u8) -> bool {
+    shown != UNKNOWN && seen < f64::from(shown) * RANGE_UNIT - OUTLIER * RANGE_SD
+}
+
+impl Misfit {
+    /// Compares ranges with those that the map shows, beam by beam, in [`RANGE_UNIT`]s. O(beams).
+    pub(super) fn of(seen: &[f64], shown: impl Iterator<Item = u8>) -> Self {
+        let (mut all, mut old) = (Sum::default(), Sum::default());
+        let mut new = Run::default();
+        for (seen, shown) in seen.iter().zip(shown) {
+            if shown == UNKNOWN {
+                continue;
+            }
+            let off = (seen - f64::from(shown) * RANGE_UNIT) / RANGE_SD;
+            let capped = off.abs().min(OUTLIER);
+            all.add(capped * capped);
+            let ends_before = ends_before(*seen, shown);
+            new.add(ends_before);
+            if !ends_before {
+                old.add(capped * capped);
+            }
+        }
+        let has_new_wall = new.longest() >= BEAMS_OF_A_WALL;
+        let beams = seen.len() as u32;
+        Self {
+            all: all.mean(beams.div_ceil(2)),
+            but_for_new_walls: old.mean(beams / 3).filter(|_| has_new_wall),
+        }
+    }
+
+    /// Whether all of a scan fits that does not end on new walls, of which some are in sight.
+    pub(super) fn fits_but_for_new_walls(self) -> bool {
+        self.but_for_new_walls.is_some_and(|misfit| misfit < WELL)
+    }
+
+    /// How likely the scan is.
+    pub(super) fn likelihood(self) -> f64 {
+        likelihood(self.all.unwrap_or(UNSHOWN))
+    }
+
+    /// How likely it is if what ends before its time ends on new walls.
+    pub(super) fn likelihood_with_new_walls(self) -> f64 {
+        self.but_for_new_walls.map_or(0.0, likelihood)
+    }
+}
+
+#[derive(Default)]
+struct Sum {
+    sum: f64,
+    count: u32,
+}
+
+impl Sum {
+    fn add(&mut self, value: f64) {
+        self.sum += value;
+        self.count += 1;
+    }
+
+    /// None of fewer than `least`.
+    fn mean(&self, least: u32) -> Option<f64> {
+        (self.count > 0 && self.count >= least).then(|| self.sum / f64::from(self.count))
+    }
+}
+
+/// How many beams side by side have something in common, round the circle.
+#[derive(Default)]
+struct Run {
+    /// The run from the first beam on.
+    first: u32,
+    has_ended: bool,
+    last: u32,
+    most: u32,
+}
+
+impl Run {
+    fn add(&mut self, has: bool) {
+        if has {
+            self.last += 1;
+            self.most = self.most.max(self.last);
+        } else {
+            if !self.has_ended {
+                self.first = self.last;
+            }
+            self.has_ended = true;
+            self.last = 0;
+        }
+    }
+
+    fn longest(&self) -> u32 {
+        self.most.max(self.last + self.first)
+    }
+}
+
+fn likelihood(misfit: f64) -> f64 {
+    libm::exp(-0.5 * INDEPENDENT_BEAMS * misfit.max(GOOD))
+}

@@ -1,0 +1,70 @@
+use alloc::sync::Arc;
+
+use tolman_geom::Point;
+
+use super::BetterMap;
+
+/// A map as it was learned, and with the walls that barred the way since.
+#[derive(Clone, Debug)]
+pub(super) struct ChangedMap {
+    learned: Arc<BetterMap>,
+    now: Arc<BetterMap>,
+    /// How often such a wall has barred the way.
+    barred: u32,
+    /// Whether walls bar every way, so that it goes by what it has learned.
+    is_cut_off: bool,
+}
+
+/// A wall is drawn when it has barred the way so often.
+const ENOUGH: u32 = 2;
+
+impl ChangedMap {
+    pub(super) fn new(learned: Arc<BetterMap>) -> Self {
+        Self {
+            now: Arc::clone(&learned),
+            learned,
+            barred: 0,
+            is_cut_off: false,
+        }
+    }
+
+    /// The map as it was learned.
+    pub(super) const fn learned(&self) -> &Arc<BetterMap> {
+        &self.learned
+    }
+
+    /// The map as it is now.
+    pub(super) const fn now(&self) -> &Arc<BetterMap> {
+        &self.now
+    }
+
+    /// Notes that these walls bar the way at a standpoint. Draws them when they have done so often enough and another way leads to the goal;
+    /// returns whether it did. O(1), or as making a map ready takes.
+    pub(super) fn bar(&mut self, walls: &[Point], at: Point) -> bool {
+        self.barred += 1;
+        if self.barred < ENOUGH || self.is_cut_off {
+            return false;
+        }
+        self.barred = 0;
+        let changed = self.now.with_walls(walls);
+        let changed = changed.filter(|map| map.leads_on(at));
+        match changed {
+            Some(map) => {
+                self.now = Arc::new(map);
+                true
+            }
+            None => {
+                let had_walls = self.forget();
+                self.is_cut_off = true;
+                had_walls
+            }
+        }
+    }
+
+    /// Forgets all walls; returns whether there were any.
+    pub(super) fn forget(&mut self) -> bool {
+        let has_changed = !Arc::ptr_eq(&self.now, &self.learned);
+        *self = Self::new(Arc::clone(&self.learned));
+        has_changed
+    }
+}
