@@ -127,7 +127,9 @@ impl NoisyMouse {
         match decision.unwrap_or(MoveDecision::Stuck) {
             MoveDecision::Drive(leap) => self.leap(robot, leap)?,
             MoveDecision::Turn => self.turn_to(robot, self.looks_to().right())?,
-            MoveDecision::Finished { .. } => return Ok(NoisyNext::Done),
+            MoveDecision::Finished { .. } | MoveDecision::Enough { .. } => {
+                return Ok(NoisyNext::Done);
+            }
             MoveDecision::Stuck => return Ok(NoisyNext::Stuck),
         }
         Ok(NoisyNext::Stepped)
