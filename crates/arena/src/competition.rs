@@ -34,18 +34,32 @@ use tolman_systems::micromouse::competition::{
 /// If the maze has no way to a goal, or is larger than 32 × 32, or the times of the moves are too
 /// far apart.
 pub fn explore(maze: &Maze, config: &SpeedRunConfig) -> Result<SpeedRunExploration, ExploreError> {
+    watch(maze, config, |_, _| {})
+}
+
+/// The same; `see` is told of every cell that the mouse looks at, and which of its sides are open, in the order of
+/// [`Direction::ALL`].
+///
+/// # Errors
+/// As [`explore`].
+pub fn watch(
+    maze: &Maze,
+    config: &SpeedRunConfig,
+    see: impl FnMut(Cell, [bool; 4]),
+) -> Result<SpeedRunExploration, ExploreError> {
     let grid = maze.grid();
     // What is known takes its time to be looked through.
     if grid.width().max(grid.height()) <= 16 {
-        explore_within::<16>(maze, config)
+        watch_within::<16>(maze, config, see)
     } else {
-        explore_within::<32>(maze, config)
+        watch_within::<32>(maze, config, see)
     }
 }
 
-fn explore_within<const N: usize>(
+fn watch_within<const N: usize>(
     maze: &Maze,
     config: &SpeedRunConfig,
+    mut see: impl FnMut(Cell, [bool; 4]),
 ) -> Result<SpeedRunExploration, ExploreError> {
     let (start, heading) = maze.start().unwrap_or((Cell::new(0, 0), Direction::North));
     let brief = Brief {
@@ -59,6 +73,7 @@ fn explore_within<const N: usize>(
     let mut at = start;
     loop {
         let open = Direction::ALL.map(|side| maze.is_open(at, side));
+        see(at, open);
         match mouse.next(open)? {
             CompetitionNext::Drive(side) => {
                 at = maze.beside(at, side).ok_or(ExploreError::NoWay { at })?;
@@ -87,7 +102,29 @@ mod tests {
         maze.set_start(Some((Cell::new(0, 0), Direction::East)));
         maze.set_goals(vec![Cell::new(3, 0)]);
         maze.set_wall(Cell::new(2, 0), Direction::East, true);
-        let at = Cell::new(2, 0);
+        let at = Cell::new(0, 0);
         assert_eq!(explore(&maze, &config), Err(ExploreError::NoWay { at }));
+    }
+
+    #[test]
+    fn a_mouse_that_faces_a_wall_turns_to_the_side_that_is_open() {
+        let mut maze = Maze::open(Grid::new(4, 2));
+        for cell in maze.grid().cells().collect::<Vec<_>>() {
+            maze.set_wall(cell, Direction::North, true);
+        }
+        maze.set_goals(vec![Cell::new(3, 0)]);
+        for (facing, at, way) in [
+            (Direction::North, 0, Direction::East),
+            (Direction::South, 0, Direction::East),
+            (Direction::West, 0, Direction::East),
+            (Direction::East, 0, Direction::East),
+        ] {
+            maze.set_start(Some((Cell::new(at, 0), facing)));
+            let explored = explore(&maze, &SpeedRunConfig::classic()).unwrap();
+            assert_eq!(explored.verdict, Ok(()));
+            assert_eq!(explored.certificate.heading, way);
+            assert_eq!((explored.cells, explored.search_cells), (6, 3));
+            assert_eq!(explored.proof_cells, 0);
+        }
     }
 }

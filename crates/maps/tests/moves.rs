@@ -121,6 +121,7 @@ fn explore_by(
                 assert!(visited, "was at the goal");
                 return (map, steps, moves);
             }
+            MoveDecision::Enough { .. } => panic!("it was to prove its run"),
             MoveDecision::Stuck => panic!("stuck at {at} in\n{map}"),
         }
     }
@@ -256,6 +257,7 @@ fn rollouts_go_on_where_walls_are_forgotten() {
                 assert!(forgotten >= 20, "{forgotten}");
                 return;
             }
+            MoveDecision::Enough { .. } => panic!("it was to prove its run"),
             MoveDecision::Stuck => panic!("stuck at {at} in\n{map}"),
         }
     }

@@ -8,7 +8,8 @@ use std::io::{self, BufReader, Read, Write};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_maze::{Braided, Maze};
-use tolman_systems::micromouse::mms::{PlayError, Played, Until, best_score, play};
+use tolman_systems::micromouse::Until;
+use tolman_systems::micromouse::mms::{PlayError, Played, best_score, play};
 
 use super::Simulator;
 

@@ -11,11 +11,12 @@ mod figures;
 mod noise;
 mod paper;
 mod sets;
+mod until;
 
 use alloc::collections::BTreeMap;
 
 use serde::Serialize;
-use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
+use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig, WorthConfig};
 
 use crate::data;
 use crate::tolerances::{MOUSE_SCORE, MOVES};
@@ -56,6 +57,7 @@ struct Micromouse {
 struct Config {
     search: MoveExplorerConfig,
     rollouts: RolloutConfig,
+    worth: WorthConfig,
     q_learning: QLearningConfig,
     mazes: BTreeMap<String, String>,
 }
@@ -76,7 +78,10 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     let sets = sets::all(folder.as_deref(), &options.mazes)?;
     let mut tables: Vec<Table> = paper.iter().map(PaperTable::table).collect();
     tables.extend(comparisons::tables(&paper));
-    let mut table = sets_table(SETS, "Our search on sets of mazes", &sets);
+    let mut table = until::rows(
+        sets_table(SETS, "Our search on sets of mazes", &sets),
+        &sets,
+    );
     if folder.is_none() {
         table.note = format!("{} {}", table.note, data::missing("the mazes of others"));
     }
@@ -90,6 +95,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     let config = toml::Table::try_from(Config {
         search: MoveExplorerConfig::tuned(),
         rollouts: RolloutConfig::tuned(),
+        worth: WorthConfig::tuned(),
         q_learning: QLearningConfig::usual(),
         mazes: all_mazes(&paper, &sets),
     })?;
@@ -116,7 +122,7 @@ fn sets_table(name: &str, title: &str, sets: &[MazeSet]) -> Table {
         .metric(Metric::mean(MouseRun::score_minus_floor))
         .metric(Metric::percent("certified_percent", MouseRun::certified))
         .metric(Metric::percent("finished_percent", MouseRun::finished))
-        .metric(Metric::mean(MouseRun::score))
+        .metric(Metric::mean(SetRun::counted).named("score"))
         .rows(sets.iter().filter(|set| set.name != HALF_SIZE).map(MazeSet::row))
         .note(format!(
             "One run a maze. The floor is the score of a mouse that knows the maze. A mouse that has not \
@@ -151,6 +157,8 @@ record! {
         ..run: MouseRun,
         /// Name of the maze.
         maze: String => neither("maze"),
+        /// Score as its row counts it: in the rows that say when to stop, above that of a mouse that knows the maze.
+        counted: Option<f64> => lower("score"),
     }
 }
 
@@ -192,8 +200,12 @@ impl Micromouse {
     fn run_on_set(&self, job: &Job<'_>, searcher: Searcher) -> Result<Fields, BoxError> {
         let (maze, walls) = self.set(job.row)?.maze(job.run)?;
         let run = MouseRun::of(&try_on(walls, searcher, job.seed)?.1);
-        let maze = maze.clone();
-        Ok(SetRun { run, maze }.fields()?)
+        let set_run = SetRun {
+            counted: run.score,
+            run,
+            maze: maze.clone(),
+        };
+        Ok(set_run.fields()?)
     }
 
     /// A run in the maze of a table of the paper.
@@ -224,7 +236,10 @@ fn check_score(run_1: Option<u32>, run_2: Option<u32>, score: Option<f64>) -> Re
 impl Procedure for Micromouse {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         match job.table {
-            SETS => self.run_on_set(job, Searcher::Certify),
+            SETS => match until::of_row(job.row) {
+                Some(until) => until::run(self.set(until::SET)?, until, job),
+                None => self.run_on_set(job, Searcher::Certify),
+            },
             WITHOUT_ROLLOUTS => self.run_on_set(job, Searcher::CertifyPlain),
             COMPETITION => competition::run(self.set(job.row)?, job.run),
             NOISE => noise::run(job),

@@ -60,6 +60,12 @@ pub enum MoveDecision {
         /// Steps.
         moves: u16,
     },
+    /// The mouse was at a goal, and to look on is expected to cost more than it gains ([`WorthConfig`](super::WorthConfig)).
+    /// The best known run takes so many:
+    Enough {
+        /// Steps.
+        moves: u16,
+    },
     /// No way leads to a goal.
     Stuck,
 }

@@ -2,8 +2,12 @@ use tolman_maze::{Cell, Walls};
 
 use super::chart::Chart;
 use super::completion::Completions;
+use super::explorer::Task;
+use super::play::{Play, Stage};
+use super::rival::Rival;
 use super::sides::Sides;
 use super::split_mix::SplitMix;
+use super::worth::WorthConfig;
 use super::{MoveDecision, MoveExplorer, MoveExplorerConfigError};
 use crate::TooLarge;
 
@@ -66,8 +70,9 @@ impl RolloutConfig {
 /// `N` is at most 32. A decision takes some 10 kB of the stack for 16² cells, 35 kB for 32²; a [`MoveExplorer`]'s, 3 and 9 kB.
 #[derive(Clone, Debug)]
 pub struct Rollouts<const N: usize> {
-    base: MoveExplorer<N>,
+    pub(super) base: MoveExplorer<N>,
     config: RolloutConfig,
+    worth: Option<WorthConfig>,
     aim: Option<Aim>,
 }
 
@@ -79,45 +84,8 @@ struct Aim {
     unknown: u32,
 }
 
-/// A stop that is held against the explorer's own.
-#[derive(Clone, Copy, Debug)]
-struct Rival {
-    stop: Cell,
-    /// Steps that it costs more than the explorer's own, summed over the mazes, and their squares.
-    sum: f32,
-    squares: f32,
-    mazes: f32,
-}
-
-impl Rival {
-    const fn new(stop: Cell) -> Self {
-        Self {
-            stop,
-            sum: 0.0,
-            squares: 0.0,
-            mazes: 0.0,
-        }
-    }
-
-    fn add(&mut self, more: f32) {
-        self.sum += more;
-        self.squares += more * more;
-        self.mazes += 1.0;
-    }
-
-    /// The steps it costs more, and `confidence` standard errors on top.
-    fn at_worst(&self, confidence: f32) -> f32 {
-        let mean = self.sum / self.mazes;
-        let variance = (self.squares / self.mazes - mean * mean).max(LEAST_VARIANCE);
-        mean + confidence * libm::sqrtf(variance / self.mazes)
-    }
-}
-
 /// So many stops are tried, the explorer's own among them.
 const STOPS: usize = 5;
-
-/// Of steps in few mazes that happen to be equal.
-const LEAST_VARIANCE: f32 = 0.25;
 
 impl<const N: usize> Rollouts<N> {
     /// `base`, improved.
@@ -132,7 +100,20 @@ impl<const N: usize> Rollouts<N> {
         Ok(Self {
             base,
             config,
+            worth: None,
             aim: None,
+        })
+    }
+
+    /// The same, but it stops as soon as the rest of the proof is expected to cost more than it gains: see [`WorthConfig`].
+    ///
+    /// # Errors
+    /// If a value is out of its range.
+    pub fn until_worth(self, worth: WorthConfig) -> Result<Self, MoveExplorerConfigError> {
+        worth.check()?;
+        Ok(Self {
+            worth: Some(worth),
+            ..self
         })
     }
 
@@ -148,24 +129,34 @@ impl<const N: usize> Rollouts<N> {
     ) -> Result<MoveDecision, TooLarge> {
         let chart = self.base.chart(walls, goals, at)?;
         let task = self.base.task(&chart, at);
+        if let (Task::Prove { closed }, Some(worth)) = (&task, self.worth)
+            && self.kept_aim(&chart, at, *closed).is_none()
+            && self.is_enough(&worth, &chart, at, *closed)
+        {
+            return Ok(MoveDecision::Enough { moves: *closed });
+        }
         Ok(task.decide(&chart, at, |closed| self.aim(&chart, at, closed)))
     }
 
     fn aim(&mut self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Cell> {
-        let unknown = chart.unknown().len();
-        let kept = self.aim.filter(|aim| {
-            aim.unknown == unknown
+        let aim = match self.kept_aim(chart, at, closed) {
+            Some(aim) => aim,
+            None => Aim {
+                stop: self.choose(chart, at, closed)?,
+                unknown: chart.unknown().len(),
+            },
+        };
+        self.aim = Some(aim);
+        Some(aim.stop)
+    }
+
+    /// The stop chosen before, if nothing new was seen since and it still tells something.
+    fn kept_aim(&self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Aim> {
+        self.aim.filter(|aim| {
+            aim.unknown == chart.unknown().len()
                 && self.base.tells(chart, aim.stop, closed)
                 && chart.course(aim.stop, at).is_some()
-        });
-        self.aim = match kept {
-            Some(aim) => Some(aim),
-            None => {
-                let stop = self.choose(chart, at, closed)?;
-                Some(Aim { stop, unknown })
-            }
-        };
-        self.aim.map(|aim| aim.stop)
+        })
     }
 
     /// The stop to drive to, of those that the base policy thinks best.
@@ -176,32 +167,24 @@ impl<const N: usize> Rollouts<N> {
         for (slot, stop) in rivals.iter_mut().zip(stops.iter().skip(1)) {
             *slot = Some(Rival::new(stop));
         }
-        // Where as much is unknown as before, the same mazes are drawn.
-        let seed = self.config.seed ^ u64::from(chart.unknown().len()) << 32;
-        let mut completions = Completions::new(chart, SplitMix::new(seed));
-        for drawn in 1..=self.config.completions {
+        let mut completions = self.completions(chart);
+        let most = match self.worth {
+            None => self.config.completions,
+            Some(worth) => worth.completions,
+        };
+        for drawn in 1..=most {
             if rivals.iter().flatten().next().is_none() {
                 break;
             }
             let maze = completions.draw();
-            let mut play = Play::new();
-            // A play that comes to no end tells nothing of this maze.
-            let Some(steps) = self.play(chart, &maze, own, at, |stage, steps| {
-                play.record(stage, steps);
-                None
-            }) else {
-                continue;
+            let try_all = match self.worth {
+                None => self.hold_proofs(chart, &maze, own, at, &mut rivals),
+                Some(worth) => self.hold_scores(&worth, chart, &maze, (own, at), &mut rivals),
             };
-            for slot in &mut rivals {
-                let Some(rival) = slot else {
-                    continue;
-                };
-                let met = |stage, so_far| play.steps_at(stage).map(|at| steps - at + so_far);
-                if let Some(its) = self.play(chart, &maze, rival.stop, at, met) {
-                    rival.add(its - steps);
-                }
-                if drawn >= self.config.trial && rival.sum >= 0.0 {
-                    *slot = None;
+            // A play that comes to no end tells nothing of this maze.
+            if try_all.is_some() && drawn >= self.config.trial {
+                for slot in &mut rivals {
+                    *slot = slot.filter(|rival| rival.sum < 0.0);
                 }
             }
         }
@@ -214,6 +197,35 @@ impl<const N: usize> Rollouts<N> {
             |best, rival| if rival.0 < best.0 { rival } else { best },
         );
         Some(best.1)
+    }
+
+    /// Mazes that agree with all that is known. Where as much is unknown as before, the same ones are drawn.
+    pub(super) fn completions<'a>(&self, chart: &'a Chart<N>) -> Completions<'a, N> {
+        let seed = self.config.seed ^ u64::from(chart.unknown().len()) << 32;
+        Completions::new(chart, SplitMix::new(seed))
+    }
+
+    /// Holds the rivals against the explorer's `own` stop by the steps of the proof in one maze.
+    fn hold_proofs(
+        &self,
+        chart: &Chart<N>,
+        maze: &Sides<N>,
+        own: Cell,
+        at: Cell,
+        rivals: &mut [Option<Rival>],
+    ) -> Option<()> {
+        let mut play = Play::new();
+        let steps = self.play(chart, maze, own, at, |stage, steps| {
+            play.record(stage, steps);
+            None
+        })?;
+        for rival in rivals.iter_mut().flatten() {
+            let met = |stage, so_far| play.steps_at(stage).map(|at| steps - at + so_far);
+            if let Some(its) = self.play(chart, maze, rival.stop, at, met) {
+                rival.add(its - steps);
+            }
+        }
+        Some(())
     }
 
     /// Steps from `at` over `stop` to the end of the proof, in a maze with the open sides `maze`. After each drive `met` is told where the
@@ -245,48 +257,6 @@ impl<const N: usize> Rollouts<N> {
     }
 }
 
-/// How far a play has come: plays of one maze that are at the same stage go on alike.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Stage {
-    at: Cell,
-    /// [`Chart::learned`].
-    learned: u64,
-}
-
-/// The stages of the explorer's own play, and after how many steps it came to each; the first of them.
-#[derive(Clone, Copy, Debug)]
-struct Play {
-    stages: [Option<(Stage, f32)>; Self::MOST],
-    count: usize,
-}
-
-impl Play {
-    /// So many stages are kept.
-    const MOST: usize = 64;
-
-    const fn new() -> Self {
-        Self {
-            stages: [None; Self::MOST],
-            count: 0,
-        }
-    }
-
-    fn record(&mut self, stage: Stage, steps: f32) {
-        if let Some(slot) = self.stages.get_mut(self.count) {
-            *slot = Some((stage, steps));
-            self.count += 1;
-        }
-    }
-
-    /// After how many steps it came to a stage, if it did.
-    fn steps_at(&self, stage: Stage) -> Option<f32> {
-        let mut stages = self.stages.iter().map_while(|stage| *stage);
-        stages
-            .find(|(known, _)| *known == stage)
-            .map(|(_, steps)| steps)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -306,16 +276,5 @@ mod tests {
             check(|config| config.confidence = f32::NAN),
             Err("confidence")
         );
-    }
-
-    #[test]
-    fn a_rival_is_better_only_by_more_than_its_standard_error() {
-        let mut rival = Rival::new(Cell::new(0, 0));
-        for more in [-3.0, 1.0, -3.0, 1.0] {
-            rival.add(more);
-        }
-        // Mean −1, variance 4, of four mazes: the standard error is 1.
-        assert!(rival.at_worst(0.9) < 0.0);
-        assert!(rival.at_worst(1.1) > 0.0);
     }
 }

@@ -87,6 +87,35 @@ impl RunStep {
     }
 }
 
+impl RunStep {
+    /// Returns the letter of the move as kerikun11/micromouse-maze-library has it (`RobotBase::FastAction`), and how often it is
+    /// written: a straight of three cells is `SSS`.
+    ///
+    /// `S` is a cell straight on and `w` half a cell's diagonal. `z` and `c` are F45 to the left and right, `q` and `Q` F90, `a`
+    /// and `d` F135, `u` and `U` F180, `p` and `P` FV90. F45 and F135 out of a diagonal are `Z`, `C`, `A` and `D`.
+    #[must_use]
+    pub const fn letters(self) -> (char, u16) {
+        let (slalom, side) = match self.run_move {
+            RunMove::Straight { cells } => return ('S', cells),
+            RunMove::Diagonal { cells } => return ('w', cells),
+            RunMove::Turn { slalom, side } => (slalom, side),
+        };
+        let (left, right) = match (slalom, self.from) {
+            (Slalom::F45, RunState::Straight { .. }) => ('z', 'c'),
+            (Slalom::F45, RunState::Diagonal { .. }) => ('Z', 'C'),
+            (Slalom::F135, RunState::Straight { .. }) => ('a', 'd'),
+            (Slalom::F135, RunState::Diagonal { .. }) => ('A', 'D'),
+            (Slalom::F90, _) => ('q', 'Q'),
+            (Slalom::F180, _) => ('u', 'U'),
+            (Slalom::Fv90, _) => ('p', 'P'),
+        };
+        match side {
+            Side::Left => (left, 1),
+            Side::Right => (right, 1),
+        }
+    }
+}
+
 /// Left or right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {

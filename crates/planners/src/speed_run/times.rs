@@ -1,5 +1,6 @@
 use core::array;
 
+use super::RunMove;
 use super::config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigError};
 
 /// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N` cells: 16 for
@@ -79,6 +80,16 @@ impl<const N: usize> SpeedRunTimes<N> {
     #[must_use]
     pub fn diagonal_ms(&self, cells: usize) -> Option<u16> {
         self.diagonals().get(cells).copied()
+    }
+
+    /// How long a move takes; none if no such straight fits into the maze.
+    #[must_use]
+    pub fn of(&self, run_move: RunMove) -> Option<u16> {
+        match run_move {
+            RunMove::Straight { cells } => self.straight_ms(cells.into()),
+            RunMove::Diagonal { cells } => self.diagonal_ms(cells.into()),
+            RunMove::Turn { slalom, .. } => Some(self.slalom.time_ms(slalom)),
+        }
     }
 
     /// The slalom turns.

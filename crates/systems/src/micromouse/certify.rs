@@ -1,6 +1,6 @@
 use tolman_planners::TooLarge;
 use tolman_planners::moves::{
-    MoveDecision, MoveExplorer, MoveExplorerConfig, RolloutConfig, Rollouts,
+    MoveDecision, MoveExplorer, MoveExplorerConfig, RolloutConfig, Rollouts, WorthConfig,
 };
 
 use super::driver::{Next, Search, SearchView};
@@ -46,6 +46,27 @@ impl Certify {
     }
 }
 
+impl Certify {
+    /// The same with rollouts, but it stops as soon as the rest of the proof is expected to cost more than it gains.
+    ///
+    /// # Errors
+    /// If a weight is out of its range.
+    pub fn until_worth(
+        explorer: MoveExplorerConfig,
+        rollouts: RolloutConfig,
+        worth: WorthConfig,
+        grid: Grid,
+        start: Cell,
+    ) -> Result<Self, MouseError> {
+        let Self(search) = Self::new(explorer, Some(rollouts), grid, start)?;
+        Ok(Self(match search {
+            Explorer::Plain(search) => Explorer::Plain(search),
+            Explorer::Small(search) => Explorer::Small(search.until_worth(worth)?),
+            Explorer::Large(search) => Explorer::Large(search.until_worth(worth)?),
+        }))
+    }
+}
+
 impl Search for Certify {
     fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge> {
         let decision = match &mut self.0 {
@@ -56,7 +77,7 @@ impl Search for Certify {
         Ok(match decision? {
             MoveDecision::Drive(leap) => Next::Drive(leap),
             MoveDecision::Turn => Next::Turn,
-            MoveDecision::Finished { .. } => Next::Reset,
+            MoveDecision::Finished { .. } | MoveDecision::Enough { .. } => Next::Reset,
             MoveDecision::Stuck => Next::Stuck,
         })
     }

@@ -29,10 +29,10 @@
 
 use thiserror::Error;
 use tolman_maps::wall_map::{CellRay, ClosedCells, ObserveError, TooLarge, WallMap};
-use tolman_maze::{Cell, Direction, Walls};
+use tolman_maze::{Cell, Direction, Knowledge, Walls};
 use tolman_planners::speed_run::{
-    Decision, SpeedRunCertificate, SpeedRunCertificateError, SpeedRunConfig, SpeedRunConfigError,
-    SpeedRunExplorer, SpeedRunTimes,
+    Decision, RunStep, SpeedRunCertificate, SpeedRunCertificateError, SpeedRunConfig,
+    SpeedRunConfigError, SpeedRunExplorer, SpeedRunTimes,
 };
 use tolman_planners::{Passages, Unknown};
 
@@ -44,10 +44,26 @@ pub struct SpeedRunExploration {
     /// Moves from a cell to the next, from the start to the goal, wherever else, and back to the
     /// start.
     pub cells: u32,
-    /// The run that the mouse found.
+    /// Of them, those until the mouse was first at a goal.
+    pub search_cells: u32,
+    /// Of them, those from there until the run was known to be the fastest; the rest is the way home.
+    pub proof_cells: u32,
+    /// The run that the mouse found. Its heading is another than that of the [`Brief`] where no run leads ahead from the start:
+    /// then the mouse turns to the next side, clockwise, from which one does.
     pub certificate: SpeedRunCertificate,
+    /// The moves of that run, with where each begins and how long it takes.
+    pub run: Vec<RunLeg>,
     /// What the checker says to it: it sees the walls that the mouse knows, and no more.
     pub verdict: Result<(), SpeedRunCertificateError>,
+}
+
+/// A move of a speed run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RunLeg {
+    /// What is driven, and from where.
+    pub step: RunStep,
+    /// How long it takes, ms.
+    pub time_ms: u16,
 }
 
 /// Why a maze cannot be explored.
@@ -85,11 +101,16 @@ pub enum CompetitionNext {
 pub struct CompetitionMouse<'a, const N: usize> {
     brief: &'a Brief,
     config: &'a SpeedRunConfig,
+    times: &'a SpeedRunTimes<N>,
     explorer: SpeedRunExplorer<'a, N>,
+    /// Where the mouse looks when its speed run begins.
+    run_heading: Direction,
     walls: WallMap<N>,
     at: Cell,
     heading: Direction,
     cells: u32,
+    goal_after: Option<u32>,
+    proof_after: Option<u32>,
 }
 
 impl<'a, const N: usize> CompetitionMouse<'a, N> {
@@ -106,11 +127,15 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         Ok(Self {
             brief,
             config,
+            times,
             explorer: SpeedRunExplorer::new(times, at, heading, &brief.goals),
+            run_heading: heading,
             walls: WallMap::new(brief.grid, ClosedCells::Possible)?,
             at,
             heading,
             cells: 0,
+            goal_after: None,
+            proof_after: None,
         })
     }
 
@@ -122,13 +147,49 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
     /// If the walls contradict what was seen before, or no way leads to a goal.
     pub fn next(&mut self, open: [bool; 4]) -> Result<CompetitionNext, ExploreError> {
         self.walls.observe(self.at, &rays(open))?;
-        match self.explorer.decide(&self.walls, self.at, self.heading)? {
-            Decision::Drive(side) => self.drive(side),
-            Decision::Finished { run_ms } => {
-                Ok(CompetitionNext::Finished(self.exploration(run_ms)?))
+        loop {
+            let decision = self.explorer.decide(&self.walls, self.at, self.heading)?;
+            self.note_stages()?;
+            match decision {
+                Decision::Drive(side) => return self.drive(side),
+                Decision::Finished { run_ms } => {
+                    return Ok(CompetitionNext::Finished(self.exploration(run_ms)?));
+                }
+                Decision::Stuck => self.turn_round()?,
             }
-            Decision::Stuck => Err(ExploreError::NoWay { at: self.at }),
         }
+    }
+
+    /// Notes when the mouse was first at a goal, and when it first knew its run to be the fastest.
+    fn note_stages(&mut self) -> Result<(), TooLarge> {
+        if self.goal_after.is_none() && self.brief.goals.contains(&self.at) {
+            self.goal_after = Some(self.cells);
+        }
+        if self.proof_after.is_none() && self.goal_after.is_some() {
+            let hoped = Passages::new(&self.walls, Unknown::Open)?;
+            let mut edges = self.explorer.planner().run(&hoped).edges();
+            let has_way = self.explorer.planner().time_ms().is_some();
+            if has_way && edges.all(|(cell, side)| self.walls.knowledge(cell, side).is_known()) {
+                self.proof_after = Some(self.cells);
+            }
+        }
+        Ok(())
+    }
+
+    /// No run leads ahead from the start, as where a wall stands ahead of it: turns to the next side that may be open,
+    /// clockwise, as a person puts the mouse down.
+    fn turn_round(&mut self) -> Result<(), ExploreError> {
+        let start = self.brief.start;
+        let mut next = self.run_heading.right();
+        while next != self.brief.heading && self.walls.knowledge(start, next) == Knowledge::Wall {
+            next = next.right();
+        }
+        if next == self.brief.heading {
+            return Err(ExploreError::NoWay { at: self.at });
+        }
+        self.run_heading = next;
+        self.explorer = SpeedRunExplorer::new(self.times, start, next, &self.brief.goals);
+        Ok(())
     }
 
     fn drive(&mut self, side: Direction) -> Result<CompetitionNext, ExploreError> {
@@ -141,23 +202,32 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
 
     fn exploration(&self, run_ms: u16) -> Result<SpeedRunExploration, TooLarge> {
         let Brief {
-            start,
-            heading,
-            ref goals,
-            ..
+            start, ref goals, ..
         } = *self.brief;
         let known = Passages::new(&self.walls, Unknown::Closed)?;
-        let run = self.explorer.planner().run(&known);
+        let run: Vec<RunLeg> = self
+            .explorer
+            .planner()
+            .run(&known)
+            .map(|step| RunLeg {
+                step,
+                time_ms: self.times.of(step.run_move).unwrap_or(0),
+            })
+            .collect();
         let certificate = SpeedRunCertificate {
             start,
-            heading,
-            moves: run.map(|step| step.run_move).collect(),
+            heading: self.run_heading,
+            moves: run.iter().map(|leg| leg.step.run_move).collect(),
             time_ms: run_ms.into(),
         };
+        let proof_after = self.proof_after.unwrap_or(self.cells);
         Ok(SpeedRunExploration {
             cells: self.cells,
+            search_cells: self.goal_after.unwrap_or(proof_after),
+            proof_cells: proof_after - self.goal_after.unwrap_or(proof_after),
             verdict: certificate.check(&self.walls, self.config, goals),
             certificate,
+            run,
         })
     }
 }

@@ -48,6 +48,7 @@ mod run_two;
 mod searcher;
 pub mod system;
 mod target;
+mod until;
 
 pub use brief::Brief;
 pub use certificate::Certificate;
@@ -60,3 +61,4 @@ pub use random::RandomSearch;
 pub use run_two::RunTwo;
 pub use searcher::{Searcher, UnknownSearcher};
 pub use target::TargetSearch;
+pub use until::Until;

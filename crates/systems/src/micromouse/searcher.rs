@@ -5,7 +5,7 @@ use core::str::FromStr;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
+use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig, WorthConfig};
 
 use super::{
     Brief, Certify, CounterSearch, Driver, MouseError, RandomSearch, RunTwo, Search, TargetSearch,
@@ -16,7 +16,9 @@ use super::{
 pub enum Searcher {
     /// Ours, until the best run is proven.
     Certify,
-    /// The same without rollouts.
+    /// The same, but until the rest of the proof no longer pays.
+    CertifyWorth,
+    /// As [`Searcher::Certify`], without rollouts.
     CertifyPlain,
     /// The paper's target search.
     Target,
@@ -30,8 +32,9 @@ pub enum Searcher {
 
 impl Searcher {
     /// All of them.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Certify,
+        Self::CertifyWorth,
         Self::CertifyPlain,
         Self::Target,
         Self::Counter50,
@@ -44,6 +47,7 @@ impl Searcher {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Certify => "certify",
+            Self::CertifyWorth => "certify-worth",
             Self::CertifyPlain => "certify-plain",
             Self::Target => "target",
             Self::Counter50 => "counter-50",
@@ -55,7 +59,10 @@ impl Searcher {
     /// Whether the search makes the same run each time.
     #[must_use]
     pub const fn is_deterministic(self) -> bool {
-        matches!(self, Self::Certify | Self::CertifyPlain | Self::Target)
+        matches!(
+            self,
+            Self::Certify | Self::CertifyWorth | Self::CertifyPlain | Self::Target
+        )
     }
 
     /// Returns a mouse with this search at the start of a maze that it was told of by `brief`.
@@ -71,6 +78,12 @@ impl Searcher {
         let (search, run_two): (Box<dyn Search>, _) = match self {
             Self::Certify => {
                 let search = certify(Some(RolloutConfig::tuned()))?;
+                (Box::new(search), RunTwo::FewestMoves)
+            }
+            Self::CertifyWorth => {
+                let (explorer, worth) = (MoveExplorerConfig::tuned(), WorthConfig::tuned());
+                let (rollouts, grid) = (RolloutConfig::tuned(), brief.grid);
+                let search = Certify::until_worth(explorer, rollouts, worth, grid, brief.start)?;
                 (Box::new(search), RunTwo::FewestMoves)
             }
             Self::CertifyPlain => (Box::new(certify(None)?), RunTwo::FewestMoves),
@@ -92,7 +105,7 @@ impl fmt::Display for Searcher {
 /// A name that no search bears.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "there is no search {name:?}: choose certify, certify-plain, target, counter-50, counter-75 or random"
+    "there is no search {name:?}: choose certify, certify-worth, certify-plain, target, counter-50, counter-75 or random"
 )]
 pub struct UnknownSearcher {
     /// The name as given.

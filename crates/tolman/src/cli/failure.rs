@@ -66,6 +66,12 @@ pub(super) fn complain(error: &anyhow::Error) {
     let _ = writeln!(anstream::stderr(), "{red}error:{red:#} {told}");
 }
 
+/// Tells something that is no error on stderr, such as what was skipped.
+pub(super) fn note(what: &str) {
+    // Nobody is left to be told that stderr cannot be written.
+    let _ = writeln!(anstream::stderr(), "note: {what}");
+}
+
 /// An error and the causes behind it in one line, each told once: some errors tell their cause themselves.
 fn told(error: &anyhow::Error) -> String {
     let mut told = String::new();

@@ -106,7 +106,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     // What was hosted stands before what could not be, wherever the two streams end up.
     out.flush()?;
     unsound.complain(mazes.len())?;
-    maze::all_solved(&mazes, hosted.iter().map(|hosted| hosted.solved))
+    let tried = mazes.iter().zip(&hosted);
+    maze::all_solved(tried.map(|((file, _), hosted)| (file.as_path(), hosted.solved)))
 }
 
 impl Arguments {

@@ -26,6 +26,7 @@ mod mms_host;
 mod mouse;
 mod picture;
 mod pitch;
+mod race;
 mod replay;
 mod replay_file;
 mod run;
@@ -67,6 +68,7 @@ Examples:
   tolman learn --system diktiometry --maze mazes/j-long.maze --out j-survey.json
   tolman maze show mazes/j.maze
   tolman mouse mazes/grid --worst 3
+  tolman race mazes/grid/braided-2.txt --svg race.svg
   tolman arena --system cpm-better --family office
   tolman map --log logs/office.clf.gz --out office
   tolman audit mazes/graphs/rooms.g2o --out audited # exits 1
@@ -93,6 +95,7 @@ enum Verb {
     #[command(subcommand)]
     Pitch(pitch::Verb),
     Mouse(mouse::Arguments),
+    Race(race::Arguments),
     MmsHost(mms_host::Arguments),
     Experiment(experiment::Arguments),
     Completions(completions::Arguments),
@@ -205,6 +208,7 @@ impl Verb {
             Self::Maze(verb) => verb.carry_out(app, out),
             Self::Pitch(verb) => verb.carry_out(out),
             Self::Mouse(arguments) => mouse::carry_out(&arguments, out),
+            Self::Race(arguments) => race::carry_out(&arguments, out),
             Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
             Self::Experiment(arguments) => experiment::carry_out(app, &arguments, out),
             Self::Completions(arguments) => completions::carry_out(&arguments, out),

@@ -8,15 +8,14 @@ mod way;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 use serde_json::json;
 use tolman_arena::micromouse::{
     self, Judgement, MAX_STEPS, MouseTrial, RefereedStep, Ruling, sides_seen,
 };
 use tolman_geom::Pose;
 use tolman_maze::Maze;
-use tolman_systems::micromouse::mms::Until;
-use tolman_systems::micromouse::{Movement, Order, Rotation, Searcher};
+use tolman_systems::micromouse::{Movement, Order, Rotation, Searcher, Until};
 
 use super::looks::Looks;
 use super::maze::Collection;
@@ -40,6 +39,7 @@ ahead and to its right before it. --json writes one object a maze and line.
 Examples:
   tolman mouse mazes/grid/braided-2.txt
   tolman mouse mazes/grid --worst 3
+  tolman mouse mazes/grid --until worth
   tolman mouse mazes/grid/perfect-1.txt --replay mouse.html --trace mouse.jsonl
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid")]
 pub(super) struct Arguments {
@@ -49,10 +49,10 @@ pub(super) struct Arguments {
     /// Speak the protocol of the simulator mms on stdin and stdout
     #[arg(long, conflicts_with_all = ["maze", "search", "seed", "worst", "jobs", "json", "live", "svg", "trace", "replay"])]
     mms: bool,
-    /// When the mouse of --mms has explored enough
-    #[arg(long, default_value = "proof", value_parser = words(UNTIL), requires = "mms")]
-    until: Until,
-    /// How to explore: certify (until the run is proven), certify-plain (the same, without rollouts), or as the paper does: target, counter-50, counter-75, random
+    /// When the mouse has explored enough; by default when its run is proven, with --mms when it has been at the goal
+    #[arg(long, value_parser = words(UNTIL), conflicts_with = "search")]
+    until: Option<Until>,
+    /// How to explore: certify (until the run is proven), certify-worth (what --until worth does), certify-plain (as certify, without rollouts), or as the paper does: target, counter-50, counter-75, random
     #[arg(long, value_name = "SEARCH", default_value_t = Searcher::Certify)]
     search: Searcher,
     /// What the chance of the searches that have any follows from
@@ -69,8 +69,17 @@ pub(super) struct Arguments {
 }
 
 /// When a mouse has explored enough.
-const UNTIL: [(&str, &str, Until); 2] = [
-    ("goal", "It has been at the goal", Until::Goal),
+const UNTIL: [(&str, &str, Until); 3] = [
+    (
+        "goal",
+        "It has been at the goal (only with --mms)",
+        Until::Goal,
+    ),
+    (
+        "worth",
+        "To look on is expected to cost more than it gains in the score (with --mms: as goal)",
+        Until::Worth,
+    ),
     (
         "proof",
         "No run can score less than the best one it knows",
@@ -89,21 +98,23 @@ struct Tried<'a> {
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     // clap asks for one of the two.
     let Some(path) = arguments.maze.as_ref().filter(|_| !arguments.mms) else {
-        return mms::carry_out(arguments.until, out);
+        return mms::carry_out(arguments.until.unwrap_or(Until::Goal), out);
     };
-    let Collection { mazes, unsound } = Collection::read(path)?;
+    let search = arguments.search()?;
+    let Collection { mazes, mut unsound } = Collection::read(path)?;
     let files = mazes.len() + unsound.len();
     arguments.looks.of_one(path, files)?;
     arguments.looks.overwrite()?;
-    let tried = maze::each(&mazes, arguments.jobs, |file, maze| {
-        arguments.send(file, maze)
+    // A maze that no mouse can run in must not void the others.
+    let sent = maze::each(&mazes, arguments.jobs, |file, maze| {
+        Ok(arguments.send(search, file, maze))
     })?;
-    let (tried, ways): (Vec<Tried<'_>>, Vec<Option<Way>>) = tried.into_iter().unzip();
+    let (tried, ways): (Vec<Tried<'_>>, Vec<Option<Way>>) = unsound.sift(sent).unzip();
     for (tried, way) in tried.iter().zip(ways) {
         if let Some(way) = way {
             way.show(&arguments.looks, &tried.outcome())?;
         }
-        arguments.tell(tried, out)?;
+        arguments.tell(search, tried, out)?;
     }
     if !arguments.looks.json {
         let drawn = if tried.len() > 1 { arguments.worst } else { 1 };
@@ -117,18 +128,40 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     }
     out.flush()?;
     unsound.complain(tried.len())?;
-    let solved = tried.iter().map(|tried| tried.judgement.score.is_some());
-    maze::all_solved(&mazes, solved)
+    let solved = tried
+        .iter()
+        .map(|tried| (tried.file, tried.judgement.score.is_some()));
+    maze::all_solved(solved)
 }
 
 impl Arguments {
-    fn tell(&self, tried: &Tried<'_>, out: &mut dyn Write) -> Result<(), Failure> {
+    /// How to explore under the paper's rules.
+    ///
+    /// # Errors
+    /// Bad input if that is not done under them.
+    fn search(&self) -> Result<Searcher, Failure> {
+        match self.until {
+            None => Ok(self.search),
+            Some(Until::Proof) => Ok(Searcher::Certify),
+            Some(Until::Worth) => Ok(Searcher::CertifyWorth),
+            Some(Until::Goal) => Err(Failure::BadInput(anyhow!(
+                "--until goal is for --mms; here give --until worth or proof"
+            ))),
+        }
+    }
+
+    fn tell(
+        &self,
+        search: Searcher,
+        tried: &Tried<'_>,
+        out: &mut dyn Write,
+    ) -> Result<(), Failure> {
         let name = maze::name(tried.file);
         let judgement = &tried.judgement;
         if self.looks.json {
             let mut line = serde_json::to_value(judgement)?;
             line["maze"] = json!(name);
-            line["search"] = json!(self.search.name());
+            line["search"] = json!(search.name());
             line["above_floor"] = json!(judgement.above_floor());
             line["gave_up"] = json!(tried.trial.gave_up.map(|error| error.to_string()));
             return Ok(writeln!(out, "{line}")?);
@@ -139,15 +172,16 @@ impl Arguments {
     /// Sends the mouse through a maze, and shows its way while it goes, if that is asked for.
     fn send<'a>(
         &self,
+        search: Searcher,
         file: &'a Path,
         maze: &'a Maze,
     ) -> Result<(Tried<'a>, Option<Way>), Failure> {
         let mut way = match self.looks.any() {
-            true => Some(self.way(file, maze)?),
+            true => Some(self.way(search, file, maze)?),
             false => None,
         };
         let mut at = maze.start();
-        let tried = micromouse::watch(maze, self.search, self.seed, |step| {
+        let tried = micromouse::watch(maze, search, self.seed, |step| {
             let Some(way) = &mut way else {
                 return;
             };
@@ -168,10 +202,10 @@ impl Arguments {
     }
 
     /// The way that the mouse is about to go.
-    fn way(&self, file: &Path, maze: &Maze) -> Result<Way, Failure> {
+    fn way(&self, search: Searcher, file: &Path, maze: &Maze) -> Result<Way, Failure> {
         let header = json!({
             "rules": "Plot and Navigate a Virtual Maze",
-            "search": self.search.name(),
+            "search": search.name(),
             "seed": self.seed,
         });
         let way = Way::new(maze::name(file), maze, header)?;

@@ -9,8 +9,17 @@ const WIDTH: f64 = 640.0;
 
 /// The SVG text of the maze with the robot's way through it; `told` says the outcome.
 pub(super) fn of(course: &Course, path: &[Pose], told: &str) -> String {
+    of_runs(course, &[path], told)
+}
+
+/// The same of several ways; the last is in the first colour and over the others.
+pub(super) fn of_runs(course: &Course, paths: &[&[Pose]], told: &str) -> String {
     let mut plan = tolman_papers::plan_of_course(course, WIDTH);
-    let positions: Vec<Point> = path.iter().map(|pose| pose.position).collect();
-    plan.trajectory(&positions, Series(0));
+    let paths = paths.iter().filter(|path| !path.is_empty());
+    let colours = (0..paths.clone().count() as u32).rev();
+    for (colour, path) in colours.zip(paths) {
+        let positions: Vec<Point> = path.iter().map(|pose| pose.position).collect();
+        plan.trajectory(&positions, Series(colour));
+    }
     Figure::new("run", &course.name, plan.drawing(told)).standalone()
 }

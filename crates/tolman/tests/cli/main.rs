@@ -20,6 +20,7 @@ mod maze;
 mod mms_host;
 mod mouse;
 mod mslst_better;
+mod race;
 mod replay;
 mod run;
 mod survey;

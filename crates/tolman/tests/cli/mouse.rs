@@ -76,7 +76,14 @@ fn with_maze(name: &str) -> std::path::PathBuf {
 fn the_steps_it_writes_make_the_score_it_tells() {
     let maze: Maze = tolman_maze::read(MAZE).unwrap().maze;
     assert!(maze.goals().contains(&Cell::new(3, 2)));
-    for search in ["certify", "certify-plain", "target", "counter-50", "random"] {
+    for search in [
+        "certify",
+        "certify-worth",
+        "certify-plain",
+        "target",
+        "counter-50",
+        "random",
+    ] {
         let folder = with_maze(&format!("mouse-steps-{search}"));
         let arguments = [
             "mouse", "a.maze", "--search", search, "--trace", "s.jsonl", "--json",
@@ -102,7 +109,7 @@ fn the_steps_it_writes_make_the_score_it_tells() {
             told["score"].as_f64(),
             Some(f64::from(run_1) / 30.0 + f64::from(run_2))
         );
-        if search.starts_with("certify") {
+        if ["certify", "certify-plain"].contains(&search) {
             assert_eq!(
                 (&told["certified"], &told["optimum"]),
                 (&Value::Bool(true), &told["run_2"])
@@ -163,6 +170,8 @@ fn what_no_mouse_can_run_in_is_refused() {
     tolman_in(&folder, &["mouse", "large.maze"]).refused(2, &["large.maze", "40 × 3", "32 × 32"]);
     tolman_in(&folder, &["mouse", "none.maze"]).refused(2, &["none.maze"]);
     tolman_in(&folder, &["mouse", "a.maze", "--search", "luck"]).refused(2, &["luck", "certify"]);
+    tolman_in(&folder, &["mouse", "a.maze", "--until", "goal"]).refused(2, &["--until worth"]);
+    tolman_in(&folder, &["mouse", "a.maze", "--until", "worth"]).done();
 }
 
 #[test]

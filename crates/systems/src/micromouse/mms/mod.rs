@@ -13,5 +13,5 @@ mod roads;
 
 pub use error::PlayError;
 pub use lattice::{Gate, LatticeHeading, LatticePoint};
-pub use mouse::{Played, Until, play};
+pub use mouse::{Played, play};
 pub use plan::best_score;

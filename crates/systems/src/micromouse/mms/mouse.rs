@@ -10,16 +10,7 @@ use super::link::{Driven, Link};
 use super::plan::{Plan, ends_run, plan, score};
 use super::roads::{Roads, Stand, TurnsAtStart};
 use super::{LatticeHeading, LatticePoint, PlayError};
-
-/// When a mouse has explored enough.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Until {
-    /// When it has been at the goal.
-    Goal,
-    /// When no run can score less than the best one it knows, whatever the walls nobody has looked
-    /// at.
-    Proof,
-}
+use crate::micromouse::Until;
 
 /// What a mouse has done.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -215,7 +206,12 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
 
     /// The cells to stop in next, or none if the mouse has been at the goal and knows enough.
     fn targets(&mut self) -> Result<Option<Vec<Cell>>, PlayError> {
-        if self.goal == Goal::Visited && self.until == Until::Goal {
+        // In this score no look beyond the goal was found to pay.
+        let is_enough = match self.until {
+            Until::Goal | Until::Worth => self.goal == Goal::Visited,
+            Until::Proof => false,
+        };
+        if is_enough {
             self.replan()?;
             return Ok(None);
         }

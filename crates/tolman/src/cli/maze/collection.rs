@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use tolman_maze::{Maze, MazeFile};
 
 use super::input;
-use crate::cli::Failure;
+use crate::cli::{Failure, failure::note};
 
 /// The sound mazes of a file or a folder, by name, and what is to be said of the others.
 pub(in crate::cli) struct Collection {
@@ -17,7 +17,8 @@ pub(in crate::cli) struct Collection {
 }
 
 impl Collection {
-    /// Reads all files that a path names.
+    /// Reads all mazes for mice that a path names. Those for robots in a folder are skipped with a line on stderr: whoever
+    /// wants one names its file.
     ///
     /// # Errors
     /// If it names none.
@@ -26,12 +27,32 @@ impl Collection {
         let mut unsound = Unsound::default();
         for file in input::files(path)? {
             match input::read(&file) {
-                Ok(MazeFile { maze, .. }) => mazes.push((file, maze)),
+                Ok(read) => match for_robots(&read) {
+                    Some(reason) if path.is_dir() => {
+                        let name = input::name(&file);
+                        note(&format!("{name} is a maze for robots ({reason}): skipped"));
+                    }
+                    _ => mazes.push((file, read.maze)),
+                },
                 Err(failure) => unsound.push(failure),
             }
         }
+        if mazes.is_empty() && unsound.len() == 0 {
+            return Err(Failure::BadInput(anyhow!(
+                "{} holds no maze for a mouse: name a folder of such mazes, or a file",
+                path.display()
+            )));
+        }
         Ok(Self { mazes, unsound })
     }
+}
+
+/// Why a maze is one for robots, if it is: a mouse's has a start, and cells as wide as the rules say.
+fn for_robots(file: &MazeFile) -> Option<&'static str> {
+    if file.corridor_width.is_some() {
+        return Some("it says how wide its corridors are");
+    }
+    file.maze.start().is_none().then_some("it marks no start")
 }
 
 /// Lets `work` happen to each maze, `jobs` at a time or one a core, behind a progress bar. The results are in the order of
@@ -64,20 +85,21 @@ pub(in crate::cli) fn each<'a, T: Send>(
     })
 }
 
-/// Fails if the mouse did not solve some of the mazes. A single one is named.
+/// Fails if the mouse did not solve some of the mazes, each a file and whether it did. A single one is named.
 ///
 /// # Errors
 /// A failure.
-pub(in crate::cli) fn all_solved(
-    mazes: &[(PathBuf, Maze)],
-    solved: impl Iterator<Item = bool>,
+pub(in crate::cli) fn all_solved<'a>(
+    tried: impl Iterator<Item = (&'a Path, bool)>,
 ) -> Result<(), Failure> {
-    let tried = mazes.iter().zip(solved);
-    let unsolved: Vec<_> = tried.filter(|(_, solved)| !solved).collect();
-    let which = match (&unsolved[..], mazes) {
+    let (solved, unsolved): (Vec<_>, Vec<_>) = tried.partition(|(_, solved)| *solved);
+    let which = match (&unsolved[..], &solved[..]) {
         ([], _) => return Ok(()),
-        (_, [(only, _)]) => input::name(only),
-        _ => format!("{} of {} mazes", unsolved.len(), mazes.len()),
+        ([(only, _)], []) => input::name(only),
+        _ => {
+            let all = solved.len() + unsolved.len();
+            format!("{} of {all} mazes", unsolved.len())
+        }
     };
     Err(Failure::Failed(anyhow!("the mouse did not solve {which}")))
 }
@@ -89,6 +111,21 @@ pub(in crate::cli) struct Unsound(Vec<Failure>);
 impl Unsound {
     pub(in crate::cli) fn push(&mut self, failure: Failure) {
         self.0.push(failure);
+    }
+
+    /// Keeps what went wrong, and returns what did not.
+    pub(in crate::cli) fn sift<T>(
+        &mut self,
+        outcomes: Vec<Result<T, Failure>>,
+    ) -> impl Iterator<Item = T> {
+        let sift = |outcome| match outcome {
+            Ok(sound) => Some(sound),
+            Err(failure) => {
+                self.push(failure);
+                None
+            }
+        };
+        outcomes.into_iter().filter_map(sift)
     }
 
     /// How many there are.

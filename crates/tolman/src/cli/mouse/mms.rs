@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use tolman_systems::micromouse::mms::{PlayError, Until, play};
+use tolman_systems::micromouse::Until;
+use tolman_systems::micromouse::mms::{PlayError, play};
 
 use crate::cli::{Failure, OrBadInput};
 

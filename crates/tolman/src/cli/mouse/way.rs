@@ -17,8 +17,8 @@ use crate::cli::{Failure, OrBadInput, file, picture, replay_file};
 /// From the middle of a cell to that of the next, as in competitions, m.
 pub(in crate::cli) const PITCH: f64 = 0.18;
 
-/// What the mouse is drawn as.
-const BODY: Body = Body::Circle { radius: 0.045 };
+/// The radius of the circle that the mouse is drawn as, in pitches.
+const RADIUS: f64 = 0.25;
 
 /// A step has no length in time: it is played as if it took this long, µs.
 const STEP_US: u64 = 200_000;
@@ -29,6 +29,8 @@ pub(in crate::cli) struct Way {
     /// The name of the maze.
     name: String,
     course: Course,
+    /// From the middle of a cell to that of the next, m.
+    pitch: f64,
     /// What is to be known of it as a whole, in the trace's first line.
     header: Value,
     /// Before the first step, and after each.
@@ -36,6 +38,8 @@ pub(in crate::cli) struct Way {
     /// What it did in each step.
     steps: Vec<WayStep>,
     walls: WallsKnown,
+    /// Steps after which its last run began, where that is to be seen apart.
+    run: Option<usize>,
     /// Steps after which it was put back to the start.
     lifts: Vec<u32>,
     /// Who looks while it goes.
@@ -71,7 +75,20 @@ impl Way {
     /// # Errors
     /// If the maze marks no start.
     pub(in crate::cli) fn new(name: String, maze: &Maze, header: Value) -> Result<Self, Failure> {
-        let course = Course::new(&name, maze.clone(), PITCH).or_bad_input()?;
+        Self::of_pitch(name, maze, header, PITCH)
+    }
+
+    /// The same in cells of another size: `pitch` is from the middle of a cell to that of the next, m.
+    ///
+    /// # Errors
+    /// If the maze marks no start.
+    pub(in crate::cli) fn of_pitch(
+        name: String,
+        maze: &Maze,
+        header: Value,
+        pitch: f64,
+    ) -> Result<Self, Failure> {
+        let course = Course::new(&name, maze.clone(), pitch).or_bad_input()?;
         let start = course.start().or_bad_input()?;
         Ok(Self {
             name,
@@ -79,7 +96,9 @@ impl Way {
             header,
             poses: vec![start],
             steps: Vec::new(),
-            walls: WallsKnown::new(maze.grid(), PITCH),
+            pitch,
+            walls: WallsKnown::new(maze.grid(), pitch),
+            run: None,
             lifts: Vec::new(),
             live: None,
         })
@@ -101,7 +120,7 @@ impl Way {
                 seed: self.header["seed"].as_u64().unwrap_or(0),
                 start: self.poses[0],
                 step_us: STEP_US,
-                radius: BODY.radius(),
+                radius: RADIUS * self.pitch,
                 step_limit,
             })?);
         }
@@ -122,6 +141,11 @@ impl Way {
     /// Whether the mouse knows that no wall stands on this side of a cell.
     pub(in crate::cli) fn knows_open(&self, cell: Cell, side: Direction) -> bool {
         self.walls.knows_open(cell, side)
+    }
+
+    /// Notes that the last run begins here: a picture shows it apart from what came before.
+    pub(in crate::cli) fn begin_run(&mut self) {
+        self.run = Some(self.steps.len());
     }
 
     /// Notes a step, and shows it to who looks until the next is due.
@@ -155,7 +179,8 @@ impl Way {
             file::write(path, self.trace())?;
         }
         if let Some(path) = &looks.svg {
-            file::write(path, picture::of(&self.course, &self.poses, told))?;
+            let (before, run) = self.poses.split_at(self.run.unwrap_or(0));
+            file::write(path, picture::of_runs(&self.course, &[before, run], told))?;
         }
         match &looks.replay {
             Some(path) => replay_file::write(path, self.replay(told), overwrite),
@@ -182,7 +207,9 @@ impl Way {
 
     fn replay(self, told: &str) -> Replay {
         let world = &self.course.world;
-        let mut track = RobotTrack::new("mouse", BODY, self.poses.clone());
+        let radius = RADIUS * self.pitch;
+        let body = Body::Circle { radius };
+        let mut track = RobotTrack::new("mouse", body, self.poses.clone());
         let mut scenery = Scenery::of_world(world);
         if let Some(floor) = Floor::from(world, self.poses[0].position) {
             scenery.zones.extend(floor.solid());

@@ -1,0 +1,75 @@
+//! The classic set, three seeds a maze, by when the mouse stops to explore: with a proof, or when looking on no longer pays.
+
+use tolman_arena::micromouse::{Judgement, MouseTrial, brief};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table};
+use tolman_maze::Maze;
+use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig, WorthConfig};
+use tolman_systems::micromouse::{Certify, Driver, MouseError, RunTwo, Until};
+
+use super::sets::MazeSet;
+use super::{MouseRun, SetRun};
+
+/// The set whose mazes they are.
+pub(super) const SET: &str = "classic";
+
+/// How often each maze is run, with other random numbers.
+const SEEDS: u32 = 3;
+
+const ROWS: [(&str, Until); 2] = [
+    ("classic · proof", Until::Proof),
+    ("classic · worth", Until::Worth),
+];
+
+/// Adds the rows, where the set is.
+pub(super) fn rows(table: Table, sets: &[MazeSet]) -> Table {
+    let Some(set) = sets.iter().find(|set| set.name == SET) else {
+        return table;
+    };
+    let runs = SEEDS * set.mazes.len() as u32;
+    let note = format!(
+        "{} In the rows that say when the mouse stops to explore, each maze has {SEEDS} runs, which are the same in both but for that, \
+         and the score is counted from the floor.",
+        table.note
+    );
+    let rows = ROWS.map(|(row, _)| Row::new(row).run_each(runs));
+    table.rows(rows).note(note)
+}
+
+/// When the mouse of a row stops, if the row says so.
+pub(super) fn of_row(row: &str) -> Option<Until> {
+    let found = ROWS.into_iter().find(|(name, _)| *name == row);
+    found.map(|(_, until)| until)
+}
+
+/// One run in a maze of the set.
+pub(super) fn run(set: &MazeSet, until: Until, job: &Job<'_>) -> Result<Fields, BoxError> {
+    let count = set.mazes.len().max(1) as u32;
+    let (name, maze) = set.maze(job.run % count)?;
+    let run = MouseRun::of(&judged(maze, until, job.seed)?);
+    let set_run = SetRun {
+        counted: run.score_minus_floor,
+        run,
+        maze: name.clone(),
+    };
+    Ok(set_run.fields()?)
+}
+
+/// A mouse whose random numbers follow from `seed`.
+fn judged(maze: &Maze, until: Until, seed: u64) -> Result<Judgement, BoxError> {
+    let brief = brief(maze)?;
+    let explorer = MoveExplorerConfig::tuned();
+    let rollouts = RolloutConfig {
+        seed,
+        ..RolloutConfig::tuned()
+    };
+    let (grid, start) = (brief.grid, brief.start);
+    let search = match until {
+        Until::Worth => {
+            Certify::until_worth(explorer, rollouts, WorthConfig::tuned(), grid, start)?
+        }
+        _ => Certify::new(explorer, Some(rollouts), grid, start)?,
+    };
+    let mut mouse = Driver::new(brief, search, RunTwo::FewestMoves)?;
+    let trial = MouseTrial::play(maze, &mut mouse)?;
+    Ok(Judgement::of(maze, &mouse, &trial).map_err(MouseError::from)?)
+}

@@ -1,0 +1,43 @@
+use tolman_maze::Cell;
+
+/// How far a play has come: plays of one maze that are at the same stage go on alike.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Stage {
+    pub(super) at: Cell,
+    /// [`Chart::learned`](super::chart::Chart::learned).
+    pub(super) learned: u64,
+}
+
+/// The stages of the explorer's own play, and after how many steps it came to each; the first of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Play {
+    stages: [Option<(Stage, f32)>; Self::MOST],
+    count: usize,
+}
+
+impl Play {
+    /// So many stages are kept.
+    const MOST: usize = 64;
+
+    pub(super) const fn new() -> Self {
+        Self {
+            stages: [None; Self::MOST],
+            count: 0,
+        }
+    }
+
+    pub(super) fn record(&mut self, stage: Stage, steps: f32) {
+        if let Some(slot) = self.stages.get_mut(self.count) {
+            *slot = Some((stage, steps));
+            self.count += 1;
+        }
+    }
+
+    /// After how many steps it came to a stage, if it did.
+    pub(super) fn steps_at(&self, stage: Stage) -> Option<f32> {
+        let mut stages = self.stages.iter().map_while(|stage| *stage);
+        stages
+            .find(|(known, _)| *known == stage)
+            .map(|(_, steps)| steps)
+    }
+}

@@ -1,0 +1,146 @@
+use tolman_maze::Cell;
+
+use super::chart::{Chart, Driven};
+use super::rival::Rival;
+use super::sides::Sides;
+use super::{MoveExplorerConfigError, Rollouts};
+
+/// When [`Rollouts`] stop although the best run is not proven: when to look on costs more than it is expected to gain.
+///
+/// Mazes are drawn that agree with all that is known, and the rest of the proof is played in each. By how much the best run of
+/// the drawn maze is shorter than the one known is the gain; the steps of the proof are the price.
+///
+/// The stops are chosen by the score then, not by the steps of the proof. Nobody knows in advance when a proof is
+/// broken off; a play counts half as if it were brought to its end, and half as if it were broken off at its best moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct WorthConfig {
+    /// Number of mazes drawn for a decision, in place of [`RolloutConfig::completions`](super::RolloutConfig::completions). ≥ 1.
+    pub completions: u16,
+    /// Greatest difference between the known run and the best that can be hoped for, steps, at which it may stop. Drawn mazes
+    /// are not as odd as real ones, and what they never show can be worth most.
+    pub most_gap: u16,
+    /// Factor on the expected gain. > 0.
+    pub gain: f32,
+    /// What a step of the exploration costs, in steps of the run. > 0; the rules have a thirtieth.
+    pub step_price: f32,
+}
+
+impl WorthConfig {
+    /// The one configuration that all our figures are made with. How it was chosen: `docs/micromouse.md`.
+    #[must_use]
+    pub const fn tuned() -> Self {
+        Self {
+            completions: 24,
+            most_gap: 5,
+            gain: 1.5,
+            step_price: 1.0 / 30.0,
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), MoveExplorerConfigError> {
+        let Self {
+            completions,
+            gain,
+            step_price,
+            ..
+        } = *self;
+        MoveExplorerConfigError::check([
+            ("completions", f32::from(completions), completions > 0),
+            ("gain", gain, gain > 0.0),
+            ("step_price", step_price, step_price > 0.0),
+        ])
+    }
+}
+
+/// What a play comes to, in steps of the exploration, against to stop at once.
+#[derive(Clone, Copy, Debug)]
+struct Payoff {
+    /// Steps of the whole proof.
+    steps: f32,
+    /// Steps by which the run gets shorter.
+    gain: f32,
+    /// The least cost at any moment: steps until then, less the worth of what was gained.
+    at_best: f32,
+}
+
+impl<const N: usize> Rollouts<N> {
+    /// Whether to look on costs more than it is expected to gain, from the cell `at` where the known run takes `closed` steps.
+    pub(super) fn is_enough(
+        &self,
+        worth: &WorthConfig,
+        chart: &Chart<N>,
+        at: Cell,
+        closed: u16,
+    ) -> bool {
+        let gap = chart.open().map_or(0, |open| closed.saturating_sub(open));
+        if gap > worth.most_gap {
+            return false;
+        }
+        let Some(stop) = self.base.proofs::<1>(chart, at, closed).best() else {
+            return false;
+        };
+        let mut completions = self.completions(chart);
+        let net: f32 = (0..worth.completions)
+            .filter_map(|_| self.payoff(worth, chart, &completions.draw(), stop, at))
+            .map(|payoff| worth.gain * payoff.gain - worth.step_price * payoff.steps)
+            .sum();
+        net <= 0.0
+    }
+
+    /// Holds the rivals against the explorer's own stop by the score in one maze.
+    pub(super) fn hold_scores(
+        &self,
+        worth: &WorthConfig,
+        chart: &Chart<N>,
+        maze: &Sides<N>,
+        (own, at): (Cell, Cell),
+        rivals: &mut [Option<Rival>],
+    ) -> Option<()> {
+        let cost = |stop| {
+            let payoff = self.payoff(worth, chart, maze, stop, at)?;
+            let at_end = payoff.steps - payoff.gain / worth.step_price;
+            Some(f32::midpoint(at_end, payoff.at_best))
+        };
+        let steps = cost(own)?;
+        for rival in rivals.iter_mut().flatten() {
+            if let Some(its) = cost(rival.stop) {
+                rival.add(its - steps);
+            }
+        }
+        Some(())
+    }
+
+    /// Plays from `at` over `stop` to the end of the proof, in a maze with the open sides `maze`.
+    fn payoff(
+        &self,
+        worth: &WorthConfig,
+        chart: &Chart<N>,
+        maze: &Sides<N>,
+        stop: Cell,
+        at: Cell,
+    ) -> Option<Payoff> {
+        let before = chart.closed?;
+        let mut chart = chart.clone();
+        let (mut at, mut stop) = (at, stop);
+        let mut payoff = Payoff {
+            steps: 0.0,
+            gain: 0.0,
+            at_best: 0.0,
+        };
+        loop {
+            let driven: Driven = chart.drive(maze, stop, at)?;
+            at = driven.at;
+            let (open, closed) = (chart.open()?, chart.closed?);
+            payoff.steps += f32::from(driven.steps);
+            payoff.gain = f32::from(before.saturating_sub(closed));
+            let cost = payoff.steps - payoff.gain / worth.step_price;
+            payoff.at_best = payoff.at_best.min(cost);
+            if open == closed {
+                return Some(payoff);
+            }
+            stop = self.base.proofs::<1>(&chart, at, closed).best()?;
+        }
+    }
+}

@@ -1,0 +1,11 @@
+/// When a mouse has explored enough.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Until {
+    /// When it has been at the goal.
+    Goal,
+    /// When to look on is expected to cost more than it gains in the score.
+    Worth,
+    /// When no run can score less than the best one it knows, whatever the walls nobody has looked
+    /// at.
+    Proof,
+}

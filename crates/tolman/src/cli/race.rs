@@ -1,0 +1,171 @@
+//! `tolman race`: a micromouse of the competitions explores mazes, proves its fast run with diagonals, and hands out its moves.
+
+mod params;
+mod shown;
+mod told;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, anyhow};
+use tolman_arena::competition;
+use tolman_maze::Maze;
+use tolman_planners::speed_run::SpeedRunConfig;
+use tolman_systems::micromouse::competition::{ExploreError, SpeedRunExploration};
+
+use super::looks::Looks;
+use super::maze::Collection;
+use super::mouse::Way;
+use super::send::tell_replay;
+use super::words::words;
+use super::{Failure, OrBadInput, maze};
+use params::Params;
+
+/// Sends a micromouse of the competitions through mazes: it explores, proves its fast run, and hands out its moves
+#[derive(clap::Args)]
+#[command(after_help = "\
+The mouse drives cell by cell and looks at the walls around it. Once it has been at a goal and no run can be faster than the
+one it knows, whatever the walls it has not seen, it drives home. The fast run has straights, diagonals and slalom turns; how
+fast they are says --mouse. Without it, mazes of more than 16 cells a side are driven as half-size ones. A mouse with a wall
+ahead of its start turns to the next open side, clockwise.
+
+The search is what it drives until it is first at a goal, the proof what it drives from there until no run can be faster.
+--json writes one object a maze and line: the cells of search, proof and way home, and the run's moves with their times. Both
+ways are letters, too, those of kerikun11/micromouse-maze-library. Exploring: S a cell ahead, L and R to the left and right, T
+back. Running: S a cell, w half a diagonal, z c F45, q Q F90, a d F135, u U F180, p P FV90 to the left and right, and Z C A D
+out of a diagonal.
+
+--live, --svg, --trace and --replay are of one maze.
+
+Examples:
+  tolman race mazes/grid/braided-2.txt --svg race.svg --replay race.html
+  tolman race mazes/grid
+  tolman race --template > mine.toml
+  tolman race mazes/grid/braided-2.txt --mouse mine.toml --json")]
+pub(super) struct Arguments {
+    /// A maze file of any format, or a folder of them
+    #[arg(value_name = "MAZE|DIR", required_unless_present = "template")]
+    maze: Option<PathBuf>,
+    /// How the mouse drives: times, speeds, accelerations, cell size
+    #[arg(long, value_name = "PARAMS.toml")]
+    mouse: Option<PathBuf>,
+    /// Print a file for --mouse that explains every number
+    #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "classic", value_parser = words(KINDS),
+        conflicts_with_all = ["maze", "mouse", "jobs", "json", "live", "svg", "trace", "replay"])]
+    template: Option<Kind>,
+    /// Mazes at a time, instead of one a core
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    jobs: Option<u16>,
+    #[command(flatten)]
+    looks: Looks,
+}
+
+/// A kind of mazes.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Classic,
+    HalfSize,
+}
+
+const KINDS: [(&str, &str, Kind); 2] = [
+    ("classic", "Cells of 180 mm, up to 16 × 16", Kind::Classic),
+    ("half-size", "Cells of 90 mm, up to 32 × 32", Kind::HalfSize),
+];
+
+/// A maze and what came of its exploration.
+struct Raced<'a> {
+    file: &'a Path,
+    config: SpeedRunConfig,
+    /// None where no way that the mouse can drive leads to a goal.
+    explored: Option<SpeedRunExploration>,
+    /// The cells that the exploration drove through, as letters.
+    search_path: String,
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    if let Some(kind) = arguments.template {
+        return Ok(out.write_all(params::template(kind.config()).as_bytes())?);
+    }
+    let Some(path) = &arguments.maze else {
+        return Err(anyhow!("name a maze or a folder of mazes")).or_bad_input();
+    };
+    let params = Params::read(arguments.mouse.as_deref())?;
+    let Collection { mazes, mut unsound } = Collection::read(path)?;
+    let looks = &arguments.looks;
+    looks.of_one(path, mazes.len() + unsound.len())?;
+    looks.overwrite()?;
+    // A maze that no mouse can run in must not void the others.
+    let sent = maze::each(&mazes, arguments.jobs, |file, maze| {
+        Ok(send(file, maze, &params, looks))
+    })?;
+    let raced: Vec<(Raced<'_>, Option<Way>)> = unsound.sift(sent).collect();
+    let mut solved = Vec::new();
+    for (raced, way) in raced {
+        if let Some(way) = way {
+            way.show(looks, &raced.outcome())?;
+        }
+        raced.tell(looks.json, out)?;
+        solved.push(raced);
+    }
+    if !looks.json {
+        if solved.len() > 1 {
+            writeln!(out, "{}", told::summary(&solved))?;
+        }
+        tell_replay(looks, out)?;
+    }
+    out.flush()?;
+    unsound.complain(solved.len())?;
+    maze::all_solved(solved.iter().map(|raced| (raced.file, raced.is_proven())))
+}
+
+/// Explores a maze, and shows the way while it is driven if that is asked for.
+fn send<'a>(
+    file: &'a Path,
+    maze: &'a Maze,
+    params: &Params,
+    looks: &Looks,
+) -> Result<(Raced<'a>, Option<Way>), Failure> {
+    let config = params.config_for(maze);
+    let mut cells = Vec::new();
+    let mut way = match looks.any() {
+        true => Some(shown::Shown::new(file, maze, &config, looks)?),
+        false => None,
+    };
+    let explored = competition::watch(maze, &config, |cell, open| {
+        if let Some(way) = &mut way {
+            way.arrive(cell, open);
+        }
+        cells.push(cell);
+    });
+    let explored = match explored {
+        Ok(explored) => Some(explored),
+        Err(ExploreError::NoWay { .. }) => None,
+        Err(error) => return Err(error).with_context(|| maze::name(file)).or_bad_input(),
+    };
+    if let (Some(way), Some(explored)) = (&mut way, &explored) {
+        way.run(&explored.run);
+    }
+    let raced = Raced {
+        file,
+        config,
+        search_path: told::search_path(maze, &cells),
+        explored,
+    };
+    Ok((raced, way.map(shown::Shown::into_way)))
+}
+
+impl Kind {
+    const fn config(self) -> SpeedRunConfig {
+        match self {
+            Self::Classic => SpeedRunConfig::classic(),
+            Self::HalfSize => SpeedRunConfig::half_size(),
+        }
+    }
+}
+
+impl Raced<'_> {
+    fn is_proven(&self) -> bool {
+        let explored = self.explored.as_ref();
+        explored.is_some_and(|explored| explored.verdict.is_ok())
+    }
+}

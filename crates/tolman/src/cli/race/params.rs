@@ -1,0 +1,115 @@
+//! How a mouse drives, as a file says it.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::Context;
+use tolman_maze::Maze;
+use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
+
+use crate::cli::{Failure, OrBadInput};
+
+/// The largest classic maze, columns or rows.
+const CLASSIC: u16 = 16;
+
+/// What a file says, if one was named.
+pub(super) struct Params(Option<SpeedRunConfig>);
+
+impl Params {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// Bad input if it cannot be read, or no mouse can drive as it says.
+    pub(super) fn read(path: Option<&Path>) -> Result<Self, Failure> {
+        let Some(path) = path else {
+            return Ok(Self(None));
+        };
+        let config = fs::read_to_string(path)
+            .map_err(anyhow::Error::from)
+            .and_then(|text| Ok(toml::from_str::<SpeedRunConfig>(&text)?))
+            .and_then(|config| Ok(SpeedRunTimes::<32>::new(&config).map(|_| config)?));
+        let repair = || {
+            let path = path.display();
+            format!("{path}: `tolman race --template` prints a file that is sound")
+        };
+        Ok(Self(Some(config.with_context(repair).or_bad_input()?)))
+    }
+
+    /// What the mouse drives by in this maze.
+    pub(super) fn config_for(&self, maze: &Maze) -> SpeedRunConfig {
+        let side = maze.grid().width().max(maze.grid().height());
+        self.0.unwrap_or(if side <= CLASSIC {
+            SpeedRunConfig::classic()
+        } else {
+            SpeedRunConfig::half_size()
+        })
+    }
+}
+
+/// A file with these values, and what each means.
+pub(super) fn template(config: SpeedRunConfig) -> String {
+    let SpeedRunConfig {
+        cell_mm,
+        turn_speed_mm_s,
+        straight,
+        diagonal,
+        slalom,
+    } = config;
+    format!(
+        "\
+# How a micromouse drives its fast run: for `tolman race --mouse FILE`.
+# Lengths are in mm, speeds in mm/s, accelerations in mm/s², times in ms.
+
+# From the middle of a cell to that of the next: 180 in classic mazes, 90 in half-size ones.
+cell_mm = {cell_mm:.1}
+# The speed in all slalom turns. Straights begin and end with it, and so does the run.
+turn_speed_mm_s = {turn_speed_mm_s:.1}
+
+# Straights from cell to cell: faster until the top speed is reached, and slower again.
+[straight]
+acceleration_mm_s2 = {:.1}
+# Not below the speed in the turns.
+top_speed_mm_s = {:.1}
+
+# Straights from wall to wall at 45°, the same.
+[diagonal]
+acceleration_mm_s2 = {:.1}
+top_speed_mm_s = {:.1}
+
+# How long each turn takes, from where one straight ends to where the next begins; whole numbers.
+[slalom]
+# 45°: from the middle of a cell, through the next, onto the middle of its side. And back.
+f45_ms = {}
+# 90°: from the middle of a cell, through the next, into the middle of the one beside that.
+f90_ms = {}
+# 135°: from the middle of a cell, through two more, onto the near side of the second. And back.
+f135_ms = {}
+# 180°: from the middle of a cell, through two more, into the middle of the cell beside the first.
+f180_ms = {}
+# 90° from one diagonal into another.
+fv90_ms = {}
+",
+        straight.acceleration_mm_s2,
+        straight.top_speed_mm_s,
+        diagonal.acceleration_mm_s2,
+        diagonal.top_speed_mm_s,
+        slalom.f45_ms,
+        slalom.f90_ms,
+        slalom.f135_ms,
+        slalom.f180_ms,
+        slalom.fv90_ms,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_template_says_what_the_presets_are() {
+        for config in [SpeedRunConfig::classic(), SpeedRunConfig::half_size()] {
+            let read: SpeedRunConfig = toml::from_str(&template(config)).unwrap();
+            assert_eq!(read, config);
+        }
+    }
+}

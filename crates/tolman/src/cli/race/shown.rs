@@ -1,0 +1,126 @@
+//! A race for whoever looks.
+
+use std::path::Path;
+
+use serde_json::json;
+use tolman_arena::micromouse::SideSeen;
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maze::{Cell, Direction, Maze};
+use tolman_planners::speed_run::{RunState, SpeedRunConfig};
+use tolman_systems::micromouse::competition::RunLeg;
+
+use super::told::in_words;
+use crate::cli::looks::Looks;
+use crate::cli::mouse::{Came, Way, WayStep};
+use crate::cli::{Failure, maze};
+
+/// The way of a mouse: cell by cell first, then the fast run.
+pub(super) struct Shown {
+    way: Way,
+    /// Where the exploration was last.
+    last: Option<Cell>,
+}
+
+impl Shown {
+    pub(super) fn new(
+        file: &Path,
+        maze: &Maze,
+        config: &SpeedRunConfig,
+        looks: &Looks,
+    ) -> Result<Self, Failure> {
+        let header = json!({ "rules": "competition", "mouse": config });
+        let pitch = config.cell_mm / 1000.0;
+        let way = Way::of_pitch(maze::name(file), maze, header, pitch)?;
+        Ok(Self {
+            way: way.watched(looks, None)?,
+            last: None,
+        })
+    }
+
+    /// The exploring mouse is in `cell` and looks to its four sides.
+    pub(super) fn arrive(&mut self, cell: Cell, open: [bool; 4]) {
+        if let Some(last) = self.last.replace(cell)
+            && let Some(side) = side_towards(last, cell)
+        {
+            self.way.go(WayStep {
+                pose: self.way.in_cell(cell, side),
+                words: format!("explore, {side}"),
+                line: json!({ "explore": side.to_string(), "cell": { "x": cell.x, "y": cell.y } }),
+                came: Came::Moved,
+            });
+        }
+        let sides = Direction::ALL.into_iter().zip(open);
+        let seen: Vec<SideSeen> = sides
+            .map(|(side, is_open)| SideSeen {
+                cell,
+                side,
+                stands: !is_open,
+            })
+            .collect();
+        self.way.see(&seen);
+    }
+
+    /// The fast run: a place in the middle of every side that it crosses, and where each move ends.
+    pub(super) fn run(&mut self, run: &[RunLeg]) {
+        self.way.begin_run();
+        for (number, leg) in run.iter().enumerate() {
+            let next = run.get(number + 1).map(|leg| leg.step.from);
+            for pose in self.poses(leg, next) {
+                self.way.go(WayStep {
+                    pose,
+                    words: in_words(leg),
+                    line: json!({ "run": in_words(leg), "move": number }),
+                    came: Came::Moved,
+                });
+            }
+        }
+    }
+
+    fn poses(&self, leg: &RunLeg, next: Option<RunState>) -> Vec<Pose> {
+        let (mut cell, on_side) = match leg.step.from {
+            RunState::Straight { cell, .. } => (cell, None),
+            RunState::Diagonal { cell, into, .. } => (cell, cell.beyond(into.opposite())),
+        };
+        // A diagonal begins on the side by which it comes into its cell.
+        let mut at = on_side.map_or(self.middle(cell), |before| self.between(before, cell));
+        let mut poses = Vec::new();
+        for side in leg.step.directions() {
+            let Some(beyond) = cell.beyond(side) else {
+                break;
+            };
+            self.push(&mut poses, &mut at, self.between(cell, beyond));
+            cell = beyond;
+        }
+        // All but diagonals end in the middle of a cell.
+        if !matches!(next, Some(RunState::Diagonal { .. })) {
+            self.push(&mut poses, &mut at, self.middle(cell));
+        }
+        poses
+    }
+
+    fn push(&self, poses: &mut Vec<Pose>, at: &mut Point, to: Point) {
+        let way = to - *at;
+        if way.norm() > 0.0 {
+            poses.push(Pose::new(to, Heading::of(way)));
+            *at = to;
+        }
+    }
+
+    fn middle(&self, cell: Cell) -> Point {
+        self.way.in_cell(cell, Direction::North).position
+    }
+
+    fn between(&self, cell: Cell, other: Cell) -> Point {
+        let (one, other) = (self.middle(cell), self.middle(other));
+        one + (other - one) / 2.0
+    }
+
+    pub(super) fn into_way(self) -> Way {
+        self.way
+    }
+}
+
+fn side_towards(from: Cell, to: Cell) -> Option<Direction> {
+    let mut sides = Direction::ALL.into_iter();
+    sides.find(|side| from.beyond(*side) == Some(to))
+}

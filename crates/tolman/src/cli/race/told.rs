@@ -1,0 +1,187 @@
+//! A race in words, letters and JSON.
+
+use std::io::Write;
+
+use serde_json::{Value, json};
+use tolman_maze::{Cell, Direction, Maze};
+use tolman_planners::speed_run::{RunMove, RunState, Side, Slalom};
+use tolman_systems::micromouse::competition::{RunLeg, SpeedRunExploration};
+
+use super::Raced;
+use crate::cli::{Failure, maze};
+
+impl Raced<'_> {
+    pub(super) fn tell(&self, as_json: bool, out: &mut dyn Write) -> Result<(), Failure> {
+        if as_json {
+            return Ok(writeln!(out, "{}", self.json())?);
+        }
+        let name = maze::name(self.file);
+        writeln!(out, "{name}: {}", self.outcome())?;
+        Ok(())
+    }
+
+    /// The outcome in words.
+    pub(super) fn outcome(&self) -> String {
+        let Some(explored) = &self.explored else {
+            return "no way that the mouse can drive leads to a goal".to_owned();
+        };
+        let proven = match &explored.verdict {
+            Ok(()) => "proven".to_owned(),
+            Err(error) => format!("not proven: {error}"),
+        };
+        let SpeedRunExploration {
+            cells,
+            search_cells,
+            proof_cells,
+            ..
+        } = explored;
+        format!(
+            "run of {:.3} s, {proven}: {}; {cells} cells explored: search {search_cells}, proof {proof_cells}, home {}",
+            f64::from(explored.certificate.time_ms) / 1000.0,
+            letters(&explored.run),
+            home(explored),
+        )
+    }
+
+    fn json(&self) -> Value {
+        let mut line = json!({
+            "maze": maze::name(self.file),
+            "mouse": self.config,
+            "proven": self.is_proven(),
+            "search_path": self.search_path,
+        });
+        if let Some(explored) = &self.explored {
+            line["cells"] = json!({
+                "all": explored.cells,
+                "search": explored.search_cells,
+                "proof": explored.proof_cells,
+                "home": home(explored),
+            });
+            line["run_ms"] = json!(explored.certificate.time_ms);
+            line["run_path"] = json!(letters(&explored.run));
+            line["moves"] = explored.run.iter().map(move_json).collect();
+        }
+        line
+    }
+}
+
+/// Cells driven from where the run was proven back to the start.
+fn home(explored: &SpeedRunExploration) -> u32 {
+    let before = explored.search_cells + explored.proof_cells;
+    explored.cells.saturating_sub(before)
+}
+
+/// The run as letters.
+fn letters(run: &[RunLeg]) -> String {
+    let letters = run.iter().map(|leg| leg.step.letters());
+    letters
+        .flat_map(|(letter, count)| core::iter::repeat_n(letter, count.into()))
+        .collect()
+}
+
+fn move_json(leg: &RunLeg) -> Value {
+    let (cell, heading_deg) = match leg.step.from {
+        RunState::Straight { cell, heading } => (cell, degrees(heading)),
+        RunState::Diagonal { cell, into, out } => {
+            let half = if out == into.left() { 45 } else { -45 };
+            (cell, degrees(into) + half)
+        }
+    };
+    let mut line = json!({
+        "move": name(leg.step.run_move),
+        "from": { "x": cell.x, "y": cell.y, "heading_deg": heading_deg },
+        "time_ms": leg.time_ms,
+    });
+    match leg.step.run_move {
+        RunMove::Straight { cells } | RunMove::Diagonal { cells } => line["cells"] = json!(cells),
+        RunMove::Turn { side, .. } => {
+            let side = if side == Side::Left { "left" } else { "right" };
+            line["side"] = json!(side);
+        }
+    }
+    line
+}
+
+/// Counter-clockwise from east.
+const fn degrees(heading: Direction) -> i32 {
+    match heading {
+        Direction::North => 90,
+        Direction::East => 0,
+        Direction::South => -90,
+        Direction::West => 180,
+    }
+}
+
+const fn name(run_move: RunMove) -> &'static str {
+    match run_move {
+        RunMove::Straight { .. } => "straight",
+        RunMove::Diagonal { .. } => "diagonal",
+        RunMove::Turn { slalom, .. } => match slalom {
+            Slalom::F45 => "F45",
+            Slalom::F90 => "F90",
+            Slalom::F135 => "F135",
+            Slalom::F180 => "F180",
+            Slalom::Fv90 => "FV90",
+        },
+    }
+}
+
+/// A move in words, for whoever looks.
+pub(super) fn in_words(leg: &RunLeg) -> String {
+    let name = name(leg.step.run_move);
+    match leg.step.run_move {
+        RunMove::Straight { cells } | RunMove::Diagonal { cells } => {
+            format!("{name} {cells}, {} ms", leg.time_ms)
+        }
+        RunMove::Turn { side, .. } => {
+            let side = if side == Side::Left { "left" } else { "right" };
+            format!("{name} {side}, {} ms", leg.time_ms)
+        }
+    }
+}
+
+/// The cells of an exploration as letters: the first says where the mouse turns at the start.
+pub(super) fn search_path(maze: &Maze, cells: &[Cell]) -> String {
+    let mut heading = maze
+        .start()
+        .map_or(Direction::North, |(_, heading)| heading);
+    let step = |pair: &[Cell]| {
+        let side = Direction::ALL
+            .into_iter()
+            .find(|side| pair[0].beyond(*side) == Some(pair[1]))?;
+        let letter = match side {
+            ahead if ahead == heading => 'S',
+            left if left == heading.left() => 'L',
+            right if right == heading.right() => 'R',
+            _ => 'T',
+        };
+        heading = side;
+        Some(letter)
+    };
+    cells.windows(2).filter_map(step).collect()
+}
+
+/// What became of all mazes, in one line.
+pub(super) fn summary(raced: &[Raced<'_>]) -> String {
+    let explored: Vec<&SpeedRunExploration> = raced
+        .iter()
+        .filter_map(|raced| raced.explored.as_ref())
+        .collect();
+    let mean = |value: fn(&SpeedRunExploration) -> u32| {
+        let sum: f64 = explored
+            .iter()
+            .map(|explored| f64::from(value(explored)))
+            .sum();
+        sum / explored.len().max(1) as f64
+    };
+    let proven = raced.iter().filter(|raced| raced.is_proven()).count();
+    format!(
+        "{} mazes: {proven} proven; mean run {:.3} s, {:.1} cells explored: search {:.1}, proof {:.1}, home {:.1}",
+        raced.len(),
+        mean(|explored| explored.certificate.time_ms) / 1000.0,
+        mean(|explored| explored.cells),
+        mean(|explored| explored.search_cells),
+        mean(|explored| explored.proof_cells),
+        mean(home),
+    )
+}
