@@ -35,7 +35,7 @@ pub enum Error {
     },
     /// A table has a number of runs that no caller changes.
     #[error(
-        "table {table:?} has one run for each thing that it is tried on, {own} of a row; leave --runs out"
+        "table {table:?} has a number of runs of its own, {own} of a row; leave --runs out"
     )]
     FixedRuns {
         /// The table.

@@ -72,7 +72,7 @@ pub(super) fn table() -> Table {
     let missing = missing();
     let row = |(name, _): (&str, Option<LogSystem>)| match &missing {
         Some(missing) => Row::new(name).missing(missing),
-        None => Row::new(name).runs(1),
+        None => Row::new(name).run_each(1),
     };
     Table::of::<RelationRun>(NAME, "The Intel lab, held against relations verified by hand")
         .metrics_from(RelationRun::error_m)
