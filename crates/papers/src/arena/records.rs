@@ -74,7 +74,10 @@ record! {
         /// How likely an observer with the true map that mistakes nothing would be right about the cell after the same drive.
         ceiling: Option<f64> => neither("passive ceiling").percent().decimals(1),
         /// The same on maps that are right.
-        ceiling_on_right_map: Option<f64> => neither("the same on right maps").percent().decimals(1),
+        ceiling_on_right_map: Option<f64> => neither("passive ceiling, on right maps").percent().decimals(1),
+        /// On maps that are right: whether the same system on the same robot finds itself there by the true map, which it learned without errors. None
+        /// where it learned a wrong one even so.
+        with_true_map: Option<bool> => neither("active ceiling, on right maps"),
         /// Why it did not say.
         why: String => neither("why not"),
     }
@@ -204,11 +207,11 @@ impl LocateRun {
         let has_abstained = record.abstained.is_some();
         // Who learns no map and says where it is has the true one.
         let is_known = learned.map_or(!has_abstained, |learned| learned.judgement.is_right);
-        let (outcome, ceiling) = match record.found.first() {
-            Some(found) => (found.outcome.clone(), found.ceiling),
+        let (outcome, ceiling, with_true_map) = match record.found.first() {
+            Some(found) => (found.outcome.clone(), found.ceiling, found.with_true_map),
             None => {
                 let why = record.abstained.clone().unwrap_or_default();
-                (LocateOutcome::Abstained { why }, None)
+                (LocateOutcome::Abstained { why }, None, None)
             }
         };
         let ceiling = ceiling.map(|chance| 100.0 * chance);
@@ -219,6 +222,7 @@ impl LocateRun {
             right_on_right_map: is_known.then_some(is_right),
             ceiling,
             ceiling_on_right_map: ceiling.filter(|_| is_known),
+            with_true_map,
             abstained: matches!(outcome, LocateOutcome::Abstained { .. }),
             why: match outcome {
                 LocateOutcome::Abstained { why } => why,
@@ -294,6 +298,10 @@ pub(super) fn locate(name: &str) -> Table {
         ))
         .metric(Metric::mean(LocateRun::ceiling).named("ceiling_percent"))
         .metric(Metric::mean(LocateRun::ceiling_on_right_map).named("ceiling_on_right_map_percent"))
+        .metric(Metric::percent(
+            "active_ceiling_on_right_map_percent",
+            LocateRun::with_true_map,
+        ))
 }
 
 pub(super) fn sizes(name: &str) -> Table {
