@@ -13,7 +13,7 @@ const DRIVEN: &str = "driven";
 const ROWS: [(&str, u32); 2] = [("λ 575, as in Table 3.1", 575), ("λ 60", 60)];
 
 /// Runs of a row unless the caller asks for others, and in a quick look.
-const MAPS: u32 = 40;
+const RUNS: u32 = 40;
 const QUICK_RUNS: u32 = 2;
 
 /// The paper's number of records, and the drives by each map.
@@ -49,7 +49,7 @@ pub(super) fn has(table: &str) -> bool {
 }
 
 pub(super) fn table(options: &Options) -> Table {
-    let runs = options.runs_else(MAPS, QUICK_RUNS);
+    let runs = options.runs_else(RUNS, QUICK_RUNS);
     Table::of::<DrivenFields>(DRIVEN, "Ways planned on the paper's map, and driven")
         .metric(Metric::mean(DrivenFields::error_m))
         .metric(Metric::mean(DrivenFields::start_m))
