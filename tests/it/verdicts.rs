@@ -2,7 +2,7 @@
 
 use alloc::collections::BTreeMap;
 
-use tolman_experiment::{Entry, Metric, Options, Table, Tolerance, open};
+use tolman_experiment::{Entry, Error, Metric, Options, Table, Tolerance, open};
 
 /// Every metric of which a paper has a value to be judged by, with its table.
 fn judged(entry: &Entry) -> Vec<(Table, Metric)> {
@@ -59,4 +59,51 @@ fn tables_without_the_mazes_of_others_stand_with_the_papers_values() {
             assert!(missing.contains("TOLMAN_DATA"), "{missing}");
         }
     }
+}
+
+/// The tables of an experiment by `--runs`.
+fn tables(entry: &Entry, runs: u32) -> Vec<Table> {
+    let options = Options {
+        runs: Some(runs),
+        ..Options::default()
+    };
+    let experiment = open(tolman_papers::catalogue(), entry.name, &options);
+    experiment.unwrap().tables
+}
+
+#[test]
+fn every_table_of_every_experiment_obeys_the_number_of_runs_or_refuses_it() {
+    // Fewer than there are of any thing that is tried, and enough for a search of maps.
+    const RUNS: u32 = 100;
+    let (mut obeyed, mut refused) = (0, 0);
+    for entry in tolman_papers::catalogue() {
+        for (few, many) in tables(entry, RUNS).iter().zip(tables(entry, 2 * RUNS)) {
+            let obeys = few.rows.iter().zip(&many.rows).all(|(few, many)| {
+                let counts = [few.runs_of(RUNS), many.runs_of(2 * RUNS)];
+                // What is left out, and what leaves nothing to chance, beside rows that obey.
+                counts == [0; 2] || counts == [1; 2] || counts[0] < counts[1]
+            });
+            // Of as many mazes it has more starts in each, and says so.
+            let grows = few.rows.iter().zip(&many.rows);
+            let grows = grows.filter(|(few, many)| few.runs_of(RUNS) < many.runs_of(2 * RUNS));
+            if obeys && grows.count() > 0 || few.note != many.note {
+                obeyed += 1;
+                continue;
+            }
+            let named = Options {
+                runs: Some(RUNS),
+                tables: vec![few.name.clone()],
+                ..Options::default()
+            };
+            let told = open(tolman_papers::catalogue(), entry.name, &named).err();
+            let what = format!("{}, table {}: {told:?}", entry.name, few.name);
+            let is_refused = matches!(
+                told,
+                Some(Error::FixedRuns { .. } | Error::EmptyTable { .. })
+            );
+            assert!(is_refused || !few.missing().is_empty(), "{what}");
+            refused += 1;
+        }
+    }
+    assert!(obeyed > 30 && refused > 3, "{obeyed} {refused}");
 }

@@ -9,8 +9,11 @@ use anyhow::{Context, Result, ensure};
 
 use crate::workspace::{self, cargo, succeed};
 
-/// An experiment whose runs are pinned, the runs of each row, and the tables of which there are more.
+/// An experiment whose runs are pinned, the runs of each row (none: those of `--quick`), and the tables of which there are more.
 type Pinned = (&'static str, u32, &'static [(u32, &'static str)]);
+
+/// The rows that an experiment has for a first look: the slowest are left out.
+const QUICK: u32 = 0;
 
 const PINNED: &[Pinned] = &[
     ("baselines", 5, &[]),
@@ -26,7 +29,7 @@ const PINNED: &[Pinned] = &[
         &[(40, "explored"), (200, "aliased"), (100, "localization")],
     ),
     ("gngslam", 1, &[(10, "guesses")]),
-    ("arena", 1, &[]),
+    ("arena", QUICK, &[]),
 ];
 
 /// Of experiments with too many runs the tables that are pinned; of all others all are.
@@ -73,10 +76,16 @@ fn run_all_but(left_out: &[&str], bless: bool) -> Result<()> {
                 .with_context(|| format!("cannot empty {}", made.display()))?;
         }
         let play = |runs: u32, tables: &[&str]| {
+            let count = match runs {
+                QUICK => vec!["--quick".to_owned()],
+                runs => vec!["--runs".to_owned(), runs.to_string()],
+            };
             workspace::output(
                 tolman()
                     .env("TOLMAN_DATA", made.join("nowhere"))
-                    .args(["experiment", name, "--runs", &runs.to_string(), "--out"])
+                    .args(["experiment", name])
+                    .args(count)
+                    .arg("--out")
                     .arg(&made)
                     .args(tables.iter().flat_map(|table| ["--table", table])),
             )

@@ -1,5 +1,7 @@
 use alloc::collections::BTreeMap;
 use alloc::fmt;
+use core::any::Any;
+use core::mem;
 use core::time::Duration;
 
 use tolman_geom::{Point, Pose};
@@ -87,6 +89,19 @@ pub trait Outing: InRun {
     /// If the robot cannot stand there.
     fn lift(&mut self, _pose: Pose) -> Result<(), BoxError> {
         Err("its robot is not lifted".into())
+    }
+
+    /// Exchanges its system, with all that it has learned, for that of another outing.
+    ///
+    /// # Errors
+    /// If they are not of one kind, on robots of one kind.
+    fn exchange_systems(&mut self, _other: &mut dyn Outing) -> Result<(), BoxError> {
+        Err("its system is not exchanged".into())
+    }
+
+    /// Returns its system, to be exchanged; `None` if that is not.
+    fn system_mut(&mut self) -> Option<&mut dyn Any> {
+        None
     }
 
     /// Opens or shuts a door of the world.
@@ -374,7 +389,7 @@ impl<R: Robot, S> InRun for Sent<R, S> {
 impl<R, S> Outing for Sent<R, S>
 where
     R: SensesLandmarks + HasSimulated,
-    S: System<Limited<R>, Failure: Into<BoxError>>,
+    S: System<Limited<R>, Failure: Into<BoxError>> + 'static,
 {
     fn course(&self) -> &Course {
         &self.course
@@ -475,6 +490,19 @@ where
 
     fn lift(&mut self, pose: Pose) -> Result<(), BoxError> {
         Ok(self.robot.robot_mut().simulated_mut().place(pose)?)
+    }
+
+    fn exchange_systems(&mut self, other: &mut dyn Outing) -> Result<(), BoxError> {
+        let system = other.system_mut().and_then(|system| system.downcast_mut());
+        mem::swap(
+            &mut self.system,
+            system.ok_or("the systems are not of one kind")?,
+        );
+        Ok(())
+    }
+
+    fn system_mut(&mut self) -> Option<&mut dyn Any> {
+        Some(&mut self.system)
     }
 
     fn set_door(&mut self, name: &str, state: DoorState) -> Result<(), BoxError> {

@@ -82,6 +82,10 @@ impl Hatching {
     }
 }
 
+fn words_of(name: &str) -> Vec<String> {
+    name.split_whitespace().map(str::to_owned).collect()
+}
+
 /// Slanted lines in a rectangle, and its outline, as the data of a path. It needs no pattern, whose name would be known to the whole page.
 fn hatch([x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
     let mut path = format!(
@@ -114,10 +118,13 @@ impl HeatMap {
             .flatten()
             .filter(|value| value.is_finite());
         let written: Vec<String> = written.map(|value| self.shade.text(*value)).collect();
-        let cell = (widest(&self.columns).max(widest(&written)) + 14.0).max(LEAST_CELL_WIDTH);
+        // A word a line: a column is as narrow as its longest word.
+        let names: Vec<Vec<String>> = self.columns.iter().map(|name| words_of(name)).collect();
+        let lines = names.iter().map(Vec::len).max().unwrap_or(1).max(1);
+        let cell = (widest(&names.concat()).max(widest(&written)) + 14.0).max(LEAST_CELL_WIDTH);
         let left = widest(&self.rows).max(words::width(&self.down)) + 12.0;
         // The title of the columns, then their names.
-        let top = 2.0 * words::LINE + 8.0;
+        let top = (1.0 + lines as f64) * words::LINE + 8.0;
         let (columns, rows) = (self.columns.len() as f64, self.rows.len() as f64);
         let bottom = top + rows * CELL_HEIGHT;
         let legend = 140.0 + words::width(&self.shade.title);
@@ -137,9 +144,11 @@ impl HeatMap {
         let body = html! {
             text class="quiet" x=(tenths(left)) y="11" { (self.across) }
             text class="quiet" x="0" y=(tenths(top - 7.0)) { (self.down) }
-            @for (i, column) in self.columns.iter().enumerate() {
-                text x=(tenths(left + (i as f64 + 0.5) * cell)) y=(tenths(top - 7.0))
-                    text-anchor="middle" { (column) }
+            @for (i, name) in names.iter().enumerate() {
+                @for (above, word) in name.iter().rev().enumerate() {
+                    text x=(tenths(left + (i as f64 + 0.5) * cell)) y=(tenths(top - 7.0 - above as f64 * words::LINE))
+                        text-anchor="middle" { (word) }
+                }
             }
             @for (i, row) in self.rows.iter().enumerate() {
                 text x=(tenths(left - 8.0)) y=(tenths(top + (i as f64 + 0.5) * CELL_HEIGHT))
@@ -206,6 +215,30 @@ mod tests {
             assert!(svg.contains(&place), "{place} in {svg}");
         }
         assert!(roxmltree::Document::parse(&format!("<g>{svg}</g>")).is_ok());
+    }
+
+    #[test]
+    fn a_name_of_several_words_stands_on_as_many_lines_above_its_column() {
+        let width = |columns: [&str; 2]| {
+            let map = HeatMap {
+                across: "x".into(),
+                columns: columns.map(str::to_owned).into(),
+                down: "y".into(),
+                rows: vec!["p".into()],
+                values: vec![vec![1.0, 2.0]],
+                shade: Shade::new("v", 1.0, 2.0),
+                hatching: None,
+            };
+            let drawing = map.drawing("a test");
+            (drawing.height, drawing.body.into_string())
+        };
+        let (one, _) = width(["rooms", "star"]);
+        let (two, svg) = width(["braided rooms", "star"]);
+        assert!((two - one - words::LINE).abs() < 1e-9, "{one} {two}");
+        assert!(
+            svg.contains(">braided<") && svg.contains(">rooms<"),
+            "{svg}"
+        );
     }
 
     #[test]

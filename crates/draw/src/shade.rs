@@ -79,9 +79,9 @@ impl Shade {
         format!("{:.2}", 0.06 + 0.84 * self.share(value))
     }
 
-    /// The class of text upon a value.
+    /// The class of text upon a value: what stands out more from this depth, be the page light or dark.
     pub(super) fn text_class(&self, value: f64) -> &'static str {
-        if self.share(value) > 0.65 { "upon" } else { "" }
+        if self.share(value) > 0.8 { "upon" } else { "" }
     }
 
     /// The height of [`Self::legend`].
@@ -120,7 +120,7 @@ mod tests {
             .map(|value| shade.opacity(value).parse().unwrap())
             .to_vec();
         assert_eq!(depths, [0.06, 0.06, 0.48, 0.9, 0.9]);
-        assert_eq!((shade.text_class(4.0), shade.text_class(6.0)), ("", "upon"));
+        assert_eq!((shade.text_class(6.0), shade.text_class(6.5)), ("", "upon"));
     }
 
     #[test]

@@ -34,9 +34,7 @@ pub enum Error {
         option: &'static str,
     },
     /// A table has a number of runs that no caller changes.
-    #[error(
-        "table {table:?} has one run for each thing that it is tried on, {own} of a row; leave --runs out"
-    )]
+    #[error("table {table:?} has a number of runs of its own, {own} of a row; leave --runs out")]
     FixedRuns {
         /// The table.
         table: String,

@@ -180,7 +180,7 @@ impl Experiment {
         if !fixed.is_empty() {
             let names: Vec<&str> = fixed.iter().map(|table| table.name.as_str()).collect();
             let told = format!(
-                "--runs is not for {}, with one run for each thing that a row is tried on.",
+                "--runs is not for {}, which has a number of runs of its own.",
                 names.join(", ")
             );
             self.skipped = Some(match self.skipped {

@@ -238,7 +238,7 @@ pub struct Row {
     /// How many runs it has, whatever the caller asks for: those of something without chance, one for each
     /// thing it is tried on. `None` leaves it to the caller.
     pub runs: Option<u32>,
-    /// Whether the number of its runs is that of the things it is tried on, which no caller changes.
+    /// Whether no caller changes the number of its runs.
     pub(super) is_fixed: bool,
     /// How many runs the paper's row has, if another number than the table's.
     pub paper_runs: Option<u32>,
@@ -340,7 +340,7 @@ impl Row {
         self
     }
 
-    /// Gives it one run for each of `things` that it is tried on, whatever the caller asks for.
+    /// Gives it a number of runs that no caller changes: one for each of `things` that it is tried on, or as many as its paper has.
     #[must_use]
     pub fn run_each(mut self, things: u32) -> Self {
         self.is_fixed = true;

@@ -1,7 +1,9 @@
 use rand::{Rng, RngExt};
 use tolman_maze::{Cell, Direction, Maze};
-use tolman_sim::noise::Fault;
-use tolman_sim::robots::{EpuckConfig, LaserPioneerConfig, Pioneer2dxConfig, WheelScale};
+use tolman_sim::noise::{Fault, Gaussian};
+use tolman_sim::robots::{
+    EpuckConfig, LaserPioneerConfig, MotorNoise, Pioneer2dxConfig, Pioneer2dxFaults, WheelScale,
+};
 use tolman_systems::stream;
 
 use crate::diktiometry::SurveyorConfig;
@@ -26,6 +28,9 @@ pub enum Condition {
     Kidnapping,
     /// Readings of all sensors that do not come.
     DropOuts,
+    /// Motors, wheels, compass and odometry that do not err, as no robot is: a map that was learned so can serve as the true one. Not among
+    /// [`ALL`](Self::ALL).
+    Flawless,
 }
 
 /// The largest constant error of a compass, rad.
@@ -41,7 +46,7 @@ const WHEEL_STREAM: u64 = 32;
 const DOOR_STREAM: u64 = 33;
 
 impl Condition {
-    /// All of them.
+    /// All that are worse than as made, and that.
     pub const ALL: [Self; 10] = [
         Self::AsMade,
         Self::Wheels(1),
@@ -67,6 +72,7 @@ impl Condition {
             Self::Doors => "doors".to_owned(),
             Self::Kidnapping => "kidnapping".to_owned(),
             Self::DropOuts => "drop-outs".to_owned(),
+            Self::Flawless => "flawless".to_owned(),
         }
     }
 
@@ -85,6 +91,7 @@ impl Condition {
             Self::ConstantOdometry => robot.wheels = vec![constant(ODOMETRY)],
             Self::FreshOdometry => robot.wheels = vec![Fault::Slip { share: ODOMETRY }],
             Self::DropOuts => robot.proximity.push(MISSES),
+            Self::Flawless => robot.wheels.clear(),
             Self::AsMade | Self::CompassOffset | Self::Doors | Self::Kidnapping => {}
         }
         robot
@@ -113,6 +120,17 @@ impl Condition {
                 faults.compass.push(MISSES);
                 faults.odometry_distance.push(MISSES);
             }
+            Self::Flawless => {
+                return LaserPioneerConfig {
+                    radius: robot.radius,
+                    ring: robot.ring,
+                    turn_per_step: robot.turn_per_step,
+                    translate_per_step: robot.translate_per_step,
+                    contact: robot.contact,
+                    step_us: robot.step_us,
+                    ..LaserPioneerConfig::noiseless()
+                };
+            }
             Self::AsMade | Self::Doors | Self::Kidnapping => {}
         }
         robot
@@ -132,6 +150,12 @@ impl Condition {
                 faults.picture.push(MISSES);
                 faults.left_wheel.push(MISSES);
             }
+            Self::Flawless => {
+                robot.motor_noise = MotorNoise::default();
+                robot.wheel_scale = WheelScale::EXACT;
+                robot.wheel_noise = Gaussian::NONE;
+                robot.faults = Pioneer2dxFaults::default();
+            }
             Self::AsMade | Self::CompassOffset | Self::Doors | Self::Kidnapping => {}
         }
         robot
@@ -142,6 +166,16 @@ impl Condition {
         let hold_steps = match self {
             Self::ConstantOdometry => u32::MAX,
             Self::FreshOdometry => 1,
+            Self::Flawless => {
+                return SurveyorConfig {
+                    pioneer: self.laser_pioneer(robot.pioneer, seed),
+                    odometry_share: 0.0,
+                    shared_share: 0.0,
+                    outliers: 0.0,
+                    compass_bound: 0.0,
+                    ..robot
+                };
+            }
             _ => {
                 let pioneer = self.laser_pioneer(robot.pioneer, seed);
                 return SurveyorConfig { pioneer, ..robot };

@@ -5,6 +5,8 @@
 
 mod condition;
 mod contestant;
+#[cfg(test)]
+mod entry_tests;
 mod ideal;
 mod judgement;
 mod pathfinder;

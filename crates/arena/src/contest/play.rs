@@ -191,6 +191,9 @@ pub struct Located {
     /// How likely an observer that has the true drawing and mistakes nothing would be right about the cell after the same drive, 0 … 1: the
     /// passive ceiling. `None` if it did not drive.
     pub ceiling: Option<f64>,
+    /// Whether the same system is right that is put down there on the same robot with the true map: the active ceiling. That map is one that it
+    /// learned without errors. `None` if it learned a wrong one even so, and where its own map is wrong.
+    pub with_true_map: Option<bool>,
 }
 
 impl Located {
@@ -198,6 +201,7 @@ impl Located {
         Self {
             outcome: LocateOutcome::Abstained { why },
             ceiling: None,
+            with_true_map: None,
         }
     }
 }
@@ -262,12 +266,27 @@ impl<'a> Contest<'a> {
         learned.thinking = self.stopwatch.map(|_| bout.outing.thinking());
         bout.shut_door()
             .map_err(|source| self.enter_error(source))?;
+        let mut informed = match learned.judgement.is_right && self.starts > 0 {
+            true => self.informed(schooling)?,
+            false => None,
+        };
         let (mut found, mut homes) = (Vec::new(), Vec::new());
         for [here, there] in self.put_downs() {
             let put = bout
                 .locate(here, &mut watch)
                 .map_err(|e| self.put_error(e))?;
-            found.push(put);
+            let with_true_map = match &mut informed {
+                Some(informed) => {
+                    let ceiling = informed.locate(here, &mut |_, _| {});
+                    let ceiling = ceiling.map_err(|source| self.put_error(source))?;
+                    Some(ceiling.outcome == LocateOutcome::Right)
+                }
+                None => None,
+            };
+            found.push(Located {
+                with_true_map,
+                ..put
+            });
             let home = bout
                 .home(there, &mut watch)
                 .map_err(|e| self.put_error(e))?;
@@ -280,6 +299,30 @@ impl<'a> Contest<'a> {
             found,
             homes,
         })
+    }
+
+    /// Returns the contestant with the true map, to be put down: one that it learned on a robot that does not err. `None` if that map is wrong.
+    fn informed(&self, schooling: &Schooling) -> Result<Option<Bout<'a>>, ContestError> {
+        let sent = |contest: &Self| {
+            let entered = contest.contestant.enter(contest, schooling);
+            let entered = entered.map_err(|source| self.enter_error(source))?;
+            Ok(Bout::new(contest, entered))
+        };
+        let mut teacher = sent(&Self {
+            condition: Condition::Flawless,
+            ..*self
+        })?;
+        let learned = teacher.learn(None, &mut |_, _| {});
+        if !learned.judgement.is_right {
+            return Ok(None);
+        }
+        let mut informed = sent(self)?;
+        let exchanged = informed.outing.exchange_systems(&mut *teacher.outing);
+        exchanged
+            .and_then(|()| informed.shut_door())
+            .map_err(|source| self.enter_error(source))?;
+        informed.stands_for = teacher.stands_for;
+        Ok(Some(informed))
     }
 
     /// Returns where the robot is put down, to find out where it is and to go to the goal: cells and ways out of them, by
@@ -611,6 +654,7 @@ impl<'a> Bout<'a> {
         Ok(Located {
             outcome: why.map_or_else(|| self.found(), |why| LocateOutcome::Abstained { why }),
             ceiling: Some(ceiling),
+            with_true_map: None,
         })
     }
 
@@ -811,6 +855,10 @@ mod tests {
             let found = &record.found[0];
             assert_eq!(found.outcome, LocateOutcome::Right, "{contestant:?}");
             assert!(found.ceiling.is_some_and(|chance| chance > 0.0));
+            // The true map is of use only to who has learned it as well.
+            let is_right = record.learned.is_some_and(|map| map.judgement.is_right);
+            assert_eq!(is_right, contestant != Contestant::MslstBetter);
+            assert_eq!(found.with_true_map, is_right.then_some(true));
             let over = record.homes[0].over_shortest;
             assert!(
                 over.is_some_and(|over| over < 5.0),

@@ -123,6 +123,7 @@ impl<'a> Sender<'a> {
                 },
             },
             ceiling: Some(self.contest.observer().after(squares, start, path)),
+            with_true_map: None,
         })
     }
 }

@@ -7,7 +7,7 @@ use tolman_geom::nalgebra::{Matrix3, Vector3};
 use tolman_geom::{Pose, Vector};
 use tolman_robot::Sounding;
 
-use super::surfaces::Surface;
+use super::surfaces::{CELL, Surface};
 use super::{Outline, OutlinePoint};
 use crate::tangent::{difference, moved};
 
@@ -107,13 +107,26 @@ const fn arc_gate(gate: f64) -> f64 {
 /// Those of `surfaces` that lie within `radius` of where the robot is, in their order.
 fn near<'a>(surfaces: &[&'a Surface], pose: Pose, radius: f64) -> Vec<&'a Surface> {
     let within = (radius + SLACK) * (radius + SLACK);
-    let surfaces = surfaces.iter().copied();
+    let x = pose.position.x;
+    let surfaces = between(surfaces, x - radius, x + radius).iter().copied();
     let is_near = |surface: &&Surface| (surface.position() - pose.position).norm_squared() < within;
     surfaces.filter(is_near).collect()
 }
 
+/// The run of `surfaces` in which are all whose x is within these bounds, m, and some beside. O(log surfaces).
+///
+/// They come by column of their grid, and within a column in any order: so the bounds are a column wider.
+fn between<'a, 'b>(surfaces: &'b [&'a Surface], low: f64, high: f64) -> &'b [&'a Surface] {
+    let slack = CELL + SLACK;
+    let x = |surface: &Surface| surface.position().x;
+    let first = surfaces.partition_point(|surface| x(surface) < low - slack);
+    let (_, from) = surfaces.split_at(first);
+    let (run, _) = from.split_at(from.partition_point(|surface| x(surface) <= high + slack));
+    run
+}
+
 /// Returns where a robot is that was predicted at `predicted`, with this covariance, and sees `outline`; `None` if the covariance is
-/// none. O(rounds · outline · surfaces).
+/// none. `surfaces` come as [`Surfaces::all`](super::surfaces::Surfaces::all) has them. O(rounds · outline · surfaces near each of its points).
 pub(super) fn fit(
     outline: &Outline,
     surfaces: &[&Surface],
@@ -176,7 +189,7 @@ fn of_point(
     let mut nearest: Option<&Surface> = None;
     let reach = gate_of(point, gate);
     let mut within = reach * reach;
-    for surface in surfaces {
+    for surface in between(surfaces, there.x - reach, there.x + reach) {
         let squared = (surface.position() - there).norm_squared();
         if squared < within && is_alike(surface, point, normal) {
             within = squared;
@@ -212,7 +225,8 @@ fn contradicted(outline: &Outline, surfaces: &[&Surface], pose: Pose) -> f64 {
             surface.colour().is_some() == point.colour.is_some()
                 && (surface.position() - there).norm() < reach
         };
-        let mut near = surfaces.iter().filter(near).peekable();
+        let column = between(&surfaces, there.x - reach, there.x + reach);
+        let mut near = column.iter().filter(near).peekable();
         near.peek().is_some() && !near.any(|surface| is_alike(surface, point, normal))
     };
     let count = outline.points.iter().filter(is_contradicted).count();
@@ -237,8 +251,9 @@ fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Optio
     let cone = libm::cos(arc.half_width + CONE_SLACK);
     // What lies farther is no match, and hides none.
     let farthest = arc.range + arc_gate(gate) + SLACK;
+    let (low, high) = extent(ear, arc.half_width + CONE_SLACK, farthest);
     let mut nearest: Option<(f64, Vector, &Surface)> = None;
-    for surface in surfaces {
+    for surface in between(surfaces, low, high) {
         let towards = surface.position() - ear.position;
         let squared = towards.norm_squared();
         if squared > farthest * farthest {
@@ -274,6 +289,26 @@ fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Optio
         place: surface.place,
         share: ARC_SHARE,
     })
+}
+
+/// The least and the greatest x of a sector that opens so far, rad, to either side of `ear` and reaches so far, m.
+fn extent(ear: Pose, half_width: f64, reach: f64) -> (f64, f64) {
+    let axis = ear.heading.radians();
+    let [one, other] = [axis - half_width, axis + half_width].map(libm::cos);
+    let ahead = ear.heading.unit().x;
+    let cone = libm::cos(half_width);
+    // Who hears along the axis of x hears farthest there.
+    let low = if -ahead >= cone {
+        -1.0
+    } else {
+        one.min(other).min(0.0)
+    };
+    let high = if ahead >= cone {
+        1.0
+    } else {
+        one.max(other).max(0.0)
+    };
+    (ear.position.x + reach * low, ear.position.x + reach * high)
 }
 
 fn left(pose: Pose) -> Vector {
@@ -343,6 +378,26 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn no_surface_is_missed_that_lies_between_two_bounds(low in -3.0..3.0, width in 0.0..2.0, x in -0.3..0.3, turn in -3.0..3.0) {
+            let mut known = Surfaces::default();
+            known.add(0, Pose::new(Point::new(x, 0.0), Heading::from_radians(turn)), &room());
+            let all: Vec<&Surface> = known.all().collect();
+            let high = low + width;
+            let is_in = |surface: &&&Surface| (low..=high).contains(&surface.position().x);
+            let run = between(&all, low, high);
+            prop_assert_eq!(run.iter().filter(is_in).count(), all.iter().filter(is_in).count());
+        }
+
+        #[test]
+        fn a_sector_is_no_wider_than_its_extent(x in -1.0..1.0, heading in -4.0..4.0, half_width in 0.01..1.0, reach in 0.1..5.0, off in -1.0..1.0, far in 0.0..1.0) {
+            let ear = Pose::new(Point::new(x, 0.0), Heading::from_radians(heading));
+            let (low, high) = extent(ear, half_width, reach);
+            let towards = Heading::from_radians(heading + off * half_width).unit();
+            let at = ear.position.x + far * reach * towards.x;
+            prop_assert!((low - 1e-9..=high + 1e-9).contains(&at), "{} {} {}", low, at, high);
+        }
+
         #[test]
         fn what_is_far_changes_no_fit(x in -0.3..0.3, y in -0.3..0.3, turn in -0.2..0.2, away in 5.0..50.0) {
             let outline = room();

@@ -53,7 +53,7 @@ impl Surface {
 }
 
 /// Width of a cell, m.
-const CELL: f64 = 0.1;
+pub(super) const CELL: f64 = 0.1;
 
 /// No surface is known better, m.
 const LEAST_DEVIATION: f64 = 0.01;
@@ -93,6 +93,7 @@ impl Surfaces {
         }
     }
 
+    /// Returns all of them, by column of the grid.
     pub(super) fn all(&self) -> impl Iterator<Item = &Surface> {
         self.pieces.values()
     }

@@ -31,11 +31,15 @@ fn heat_map(
     };
     let names = worlds.iter().map(ArenaWorld::name).chain([ALL]);
     let names: Vec<&str> = names.collect();
-    let (mut values, mut abstained) = (Vec::new(), Vec::new());
+    let (mut systems, mut values, mut abstained) = (Vec::new(), Vec::new(), Vec::new());
     for contestant in contestants(task) {
         let rows = names.iter().map(|world| row_name(contestant, world));
         let ends = rows.map(|row| ends(runs, table, task, &row));
         let ends: Vec<Vec<End>> = ends.collect::<Result<_, _>>()?;
+        if ends.iter().all(Vec::is_empty) {
+            continue;
+        }
+        systems.push(contestant.name().to_owned());
         values.push(
             ends.iter()
                 .map(|of| 100.0 * share(of, End::Right))
@@ -44,15 +48,14 @@ fn heat_map(
         let shares = ends.iter().map(|of| share(of, End::Abstained));
         abstained.push(shares.collect());
     }
-    let values: Vec<Vec<f64>> = values;
-    if values.iter().flatten().all(|value| !value.is_finite()) {
+    if systems.is_empty() {
         return Ok(None);
     }
     let map = HeatMap {
         across: "world".to_owned(),
         columns: names.iter().map(|name| (*name).to_owned()).collect(),
         down: "system".to_owned(),
-        rows: contestants(task).map(|c| c.name().to_owned()).collect(),
+        rows: systems,
         values,
         shade: Shade::new(what, 0.0, 100.0),
         hatching: Some(Hatching {

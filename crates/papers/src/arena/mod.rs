@@ -76,7 +76,6 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         true => ArenaWorld::families(),
         false => ArenaWorld::of_files(&options.mazes)?,
     };
-    let runs = options.runs_of(&ENTRY);
     let mut tables: Vec<Table> = TABLES
         .into_iter()
         .map(|(name, task, robot)| {
@@ -85,7 +84,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
                 ArenaTask::Home => records::home(name),
                 ArenaTask::Locate => records::locate(name),
             };
-            let table = table.rows(rows::of(task, robot, &worlds, runs));
+            let table = table.rows(rows::of(task, robot, &worlds, options));
             table.note(records::note(task, robot))
         })
         .collect();

@@ -11,13 +11,16 @@ use tolman_maze::Braided;
 
 use super::records::{ConditionRun, SizeRun};
 use super::worlds::{ArenaWorld, DrawnWorld};
-use super::{Arena, ArenaTask, ENTRY, of_all};
+use super::{Arena, ArenaTask, ENTRY, SIZE_TABLE, of_all};
 
 /// The world of the rows of all worlds together.
 pub(super) const ALL: &str = "all";
 
-/// Worlds of each kind at most for a system that takes seconds in each.
+/// Worlds of each kind for a system that takes seconds in each, unless the caller asks for more.
 const SLOW_RUNS: u32 = 1;
+
+/// The same where it is left out of what stands for itself.
+const NO_RUNS: u32 = 0;
 
 /// Between the system and the world in the name of a row.
 const BETWEEN: &str = " · ";
@@ -55,15 +58,15 @@ pub(super) fn of(
     task: ArenaTask,
     robot: ContestRobot,
     worlds: &[ArenaWorld],
-    runs: u32,
+    options: &Options,
 ) -> Vec<Row> {
+    let slow = match robot {
+        ContestRobot::Own => SLOW_RUNS,
+        ContestRobot::Pioneer => NO_RUNS,
+    };
     let mut rows = Vec::new();
     for contestant in contestants(task) {
-        let runs = match (contestant, robot) {
-            (Contestant::GngSlamBetter, ContestRobot::Pioneer) if runs < MANY => 0,
-            (Contestant::GngSlamBetter, _) => runs.min(SLOW_RUNS),
-            _ => runs,
-        };
+        let runs = runs_of(contestant, options, slow);
         let each = worlds.iter();
         rows.extend(each.map(|world| Row::new(row_name(contestant, world.name())).runs(runs)));
         let all = runs.saturating_mul(worlds.len() as u32);
@@ -136,25 +139,24 @@ impl Arena {
     }
 }
 
+/// Worlds of each kind for a contestant: as many as the caller asks for, else the experiment's own number, or `slow` for who takes seconds in each.
+fn runs_of(contestant: Contestant, options: &Options, slow: u32) -> u32 {
+    match contestant {
+        Contestant::GngSlamBetter => options.runs_else(slow, slow),
+        _ => options.runs_of(&ENTRY),
+    }
+}
+
 /// The rows of the table of conditions: each system under each.
 pub(super) fn of_conditions(options: &Options) -> Vec<Row> {
-    let runs = options.runs_of(&ENTRY);
     let mut rows = Vec::new();
     for contestant in contestants(ArenaTask::Learn) {
         for condition in Condition::ALL {
             let row = Row::new(row_name(contestant, &condition.name()));
-            rows.push(row.runs(condition_runs(contestant, runs)));
+            rows.push(row.runs(runs_of(contestant, options, NO_RUNS)));
         }
     }
     rows
-}
-
-/// A system that takes seconds in each world is tried under conditions where somebody asks for many runs.
-const fn condition_runs(contestant: Contestant, runs: u32) -> u32 {
-    match contestant {
-        Contestant::GngSlamBetter if runs < MANY => 0,
-        _ => runs,
-    }
 }
 
 /// Who is tried in worlds of all sizes, and how large they are a side, cells.
@@ -166,21 +168,21 @@ pub(super) const SIZED: [Contestant; 4] = [
 ];
 pub(super) const SIZES: [u16; 6] = [5, 8, 12, 16, 24, 40];
 
-/// The largest where nobody asks for many runs.
+/// The largest where the table is not asked for by name: larger worlds take minutes each.
 const QUICK_SIDE: u16 = 16;
 
-/// Runs of each of those rows at most, and as many runs as are many.
-const SIZE_RUNS: u32 = 3;
-const MANY: u32 = 20;
-
-/// The rows of the table of sizes; larger worlds take minutes each.
+/// The rows of the table of sizes.
 pub(super) fn of_sizes(options: &Options) -> Vec<Row> {
-    let runs = options.runs_of(&ENTRY);
+    let is_named = options.tables.iter().any(|name| name == SIZE_TABLE);
     let mut rows = Vec::new();
     for contestant in SIZED {
         for side in SIZES {
-            let is_quick = runs < MANY && side > QUICK_SIDE;
-            let runs = if is_quick { 0 } else { runs.min(SIZE_RUNS) };
+            let is_filled = is_named || side <= QUICK_SIDE;
+            let runs = if is_filled {
+                options.runs_of(&ENTRY)
+            } else {
+                NO_RUNS
+            };
             let row = Row::new(row_name(contestant, &size_name(side)));
             rows.push(row.runs(runs));
         }

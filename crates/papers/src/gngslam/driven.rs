@@ -6,16 +6,14 @@ use tolman_experiment::{BoxError, Fields, Job, Metric, Options, Record, Row, Run
 use tolman_maps::place_map::PlaceMapConfig;
 use tolman_robot::Standing;
 
-use super::ENTRY;
-
 /// The name of the table.
 const DRIVEN: &str = "driven";
 
 /// The rows, with λ: the middle of the paper's range, and as many nodes as our best maps have.
 const ROWS: [(&str, u32); 2] = [("λ 575, as in Table 3.1", 575), ("λ 60", 60)];
 
-/// Runs of a row at most, and in a quick look.
-const MOST_RUNS: u32 = 40;
+/// Runs of a row unless the caller asks for others, and in a quick look.
+const RUNS: u32 = 40;
 const QUICK_RUNS: u32 = 2;
 
 /// The paper's number of records, and the drives by each map.
@@ -51,10 +49,7 @@ pub(super) fn has(table: &str) -> bool {
 }
 
 pub(super) fn table(options: &Options) -> Table {
-    let runs = match (options.runs, options.quick) {
-        (None, true) => QUICK_RUNS,
-        _ => options.runs_of(&ENTRY).min(MOST_RUNS),
-    };
+    let runs = options.runs_else(RUNS, QUICK_RUNS);
     Table::of::<DrivenFields>(DRIVEN, "Ways planned on the paper's map, and driven")
         .metric(Metric::mean(DrivenFields::error_m))
         .metric(Metric::mean(DrivenFields::start_m))

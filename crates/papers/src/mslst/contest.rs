@@ -154,7 +154,7 @@ impl Contest {
         let row = |name: &str| {
             let row = self.venue.row(name);
             match self.runs {
-                Some(runs) => row.runs(runs),
+                Some(runs) => row.run_each(runs),
                 None => row,
             }
         };

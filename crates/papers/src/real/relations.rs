@@ -78,7 +78,7 @@ pub(super) fn table() -> Table {
     let row = |(name, _): (&str, Option<LogSystem>)| match &missing {
         Some(missing) => Row::new(name).missing(missing),
         None if name == MADE_WORSE => Row::new(name),
-        None => Row::new(name).runs(1),
+        None => Row::new(name).run_each(1),
     };
     let worst = Metric::greatest("worst_over_30s_m", RelationRun::error_over_30s_m);
     Table::of::<RelationRun>(NAME, "The Intel lab, held against relations verified by hand")

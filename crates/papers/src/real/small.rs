@@ -42,7 +42,7 @@ record! {
 pub(super) fn table() -> Table {
     Table::of::<SmallRun>(NAME, "A simulated office")
         .metrics_from(SmallRun::rms_m)
-        .rows(ROWS.map(|(name, _)| Row::new(name).runs(1)))
+        .rows(ROWS.map(|(name, _)| Row::new(name).run_each(1)))
         .note("The log `logs/office.clf.gz`, which the project's simulator wrote: 180 beams over half a circle, wheels that drift. Always here.")
 }
 

@@ -84,7 +84,7 @@ pub(super) fn missing() -> Option<String> {
 pub(super) fn table() -> Table {
     let row = |(name, path, is_raw): (&str, &str, bool)| match file(path) {
         None => Row::new(name).missing(data::missing(&format!("the log of {name}"))),
-        Some(_) if is_raw => Row::new(name).runs(1),
+        Some(_) if is_raw => Row::new(name).run_each(1),
         Some(_) => Row::new(name),
     };
     Table::of::<TrajectoryRun>(NAME, "Other buildings, held against their corrected logs")

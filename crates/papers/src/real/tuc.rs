@@ -63,7 +63,7 @@ pub(super) fn missing() -> Option<String> {
 pub(super) fn table() -> Table {
     let row = |(name, _): (&str, f64)| match missing() {
         Some(missing) => Row::new(name).missing(missing),
-        None => Row::new(name).runs(1),
+        None => Row::new(name).run_each(1),
     };
     Table::of::<TucRun>(NAME, "A corridor of places that look alike")
         .metrics_from(TucRun::matches)

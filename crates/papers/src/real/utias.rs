@@ -66,7 +66,7 @@ pub(super) fn missing() -> Option<String> {
 pub(super) fn table() -> Table {
     let row = |name| match missing() {
         Some(missing) => Row::new(name).missing(missing),
-        None => Row::new(name).runs(PAIRS.len() as u32),
+        None => Row::new(name).run_each(PAIRS.len() as u32),
     };
     Table::of::<UtiasRun>(NAME, "A place map of one robot, tried by another")
         .metrics_from(UtiasRun::score)

@@ -52,7 +52,7 @@ pub(super) fn missing() -> Option<String> {
 pub(super) fn table() -> Table {
     let row = |(name, _): (&str, &str)| match missing() {
         Some(missing) => Row::new(name).missing(missing),
-        None => Row::new(name).runs(1),
+        None => Row::new(name).run_each(1),
     };
     Table::of::<WeanRun>(NAME, "Wean Hall on several days")
         .metrics_from(WeanRun::way_m)

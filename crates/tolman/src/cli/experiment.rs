@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use tolman_experiment::{
-    Error, Measured, Metric, Options, Program, Table, Terminal, compare, execute, open,
-    tables_as_text, write_replay,
+    Error, Measured, Metric, Options, Program, Table, Terminal, VerdictTally, compare, execute,
+    open, tables_as_text, write_replay,
 };
 
 use super::{App, Failure, ink, interrupt};
@@ -110,13 +110,12 @@ pub(super) fn carry_out(
         // The next experiment takes its time: show what there is.
         out.flush()?;
         disagreements.extend(outcome.analysis.disagreements().filter_map(told));
-        let tally = outcome.analysis.tally();
-        if tally.all() > 0 && tally.judged() == 0 {
-            let all = tally.all();
-            disagreements.push(format!(
-                "{name}: none of the paper's {all} values could be judged; give it more --runs, or the files that it lacks"
-            ));
-        }
+        let has_paper = !experiment.entry.source.is_empty();
+        disagreements.extend(
+            unjudged(outcome.analysis.tally())
+                .filter(|_| has_paper)
+                .map(|why| format!("{name}: {why}")),
+        );
     }
     if arguments.check && !disagreements.is_empty() {
         return Err(Failure::Disagrees(anyhow!("{}", disagreements.join("\n"))));
@@ -180,6 +179,17 @@ fn classify(error: Error) -> Failure {
         _ => Failure::Failed,
     };
     failure(error.into())
+}
+
+/// Why nothing of an experiment that has a paper was judged; `None` if something was.
+fn unjudged(tally: VerdictTally) -> Option<String> {
+    match (tally.all(), tally.judged()) {
+        (0, _) => Some("its tables have no value of a paper, so nothing was judged".to_owned()),
+        (all, 0) => Some(format!(
+            "none of the paper's {all} values could be judged; give it more --runs, or the files that it lacks"
+        )),
+        _ => None,
+    }
 }
 
 /// A value that does not match the paper's.

@@ -1,0 +1,50 @@
+//! What is drawn here, the systems that are here can be sent into.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use super::{Condition, Contest, ContestRobot, Contestant, Schooling};
+use crate::family::Family;
+
+const SEEDS: u64 = 5;
+
+#[test]
+fn every_system_can_be_sent_into_every_family_or_says_in_a_sentence_why_not() {
+    let schooling = Schooling::default();
+    let (mut sent, mut abstained) = (0, 0);
+    for family in Family::all() {
+        for size in family.sizes {
+            for seed in 0..SEEDS {
+                let maze = (family.draw)(size, &mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
+                for contestant in Contestant::ALL.into_iter().filter(|one| one.learns()) {
+                    let what = format!("{contestant:?} in {} {size:?} {seed}", family.name);
+                    let robot = match seed % 2 {
+                        0 => ContestRobot::Own,
+                        _ => ContestRobot::Pioneer,
+                    };
+                    let contest = Contest {
+                        contestant,
+                        robot,
+                        maze: &maze,
+                        name: family.name,
+                        condition: Condition::AsMade,
+                        starts: 1,
+                        seed,
+                        stopwatch: None,
+                    };
+                    if let Some(why) = contestant.abstains(&maze, robot) {
+                        let words = why.split_whitespace().count();
+                        assert!((5..25).contains(&words), "{what}: {why}");
+                        assert!(!why.ends_with('.') && !why.contains(". "), "{what}: {why}");
+                        abstained += 1;
+                        continue;
+                    }
+                    let entered = contestant.enter(&contest, &schooling);
+                    assert!(entered.is_ok(), "{what}: {:?}", entered.err());
+                    sent += 1;
+                }
+            }
+        }
+    }
+    assert!(sent > 1000 && abstained > 50, "{sent} {abstained}");
+}
