@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use tolman_formats::geom::Point;
 use tolman_formats::{
-    LogEntry, LogReader, LogTrouble, LogVelocity, SonarTable, TucDrive, UtiasRobot,
+    LogEntry, LogReader, LogTrouble, LogVelocity, Sighting, SonarTable, TucDrive, UtiasRobot,
 };
 
 /// A folder of its own, with these files.
@@ -33,7 +33,7 @@ fn wean_hall_is_read_in_metres() {
         panic!("{entries:?}")
     };
     assert_eq!((scan.time, scan.scan.ranges.len()), (0.2, 180));
-    assert!(scan.scan.ranges.iter().all(|range| *range == 2.5));
+    assert_eq!(scan.scan.ranges, [2.5; 180]);
     assert!((scan.scan.ring.spacing.to_degrees() - 1.0).abs() < 1e-12);
     assert!((scan.robot_from_laser.position.x - 0.25).abs() < 1e-12);
     assert_eq!(reader.report().count(LogTrouble::Cut), 1);
@@ -55,11 +55,7 @@ fn a_robot_of_the_utias_set_is_read() {
     let robot = UtiasRobot::read(&folder("utias", &files), 2).unwrap();
     assert_eq!(robot.odometry.len(), 2);
     assert_eq!(robot.reports[1].1.count(LogTrouble::NoNumber), 1);
-    let landmarks: Vec<bool> = robot
-        .sightings
-        .iter()
-        .map(|seen| seen.is_landmark())
-        .collect();
+    let landmarks: Vec<bool> = robot.sightings.iter().map(Sighting::is_landmark).collect();
     assert_eq!(landmarks, [true, false]);
     assert_eq!(robot.strangers[&9], 1);
     assert_eq!(robot.truth.poses()[0].pose.position, Point::new(1.0, 2.0));
@@ -79,7 +75,8 @@ fn places_that_look_alike_are_read_beside_the_odometry() {
     let folder = folder("tuc", &[("in.txt", sensed), ("gt.txt", truth)]);
     let drive = TucDrive::read(&folder.join("in.txt")).unwrap();
     assert_eq!((drive.odometry.len(), drive.matches.len()), (2, 1));
-    assert_eq!(drive.matches[0].similarity, 0.75);
+    let alike: Vec<f64> = drive.matches.iter().map(|one| one.similarity).collect();
+    assert_eq!(alike, [0.75]);
     assert_eq!(drive.report.count(LogTrouble::UnknownKind), 1);
     assert_eq!(drive.report.count(LogTrouble::Cut), 1);
     let truth = TucDrive::read_truth(&folder.join("gt.txt")).unwrap();

@@ -1,8 +1,11 @@
 //! Bags of ROS 2: written here by the crate that reads them, and by the program of others.
 #![cfg(feature = "mcap")]
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![expect(clippy::float_cmp, reason = "what was written is read to the bit")]
 
-use std::collections::BTreeMap;
+extern crate alloc;
+
+use alloc::collections::BTreeMap;
 use std::fs;
 use std::io::Cursor;
 use std::path::PathBuf;
@@ -119,11 +122,12 @@ fn drive(has_mount: bool) -> Vec<u8> {
 }
 
 fn scans(bag: &RosBag) -> Vec<&LogScan> {
-    let scan = |entry| match entry {
-        &LogEntry::Scan(ref scan) => Some(scan),
+    let entries = bag.entries.iter();
+    let scans = entries.filter_map(|entry| match entry {
+        LogEntry::Scan(scan) => Some(scan),
         LogEntry::Odometry(_) => None,
-    };
-    bag.entries.iter().filter_map(scan).collect()
+    });
+    scans.collect()
 }
 
 #[test]
