@@ -21,7 +21,7 @@ const PINNED: &[Pinned] = &[
     ("mslst", 5, &[]),
     ("mslst-drawings", 2, &[]),
     ("mslst-sweeps", 1, &[]),
-    ("micromouse", 1, &[(20, "noise")]),
+    ("micromouse", 1, &[(2, "noise")]),
     ("diktiometry", 1, &[]),
     (
         "cpm",

@@ -55,4 +55,4 @@ pub use rosbag::RosBag;
 pub use sonar_table::SonarTable;
 pub use trajectory::{ReadRelations, ReadTrajectory, tum};
 pub use tuc::{PlaceMatch, TucDrive};
-pub use utias::{Sighting, UtiasRobot};
+pub use utias::{BarcodeSighting, UtiasRobot};

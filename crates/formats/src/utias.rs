@@ -24,7 +24,7 @@ pub struct UtiasRobot {
     /// How fast its wheels say it goes.
     pub odometry: Vec<LogVelocity>,
     /// What its camera recognized.
-    pub sightings: Vec<Sighting>,
+    pub sightings: Vec<BarcodeSighting>,
     /// Where it was, by cameras on the ceiling.
     pub truth: Trajectory,
     /// How each file was read.
@@ -35,7 +35,7 @@ pub struct UtiasRobot {
 
 /// A barcode that a robot's camera has read.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sighting {
+pub struct BarcodeSighting {
     /// Time, s.
     pub time: f64,
     /// Who wears it.
@@ -49,7 +49,7 @@ pub struct Sighting {
 /// Subjects up to here are robots.
 const ROBOTS: u32 = 5;
 
-impl Sighting {
+impl BarcodeSighting {
     /// Returns whether it is of a landmark, which stays where it is.
     #[must_use]
     pub const fn is_landmark(&self) -> bool {
@@ -76,7 +76,7 @@ impl UtiasRobot {
                 *robot.strangers.entry(sighting.subject).or_default() += 1;
                 continue;
             };
-            robot.sightings.push(Sighting {
+            robot.sightings.push(BarcodeSighting {
                 subject,
                 ..sighting
             });
@@ -117,8 +117,8 @@ fn velocity(fields: &mut Fields<'_>) -> Result<LogVelocity, Wrong> {
 }
 
 /// A sighting whose subject is still the barcode.
-fn sighting(fields: &mut Fields<'_>) -> Result<Sighting, Wrong> {
-    Ok(Sighting {
+fn sighting(fields: &mut Fields<'_>) -> Result<BarcodeSighting, Wrong> {
+    Ok(BarcodeSighting {
         time: fields.number("the time")?,
         subject: fields.count("the barcode")?,
         range: fields.number("the range")?,

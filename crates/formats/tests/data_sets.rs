@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use tolman_formats::geom::Point;
 use tolman_formats::{
-    LogEntry, LogReader, LogTrouble, LogVelocity, Sighting, SonarTable, TucDrive, UtiasRobot,
+    BarcodeSighting, LogEntry, LogReader, LogTrouble, LogVelocity, SonarTable, TucDrive, UtiasRobot,
 };
 
 /// A folder of its own, with these files.
@@ -55,7 +55,11 @@ fn a_robot_of_the_utias_set_is_read() {
     let robot = UtiasRobot::read(&folder("utias", &files), 2).unwrap();
     assert_eq!(robot.odometry.len(), 2);
     assert_eq!(robot.reports[1].1.count(LogTrouble::NoNumber), 1);
-    let landmarks: Vec<bool> = robot.sightings.iter().map(Sighting::is_landmark).collect();
+    let landmarks: Vec<bool> = robot
+        .sightings
+        .iter()
+        .map(BarcodeSighting::is_landmark)
+        .collect();
     assert_eq!(landmarks, [true, false]);
     assert_eq!(robot.strangers[&9], 1);
     assert_eq!(robot.truth.poses()[0].pose.position, Point::new(1.0, 2.0));

@@ -7,7 +7,7 @@ use tolman_replay::{
 };
 use tolman_robot::{Body, Ring};
 
-use super::{MapPicture, MappedLog, RobotLog};
+use super::{FoundClosure, MapPicture, MappedLog, RobotLog};
 
 /// The robot is drawn so large, m: a log does not tell.
 const RADIUS: f64 = 0.25;
@@ -29,7 +29,7 @@ impl MappedLog {
         });
         let mut closures = TimeSeries::new("closures", "");
         let mut count = 0;
-        let mut closed: Vec<usize> = self.closed.iter().map(|[_, later]| *later).collect();
+        let mut closed: Vec<usize> = self.closed.iter().map(|closure| closure.later).collect();
         closed.sort_unstable();
         for later in closed {
             count += 1;
@@ -86,7 +86,7 @@ impl MappedLog {
             .windows(2)
             .map(|pair| MapEdge::new(pair[0].id, pair[1].id, pair[1].born));
         let mut edges: Vec<MapEdge> = ways.collect();
-        for [earlier, later] in &self.closed {
+        for FoundClosure { earlier, later, .. } in &self.closed {
             let ends = [earlier, later].map(|end| (end / every) as u32);
             let mut closure = MapEdge::new(ends[0], ends[1], self.scan_of(*later));
             closure.kind = EdgeKind::Relation;

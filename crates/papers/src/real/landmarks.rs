@@ -2,7 +2,7 @@
 
 use alloc::collections::BTreeMap;
 
-use tolman_formats::{LogVelocity, Sighting};
+use tolman_formats::{BarcodeSighting, LogVelocity};
 use tolman_geom::nalgebra::{Matrix3, Vector3};
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::pose_graph::{OptimizerConfig, PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
@@ -34,7 +34,7 @@ impl LandmarkMap {
     /// Maps what a robot noted: poses and landmarks are those of a pose graph that agree best with wheels and sightings.
     pub(super) fn of(
         odometry: &[LogVelocity],
-        sightings: &[Sighting],
+        sightings: &[BarcodeSighting],
     ) -> Result<Self, PoseGraphError> {
         let reckoned = LogVelocity::dead_reckoning(odometry);
         let times = steps_of(&reckoned);
@@ -123,7 +123,7 @@ fn see(
     here: u32,
     landmarks: &mut BTreeMap<u32, u32>,
     moved: Pose,
-    seen: &Sighting,
+    seen: &BarcodeSighting,
 ) -> Result<(), PoseGraphError> {
     // The axes of the error are along the ray and across it.
     let bearing = moved.heading.turned(seen.bearing);

@@ -42,12 +42,23 @@ pub struct MappedLog {
     pub closures: usize,
     /// The numbers of the scans that the map keeps.
     pub keyframes: Vec<usize>,
-    /// The keyframes' numbers of the two ends of each closure, the earlier first.
-    pub closed: Vec<[usize; 2]>,
+    /// The closures.
+    pub closed: Vec<FoundClosure>,
     /// The map of places, of a system that has one.
     pub places: MapView,
     /// The scan at which each place was first come to, by its id.
     pub founded: BTreeMap<u32, usize>,
+}
+
+/// A place seen again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoundClosure {
+    /// The number of the earlier keyframe.
+    pub earlier: usize,
+    /// The number of the later one.
+    pub later: usize,
+    /// Where the later one lies as seen from the earlier, as it was measured.
+    pub measured: Pose,
 }
 
 impl RobotLog {
@@ -192,7 +203,11 @@ impl MappedLog {
             closures: matching.closures(),
             keyframes: matching.keyframes(),
             closed: closures
-                .map(|edge| [edge.from as usize, edge.to as usize])
+                .map(|edge| FoundClosure {
+                    earlier: edge.from as usize,
+                    later: edge.to as usize,
+                    measured: edge.measured,
+                })
                 .collect(),
             places: MapView::default(),
             founded: BTreeMap::new(),

@@ -28,7 +28,7 @@ use tolman_systems::places::PlacesConfig;
 
 pub use drawing::{MapPicture, ros_map};
 pub use graph::{GraphFile, GraphFileError};
-pub use log::{LogSystem, MappedLog, RobotLog};
+pub use log::{FoundClosure, LogSystem, MappedLog, RobotLog};
 
 /// What the catalogue says of it.
 pub(super) const ENTRY: Entry = Entry {

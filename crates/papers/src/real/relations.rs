@@ -9,7 +9,7 @@ use tolman_formats::ReadRelations;
 use tolman_robot::Trajectory;
 
 use super::trajectories::{Wear, worse};
-use super::{LogSystem, RobotLog};
+use super::{FoundClosure, LogSystem, MappedLog, RobotLog};
 use crate::data;
 
 /// The table's name.
@@ -22,6 +22,10 @@ const PUBLISHED: &str = "logs/radish/intel-corrected.log.gz";
 /// What the times of the published log lack to those of the relations, s.
 const PUBLISHED_TIMES: f64 = 976_052_857.34;
 
+/// A closure is wrong if the dense map has it farther off, m.
+const WRONG_M: f64 = 0.5;
+/// The row of places.
+const PLACES: &str = "intel places";
 /// The row whose wheels are made worse.
 const MADE_WORSE: &str = "intel dense, wheels made worse";
 
@@ -29,7 +33,7 @@ pub(super) const ROWS: [(&str, Option<LogSystem>); 6] = [
     ("intel raw", Some(LogSystem::Odometry)),
     ("intel published", None),
     ("intel matching", Some(LogSystem::Matching)),
-    ("intel places", Some(LogSystem::Places)),
+    (PLACES, Some(LogSystem::Places)),
     ("intel dense", Some(LogSystem::ScanMatching)),
     (MADE_WORSE, Some(LogSystem::ScanMatching)),
 ];
@@ -68,6 +72,8 @@ record! {
         relations: usize => neither("relations").decimals(0),
         /// Places seen again.
         closures: usize => neither("closures").decimals(0),
+        /// Those of the places that the dense map has elsewhere.
+        wrong_closures: Option<usize> => lower("wrong closures").decimals(0),
         /// Places of the map of places.
         places: usize => neither("places").decimals(0),
     }
@@ -89,7 +95,7 @@ pub(super) fn table() -> Table {
             "Every fifth scan of the raw log. Relations whose times lie within 30 s have a floor of 0.09 m, since their times lie between scans \
              that are a second apart. Published: the corrected log that others map with, which went through a mapper of its authors. \
              Matching: scans matched to those before, without closures. Places: with closures where a junction, a bend, a dead end or a room \
-             was recognized. Dense: with closures everywhere. Wheels made worse: all the way they turn 2° a metre to one side besides, and \
+             was recognized. Dense: with closures everywhere; wrong is a closure of the places that the dense map has more than half a metre elsewhere. Wheels made worse: all the way they turn 2° a metre to one side besides, and \
              every way is 5 % too long or too short; the sides are drawn for each run.",
         )
 }
@@ -105,7 +111,7 @@ impl Intel {
     }
 
     /// The way that a row has.
-    fn way(&self, job: &Job<'_>) -> Result<(Trajectory, [usize; 2]), BoxError> {
+    fn way(&self, job: &Job<'_>) -> Result<(Trajectory, MappedLog), BoxError> {
         let named = ROWS.iter().find(|(name, _)| *name == job.row);
         let (_, system) = named.ok_or_else(|| format!("there is no row {}", job.row))?;
         let Some(system) = system else {
@@ -114,7 +120,8 @@ impl Intel {
             for scan in &mut log.scans {
                 scan.time += PUBLISHED_TIMES;
             }
-            return Ok((log.trajectory(&log.odometry()), [0, 0]));
+            let mapped = log.map(LogSystem::Odometry, &log.odometry(), |_| {})?;
+            return Ok((log.trajectory(&mapped.poses), mapped));
         };
         let log = self.log()?;
         let odometry = match job.row {
@@ -122,12 +129,24 @@ impl Intel {
             _ => log.odometry(),
         };
         let mapped = log.map(*system, &odometry, |_| {})?;
-        let counts = [mapped.closures, mapped.places.places.len()];
-        Ok((log.trajectory(&mapped.poses), counts))
+        Ok((log.trajectory(&mapped.poses), mapped))
+    }
+
+    /// Counts closures that the dense map has elsewhere.
+    fn wrong(&self, mapped: &MappedLog) -> Result<usize, BoxError> {
+        let log = self.log()?;
+        let dense = log.map(LogSystem::ScanMatching, &log.odometry(), |_| {})?;
+        let is_wrong = |closure: &&FoundClosure| {
+            let [there, here] = [closure.earlier, closure.later]
+                .map(|keyframe| dense.poses[mapped.keyframes[keyframe]]);
+            let off = there.between(here).position - closure.measured.position;
+            off.norm() > WRONG_M
+        };
+        Ok(mapped.closed.iter().filter(is_wrong).count())
     }
 
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let (way, [closures, places]) = self.way(job)?;
+        let (way, mapped) = self.way(job)?;
         let path = file(RELATIONS).ok_or("the relations of the Intel lab are gone")?;
         let relations = ReadRelations::open(&path)?.relations;
         let score = RelationScore::of(&way, &relations).ok_or("no relation lies on the way")?;
@@ -135,8 +154,12 @@ impl Intel {
             error_m: score.error,
             error_over_30s_m: score.far_error.ok_or("no relation is far")?,
             relations: score.relations,
-            closures,
-            places,
+            closures: mapped.closures,
+            wrong_closures: match job.row {
+                PLACES => Some(self.wrong(&mapped)?),
+                _ => None,
+            },
+            places: mapped.places.places.len(),
         };
         Ok(run.fields()?)
     }

@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_arena::gngslam::{CellGrid, LaidOver, PointScore};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
-use tolman_formats::{LogVelocity, Sighting, UtiasRobot};
+use tolman_formats::{BarcodeSighting, LogVelocity, UtiasRobot};
 use tolman_geom::{Point, Pose};
 use tolman_maps::place_map::{
     FeatureChoice, FeatureGroup, FeatureScaling, FeatureTable, FeatureWeights, ImageForm, PlaceMap,
@@ -186,14 +186,14 @@ fn in_cells(cells: &CellGrid, point: Point) -> Point {
 /// now.
 fn sensed(
     odometry: &[LogVelocity],
-    sightings: &[Sighting],
+    sightings: &[BarcodeSighting],
     names: &[u32],
 ) -> Vec<(f64, Vec<Option<f64>>)> {
     let reckoned = LogVelocity::dead_reckoning(odometry);
     let of = |time: f64| {
         let here = reckoned.at(time)?;
         let mut ranges = vec![None; names.len()];
-        let recent = |seen: &&Sighting| seen.time <= time && seen.time > time - MEMORY_S;
+        let recent = |seen: &&BarcodeSighting| seen.time <= time && seen.time > time - MEMORY_S;
         for seen in sightings.iter().filter(recent) {
             let index = names.iter().position(|name| *name == seen.subject);
             if let (Some(index), Some(then)) = (index, reckoned.at(seen.time)) {
