@@ -102,7 +102,7 @@ mod tests {
         maze.set_start(Some((Cell::new(0, 0), Direction::East)));
         maze.set_goals(vec![Cell::new(3, 0)]);
         maze.set_wall(Cell::new(2, 0), Direction::East, true);
-        let at = Cell::new(0, 0);
+        let at = Cell::new(2, 0);
         assert_eq!(explore(&maze, &config), Err(ExploreError::NoWay { at }));
     }
 
