@@ -310,9 +310,10 @@ proptest! {
 
     /// Odometry errors do not add up where the walls tell.
     #[test]
-    fn errors_do_not_add_up(errors in prop::collection::vec(-0.03..0.03_f64, 3..9), length in 2.0..4.0_f64) {
+    fn errors_do_not_add_up(errors in prop::collection::vec(-0.03..0.03_f64, 3..9), length in 2.0..3.4_f64) {
         let (map, off) = walked(length, &errors);
-        // Unseen, errors of one sign would add up to 0.4 m.
+        // Unseen, errors of one sign would add up to 0.36 m. In longer corridors these can be more than
+        // the odometry is told to err by, and the walls at its ends are then not known again.
         prop_assert!(off < 0.25, "{off}");
         prop_assert!(map.agreement() > 0.5);
     }
