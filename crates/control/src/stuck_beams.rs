@@ -44,7 +44,8 @@ const ENOUGH: u8 = 16;
 const MOST: u8 = 48;
 
 impl StuckBeams {
-    /// Takes in a scan and returns it without what stuck beams say. The first of another ring begins anew. O(beams).
+    /// Takes in a scan and returns it without what stuck beams say. A ring of another size keeps what is
+    /// known of the beams that both have. O(beams).
     #[must_use]
     pub fn mended(&mut self, scan: &Scan) -> Scan {
         let ranges = &scan.ranges;

@@ -31,6 +31,7 @@ mod fields;
 mod g2o;
 mod graph;
 mod log;
+mod quaternion;
 mod ros_map;
 #[cfg(feature = "mcap")]
 mod rosbag;

@@ -20,7 +20,7 @@ use tolman_geom::Pose;
 use tolman_robot::{TimedPose, Trajectory};
 
 use crate::log::{LogEntry, LogError, LogOdometry, LogReport, LogScan, LogTrouble};
-use messages::{Decoded, LaserScan, Odometry, Transforms, decode};
+use messages::{LaserScan, Odometry, Transforms, decode};
 use mounts::Mounts;
 
 /// A longer record is none of a bag of scans, bytes.
@@ -133,7 +133,7 @@ impl Reader {
     fn take(&mut self, topic: &str, kind: &str, data: &[u8]) {
         let number = self.report.lines;
         let taken = match kind {
-            SCAN if self.is_first(0, topic) => decode(data).map(|Decoded(scan)| {
+            SCAN if self.is_first(0, topic) => decode(data).map(|scan| {
                 let topic = topic.to_owned();
                 self.scans.push(PlacelessScan {
                     number,
@@ -142,10 +142,10 @@ impl Reader {
                 });
             }),
             ODOMETRY if self.is_first(1, topic) => {
-                decode(data).map(|Decoded(odometry)| self.moved(number, odometry))
+                decode(data).map(|odometry| self.moved(number, odometry))
             }
             TRANSFORMS if topic.ends_with("tf_static") => {
-                decode(data).map(|Decoded(Transforms { transforms })| {
+                decode(data).map(|Transforms { transforms }| {
                     self.mounts.extend(transforms);
                 })
             }
@@ -185,7 +185,7 @@ impl Reader {
             time: moved.time,
             pose: moved.pose,
         });
-        let way = Trajectory::new(timed.collect::<Vec<_>>());
+        let way = Trajectory::new(timed);
         let mut entries: Vec<LogEntry> = Vec::new();
         for placeless in core::mem::take(&mut self.scans) {
             entries.extend(self.placed(placeless, &way).map(LogEntry::Scan));

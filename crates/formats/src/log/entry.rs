@@ -61,7 +61,7 @@ impl LogVelocity {
             let time = now.time;
             TimedPose { time, pose }
         });
-        Trajectory::new(poses.collect::<Vec<_>>())
+        Trajectory::new(poses)
     }
 }
 

@@ -3,11 +3,10 @@
 use byteorder::{BigEndian, LittleEndian};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use tolman_geom::{Heading, Point, Pose};
+use tolman_geom::{Point, Pose};
 use tolman_robot::{Ring, Scan};
 
-/// A message that was decoded.
-pub(super) struct Decoded<T>(pub(super) T);
+use crate::quaternion;
 
 #[derive(Deserialize)]
 pub(super) struct Header {
@@ -60,7 +59,7 @@ pub(super) struct Transform {
 const ENCAPSULATION: usize = 4;
 
 /// Reads a message; what comes after its last field is left.
-pub(super) fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<Decoded<T>, String> {
+pub(super) fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
     let (head, body) = bytes
         .split_at_checked(ENCAPSULATION)
         .ok_or("a message of less than four bytes")?;
@@ -69,7 +68,7 @@ pub(super) fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<Decoded<T>, St
         _ => cdr_encoding::from_bytes::<T, BigEndian>(body),
     };
     match decoded {
-        Ok((message, _)) => Ok(Decoded(message)),
+        Ok((message, _)) => Ok(message),
         Err(error) => Err(error.to_string()),
     }
 }
@@ -122,7 +121,6 @@ impl Transform {
 }
 
 /// What of a pose lies on the floor.
-fn pose([x, y, _]: [f64; 3], [qx, qy, qz, qw]: [f64; 4]) -> Pose {
-    let yaw = libm::atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz));
-    Pose::new(Point::new(x, y), Heading::from_radians(yaw))
+fn pose([x, y, _]: [f64; 3], orientation: [f64; 4]) -> Pose {
+    Pose::new(Point::new(x, y), quaternion::heading(orientation))
 }

@@ -7,6 +7,7 @@ use tolman_robot::{TimedPose, Trajectory};
 
 use crate::fields::{Fields, Wrong};
 use crate::log::{self, LogError, LogReport};
+use crate::quaternion;
 
 /// Returns a trajectory as text, one pose a line, `time x y z qx qy qz qw`: the format of the RGB-D benchmark of the Technical
 /// University of Munich, which evo and others read.
@@ -69,14 +70,12 @@ fn timed(fields: &mut Fields<'_>) -> Result<TimedPose, Wrong> {
     let time = fields.number("the time")?;
     let [x, y] = [fields.number("x")?, fields.number("y")?];
     fields.pass(1, "z")?;
-    let [qx, qy, qz, qw] = [
+    let quaternion = [
         fields.number("qx")?,
         fields.number("qy")?,
         fields.number("qz")?,
         fields.number("qw")?,
     ];
-    // Of a body that leans, which way it looks on the floor.
-    let yaw = libm::atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz));
-    let pose = Pose::new(Point::new(x, y), Heading::from_radians(yaw));
+    let pose = Pose::new(Point::new(x, y), quaternion::heading(quaternion));
     Ok(TimedPose { time, pose })
 }

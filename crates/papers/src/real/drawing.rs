@@ -64,17 +64,12 @@ impl MapPicture {
                 let [all, on_floor] = occupancy.contradicted(scan, laser, FARTHEST, WALL);
                 [sum[0] + all, sum[1] + on_floor]
             });
-        let odometry = log.odometry();
-        let over = match (poses.first(), odometry.first()) {
-            (Some(found), Some(raw)) => found.compose(raw.inverse()),
-            _ => Pose::IDENTITY,
-        };
         Self {
             occupancy,
             contradicted: counted[1] as f64 / counted[0].max(1) as f64,
             corrected: poses.iter().map(|pose| pose.position).collect(),
-            raw: (odometry.iter())
-                .map(|pose| over.transform(pose.position))
+            raw: (log.odometry_over(poses).iter())
+                .map(|pose| pose.position)
                 .collect(),
         }
     }

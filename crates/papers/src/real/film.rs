@@ -1,6 +1,6 @@
 //! The replay of a log: the way found beside what the wheels say, what the laser read, and the map as it grew.
 
-use tolman_geom::{Point, Pose};
+use tolman_geom::Point;
 use tolman_maps::scan_matching::OccupancyGrid;
 use tolman_replay::{
     EdgeKind, MapEdge, MapGrowth, MapNode, Replay, RobotTrack, Scans, Scenery, TimeSeries,
@@ -28,15 +28,13 @@ impl MappedLog {
             false => self.place_map(),
         });
         let mut closures = TimeSeries::new("closures", "");
-        let mut count = 0;
         let mut closed: Vec<usize> = self.closed.iter().map(|closure| closure.later).collect();
         closed.sort_unstable();
-        for later in closed {
-            count += 1;
+        for (count, later) in (1..).zip(closed) {
             closures.sample(self.scan_of(later), f64::from(count));
         }
         found.series.push(closures);
-        let raw = raw(&log.odometry(), &self.poses);
+        let raw = log.odometry_over(&self.poses);
         let by_wheels = RobotTrack::new("by the wheels", body, raw);
         let scenery = Scenery {
             walls: walls(&picture.occupancy),
@@ -119,15 +117,6 @@ impl MappedLog {
             edges: edges.collect(),
         }
     }
-}
-
-/// What the wheels say, laid over the start of the way found.
-fn raw(odometry: &[Pose], found: &[Pose]) -> Vec<Pose> {
-    let over = match (found.first(), odometry.first()) {
-        (Some(found), Some(raw)) => found.compose(raw.inverse()),
-        _ => Pose::IDENTITY,
-    };
-    odometry.iter().map(|pose| over.compose(*pose)).collect()
 }
 
 /// The time between two scans in the mean, s.

@@ -146,6 +146,7 @@ fn see(
     })
 }
 
-fn information(errors: [f64; 3]) -> Matrix3<f64> {
+/// The information of what errs by so much: ahead and left, m, and heading, rad (standard deviations).
+pub(super) fn information(errors: [f64; 3]) -> Matrix3<f64> {
     Matrix3::from_diagonal(&Vector3::from(errors).map(|error| 1.0 / (error * error)))
 }

@@ -120,6 +120,17 @@ impl RobotLog {
         self.scans.iter().map(|scan| scan.odometry).collect()
     }
 
+    /// Returns what the wheels say, laid over the start of the way `found`.
+    #[must_use]
+    pub fn odometry_over(&self, found: &[Pose]) -> Vec<Pose> {
+        let odometry = self.odometry();
+        let over = match (found.first(), odometry.first()) {
+            (Some(found), Some(raw)) => found.compose(raw.inverse()),
+            _ => Pose::IDENTITY,
+        };
+        odometry.iter().map(|pose| over.compose(*pose)).collect()
+    }
+
     /// Finds the way of the robot by `system`, with `odometry` for what the wheels say; `see` is told after each scan how many there
     /// were.
     ///

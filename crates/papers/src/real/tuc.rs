@@ -5,11 +5,11 @@ use alloc::collections::BTreeMap;
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use tolman_formats::{LogVelocity, PlaceMatch, TucDrive};
 use tolman_geom::Pose;
-use tolman_geom::nalgebra::{Matrix3, Vector3};
 use tolman_maps::audit::{AuditConfig, audit};
 use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
 use tolman_robot::Trajectory;
 
+use super::landmarks::information;
 use super::relations::file;
 use crate::data;
 
@@ -159,12 +159,11 @@ fn accepted(odometry: &[LogVelocity], matches: &[PlaceMatch]) -> Result<Vec<Plac
 }
 
 fn edge(from: u32, to: u32, measured: Pose, errors: [f64; 3], kind: PoseEdgeKind) -> PoseEdge {
-    let sure = Vector3::from(errors).map(|error| 1.0 / (error * error));
     PoseEdge {
         from,
         to,
         measured,
-        information: Matrix3::from_diagonal(&sure),
+        information: information(errors),
         kind,
     }
 }

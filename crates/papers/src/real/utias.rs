@@ -88,7 +88,12 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let known = LandmarkMap::of(&learner.odometry, &learner.sightings)?;
     let map = place_map(&known, &mut rng)?;
     let laid = laid_over(&known, &learner.truth).ok_or("nobody knows where the robot was")?;
-    let cells = CellGrid::over(bounds(&learner.truth).ok_or("the robot was nowhere")?);
+    let been = learner
+        .truth
+        .poses()
+        .iter()
+        .map(|timed| timed.pose.position);
+    let cells = CellGrid::over(Bounds::of(been));
     let nodes: Vec<Point> = map.positions().map(|(_, position)| position).collect();
     let names: Vec<u32> = known.landmarks.keys().copied().collect();
     let (mut score, mut error, mut records) = (0.0, 0.0, 0);
@@ -166,15 +171,6 @@ fn laid_over(known: &LandmarkMap, truth: &Trajectory) -> Option<LaidOver> {
         pairs.filter_map(|timed| Some((timed.pose.position, truth.at(timed.time)?.position)));
     let (found, sites): (Vec<Point>, Vec<Point>) = pairs.unzip();
     LaidOver::of_places(found.into_iter(), &sites)
-}
-
-/// The rectangle that a robot was in.
-fn bounds(truth: &Trajectory) -> Option<Bounds> {
-    let mut points = truth.poses().iter().map(|timed| timed.pose.position);
-    let first = points.next()?;
-    let both = (first, first);
-    let (min, max) = points.fold(both, |(min, max), point| (min.inf(&point), max.sup(&point)));
-    Some(Bounds { min, max })
 }
 
 fn in_cells(cells: &CellGrid, point: Point) -> Point {
