@@ -42,6 +42,8 @@ pub(super) const ROWS: [(&str, Option<LogSystem>); 6] = [
 #[derive(Debug, Default)]
 pub(super) struct Intel {
     log: OnceLock<RobotLog>,
+    /// The dense map, a row of its own and what places are held against.
+    dense: OnceLock<MappedLog>,
 }
 
 /// A file of the data, if it is here.
@@ -110,6 +112,15 @@ impl Intel {
         Ok(self.log.get_or_init(|| log))
     }
 
+    fn dense(&self) -> Result<&MappedLog, BoxError> {
+        if let Some(dense) = self.dense.get() {
+            return Ok(dense);
+        }
+        let log = self.log()?;
+        let dense = log.map(LogSystem::ScanMatching, &log.odometry(), |_| {})?;
+        Ok(self.dense.get_or_init(|| dense))
+    }
+
     /// The way that a row has.
     fn way(&self, job: &Job<'_>) -> Result<(Trajectory, MappedLog), BoxError> {
         let named = ROWS.iter().find(|(name, _)| *name == job.row);
@@ -124,18 +135,20 @@ impl Intel {
             return Ok((log.trajectory(&mapped.poses), mapped));
         };
         let log = self.log()?;
-        let odometry = match job.row {
-            MADE_WORSE => worse(&log.odometry(), Wear::OF_RAW, job.seed),
-            _ => log.odometry(),
+        let mapped = match (job.row, system) {
+            (MADE_WORSE, _) => {
+                let odometry = worse(&log.odometry(), Wear::OF_RAW, job.seed);
+                log.map(*system, &odometry, |_| {})?
+            }
+            (_, LogSystem::ScanMatching) => self.dense()?.clone(),
+            _ => log.map(*system, &log.odometry(), |_| {})?,
         };
-        let mapped = log.map(*system, &odometry, |_| {})?;
         Ok((log.trajectory(&mapped.poses), mapped))
     }
 
     /// Counts closures that the dense map has elsewhere.
     fn wrong(&self, mapped: &MappedLog) -> Result<usize, BoxError> {
-        let log = self.log()?;
-        let dense = log.map(LogSystem::ScanMatching, &log.odometry(), |_| {})?;
+        let dense = self.dense()?;
         let is_wrong = |closure: &&FoundClosure| {
             let [there, here] = [closure.earlier, closure.later]
                 .map(|keyframe| dense.poses[mapped.keyframes[keyframe]]);
