@@ -139,7 +139,8 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Looks for all closures again, on the map as it is, and makes it agree; then the map does not change any more.
+    /// Looks for all closures again, on the map as it is, and makes it agree, until that finds no more of them; then the map does not
+    /// change any more.
     ///
     /// # Errors
     /// If a measurement does not fit the graph.
@@ -151,10 +152,21 @@ impl ScanMatching {
         if config.sites == ClosureSites::Named {
             return Ok(());
         }
-        for _ in 0..config.rounds {
+        for _ in 0..config.most_rounds {
+            let before = self.closed();
             self.close_again(&config)?;
+            if self.closed() == before {
+                break;
+            }
         }
         Ok(())
+    }
+
+    /// The pairs of keyframes that are one place.
+    fn closed(&self) -> Vec<[u32; 2]> {
+        let edges = self.graph.edges().iter();
+        let closures = edges.filter(|edge| edge.kind == PoseEdgeKind::Closure);
+        closures.map(|edge| [edge.from, edge.to]).collect()
     }
 
     fn close_again(&mut self, config: &ClosureConfig) -> Result<(), ScanMatchingError> {

@@ -90,8 +90,8 @@ pub struct ClosureConfig {
     pub turn_sd: f64,
     /// The squared error at which a closure counts a quarter.
     pub doubt: f64,
-    /// How often all closures are looked for again at the end, on the map that they made.
-    pub rounds: u32,
+    /// How often all closures are looked for again at the end at most, each time on the map that they made.
+    pub most_rounds: u32,
 }
 
 impl ScanMatchingConfig {
@@ -161,7 +161,7 @@ impl ClosureConfig {
             sd: 0.03,
             turn_sd: 0.005,
             doubt: 16.0,
-            rounds: 1,
+            most_rounds: 8,
         }
     }
 
