@@ -40,6 +40,9 @@ pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxErr
         }
         figures.extend(between_maps(contest, runs, number)?);
     }
+    if let Some(hardest) = &experiment.hardest {
+        figures.extend(hardest.figures(runs)?);
+    }
     Ok(figures)
 }
 

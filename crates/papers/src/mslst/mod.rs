@@ -8,9 +8,11 @@
 mod condition;
 mod contest;
 pub mod drawing;
+mod driven;
 mod entrant;
 mod families;
 mod figures;
+mod hardest;
 mod map_size;
 mod robustness;
 mod states;
@@ -24,6 +26,7 @@ use tolman_replay::Replay;
 
 use contest::Contest;
 use families::Family;
+use hardest::{HARDEST, Hardest};
 use robustness::{ABLATION, ROBUSTNESS, Robustness};
 
 /// How many maps are learned of each world and threshold.
@@ -45,6 +48,8 @@ struct Mslst {
     contests: Vec<Contest>,
     families: Vec<Family>,
     robustness: Robustness,
+    /// None beside mazes that the caller names.
+    hardest: Option<Hardest>,
 }
 
 /// Reads the worlds and sets the tables up.
@@ -82,11 +87,16 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     }
     tables.extend(contests.iter().map(Contest::table));
     tables.extend(families.iter().map(Family::table));
-    let robustness = Robustness::new(options.runs_of(&ENTRY), options.limit);
+    let runs = options.runs_of(&ENTRY);
+    let robustness = Robustness::new(runs, options.limit);
+    let hardest = papers
+        .then(|| Hardest::new(runs, options.limit))
+        .transpose()?;
     if papers {
-        tables.push(map_size::table(options.runs_of(&ENTRY)));
+        tables.push(map_size::table(runs));
         tables.extend(robustness.tables());
     }
+    tables.extend(hardest.as_ref().map(Hardest::table));
     let worlds = contests.iter();
     let worlds = worlds.map(|contest| (&*contest.venue.table, contest.config()));
     let mut config = venue::config(worlds)?;
@@ -100,10 +110,15 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         let of_drawings = toml::Value::try_from(robustness.config())?;
         config.insert(ROBUSTNESS.to_owned(), of_drawings);
     }
+    if let Some(hardest) = &hardest {
+        let worlds = toml::Value::try_from(hardest.config())?;
+        config.insert(HARDEST.to_owned(), worlds);
+    }
     let mslst = Mslst {
         contests,
         families,
         robustness,
+        hardest,
     };
     Ok(Experiment::new(ENTRY, tables, config, mslst))
 }
@@ -126,6 +141,9 @@ impl Procedure for Mslst {
         }
         if [ROBUSTNESS, ABLATION].contains(&job.table) {
             return self.robustness.run(job);
+        }
+        if let Some(hardest) = self.hardest.as_ref().filter(|_| job.table == HARDEST) {
+            return hardest.run(job);
         }
         match self.contest(job.table) {
             Some(contest) => contest.run(job),

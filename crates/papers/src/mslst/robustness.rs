@@ -10,30 +10,16 @@ use serde::Serialize;
 use tolman_maze::{Maze, MazeFile};
 
 use super::condition::Condition;
+use super::driven::{DrivenRun, Driver};
 use super::entrant::{Entrant, LearnerConfig};
 use crate::venue::{self, Drawing, LARGE_DRAWINGS, Venue};
-use tolman_arena::Mind;
-use tolman_arena::cast::Agent;
 use tolman_arena::course::Course;
-use tolman_arena::episode::{self, Trial};
 use tolman_arena::mslst::learn_better_without;
 use tolman_arena::pioneer;
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, run_seed};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, run_seed};
 use tolman_sim::DoorState;
-use tolman_systems::mslst::better::{BetterNavigator, BetterPart};
+use tolman_systems::mslst::better::BetterPart;
 use tolman_systems::stream;
-
-record! {
-    /// A drawing and some starts in it.
-    pub(super) struct RobustnessRun {
-        /// Starts from which the destination is reached within the time limit.
-        success_percent: f64 => higher("success").unit("%").percent(),
-        /// Mean time steps; a run that does not arrive counts its limit.
-        steps: f64 => lower("steps").at_least(0),
-        /// Mean time steps of the Unlocalized oracle from the same starts, whose robot is as calibrated.
-        oracle_steps: f64 => neither("Unlocalized oracle's steps").at_least(0),
-    }
-}
 
 /// Names of the tables.
 pub(super) const ROBUSTNESS: &str = "robustness";
@@ -121,14 +107,14 @@ impl Robustness {
     ) -> Table {
         let over = Metric::ratio(
             "steps_over_unlocalized_oracle",
-            RobustnessRun::steps,
-            RobustnessRun::oracle_steps,
+            DrivenRun::steps,
+            DrivenRun::oracle_steps,
         );
-        Table::of::<RobustnessRun>(name, title)
-            .metric(Metric::mean(RobustnessRun::success_percent).decimals(1))
-            .metric(Metric::mean(RobustnessRun::steps))
+        Table::of::<DrivenRun>(name, title)
+            .metric(Metric::mean(DrivenRun::success_percent).decimals(1))
+            .metric(Metric::mean(DrivenRun::steps))
             .metric(over.titled("steps / Unlocalized oracle's").decimals(2))
-            .metric(Metric::least("least_success_percent", RobustnessRun::success_percent).titled("success, least").decimals(1))
+            .metric(Metric::least("least_success_percent", DrivenRun::success_percent).titled("success, least").decimals(1))
             .rows(rows.into_iter().map(|row| Row::new(row).runs(self.mazes)))
             .note(format!(
                 "A run is a drawing of Large with {} starts, by one map that was learned in it. The Unlocalized oracle's robot is as \
@@ -144,33 +130,15 @@ impl Robustness {
         let venue = self.venue(job.run, condition.door())?;
         let robot = condition.robot(&venue.robot);
         let learned = learn_better_without(without, &learned_in.course, &robot, job.seed)?;
-        let (mut reached, mut steps, mut oracle_steps) = (0_u32, 0_u64, 0_u64);
-        for start in 0..self.starts {
-            let seed = run_seed(job.seed, "starts", start);
-            let undisturbed = venue.trial(seed);
-            let oracle = episode::run(
-                &undisturbed,
-                &mut venue.mind(Agent::UnlocalizedOracle)?,
-                |_| {},
-            )?;
-            oracle_steps += u64::from(oracle.steps);
-            let trial = Trial {
-                robot: robot.clone(),
-                ..undisturbed
-            };
-            let brain = BetterNavigator::new(Arc::clone(&learned.map));
-            let mut mind = Mind::Rolling(Box::new(brain));
-            let lifted = condition.lifted(&venue, run_seed(job.seed, "elsewhere", start));
-            let episode = episode::run_lifted(&trial, &mut mind, lifted, |_| {})?;
-            reached += u32::from(episode.reached);
-            steps += u64::from(episode.steps);
-        }
-        let mean = |sum: u64| sum as f64 / f64::from(self.starts);
-        let run = RobustnessRun {
-            success_percent: 100.0 * mean(reached.into()),
-            steps: mean(steps),
-            oracle_steps: mean(oracle_steps),
+        let driver = Driver {
+            venue: &venue,
+            robot: &robot,
+            map: &learned.map,
+            starts: self.starts,
+            seed: job.seed,
         };
+        let lifted = |start| condition.lifted(&venue, run_seed(job.seed, "elsewhere", start));
+        let run = driver.drive(lifted, |_, _| {})?;
         Ok(run.fields()?)
     }
 

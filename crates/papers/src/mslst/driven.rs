@@ -1,0 +1,67 @@
+//! Starts from which the better system drives by one map, each beside the Unlocalized oracle.
+
+use alloc::sync::Arc;
+
+use crate::venue::Venue;
+use tolman_arena::Mind;
+use tolman_arena::cast::Agent;
+use tolman_arena::episode::{self, Episode, Lifted, Trial};
+use tolman_experiment::{BoxError, record, run_seed};
+use tolman_sim::robots::LaserPioneerConfig;
+use tolman_systems::mslst::better::{BetterMap, BetterNavigator};
+
+record! {
+    /// A world and some starts in it.
+    pub(super) struct DrivenRun {
+        /// Starts from which the destination is reached within the time limit.
+        success_percent: f64 => higher("success").unit("%").percent(),
+        /// Mean time steps; a run that does not arrive counts its limit.
+        steps: f64 => lower("steps").at_least(0),
+        /// Mean time steps of the Unlocalized oracle from the same starts, whose robot is as calibrated.
+        oracle_steps: f64 => neither("Unlocalized oracle's steps").at_least(0),
+    }
+}
+
+/// Who drives, where, and from how many starts.
+pub(super) struct Driver<'a> {
+    pub(super) venue: &'a Venue,
+    pub(super) robot: &'a LaserPioneerConfig,
+    pub(super) map: &'a Arc<BetterMap>,
+    pub(super) starts: u32,
+    /// The seed of starts and noise.
+    pub(super) seed: u64,
+}
+
+impl Driver<'_> {
+    /// Drives from every start; `lifted` says of each whether the robot is put elsewhere on the way, `watch` sees each episode and
+    /// the oracle's.
+    pub(super) fn drive(
+        &self,
+        lifted: impl Fn(u32) -> Option<Lifted>,
+        mut watch: impl FnMut(&Episode, &Episode),
+    ) -> Result<DrivenRun, BoxError> {
+        let (mut reached, mut steps, mut oracle_steps) = (0_u32, 0_u64, 0_u64);
+        for start in 0..self.starts {
+            let undisturbed = self.venue.trial(run_seed(self.seed, "starts", start));
+            let mut oracle = self.venue.mind(Agent::UnlocalizedOracle)?;
+            let by_oracle = episode::run(&undisturbed, &mut oracle, |_| {})?;
+            let trial = Trial {
+                robot: self.robot.clone(),
+                ..undisturbed
+            };
+            let brain = BetterNavigator::new(Arc::clone(self.map));
+            let mut mind = Mind::Rolling(Box::new(brain));
+            let episode = episode::run_lifted(&trial, &mut mind, lifted(start), |_| {})?;
+            reached += u32::from(episode.reached);
+            steps += u64::from(episode.steps);
+            oracle_steps += u64::from(by_oracle.steps);
+            watch(&episode, &by_oracle);
+        }
+        let mean = |sum: u64| sum as f64 / f64::from(self.starts);
+        Ok(DrivenRun {
+            success_percent: 100.0 * mean(reached.into()),
+            steps: mean(steps),
+            oracle_steps: mean(oracle_steps),
+        })
+    }
+}

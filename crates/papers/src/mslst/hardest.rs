@@ -1,0 +1,187 @@
+//! Four worlds that look alike, the hardest for the better system of those that were searched.
+
+use alloc::collections::BTreeMap;
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use serde::Serialize;
+use tolman_geom::Point;
+use tolman_maze::MazeFile;
+
+use super::driven::{DrivenRun, Driver};
+use super::entrant::{Entrant, LearnerConfig};
+use crate::venue::{Venue, World};
+use tolman_arena::course::Course;
+use tolman_arena::episode::Episode;
+use tolman_arena::family::{Family, FamilySize};
+use tolman_arena::mslst::learn_better;
+use tolman_arena::pioneer::{self, ENCODER_SD, with_sensor_noise};
+use tolman_draw::{Figure, Series};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Run, Table};
+
+/// Name of the table.
+pub(super) const HARDEST: &str = "hardest";
+
+/// The worlds: family and seed, all of middle size.
+const WORLDS: [(&str, u64); 4] = [
+    ("wings", 501),
+    ("wings", 503),
+    ("blocks", 504),
+    ("ladder", 501),
+];
+
+/// Maps of each world at most, and starts by each at least.
+const MOST_MAPS: u32 = 50;
+const LEAST_STARTS: u32 = 5;
+
+/// An episode is drawn as a detour if it takes so many times as long as the Unlocalized oracle's.
+const DETOUR: u32 = 2;
+
+/// The worlds, and how many maps and starts each is tried with.
+#[derive(Debug)]
+pub(super) struct Hardest {
+    maps: u32,
+    starts: u32,
+    worlds: Vec<Venue>,
+}
+
+/// What the runs depend on.
+#[derive(Serialize)]
+pub(super) struct HardestConfig<'a> {
+    starts: u32,
+    better: Option<LearnerConfig>,
+    worlds: BTreeMap<&'a str, World>,
+}
+
+impl Hardest {
+    /// `runs` starts a world.
+    pub(super) fn new(runs: u32, limit: Option<u32>) -> Result<Self, BoxError> {
+        let maps = (runs / LEAST_STARTS).clamp(1, MOST_MAPS);
+        let worlds = WORLDS.iter().map(|(family, seed)| {
+            let venue = world(family, *seed)?;
+            Ok(venue.limited(limit))
+        });
+        Ok(Self {
+            maps,
+            starts: (runs / maps).max(LEAST_STARTS),
+            worlds: worlds.collect::<Result<_, BoxError>>()?,
+        })
+    }
+
+    pub(super) fn config(&self) -> HardestConfig<'_> {
+        let worlds = self.worlds.iter();
+        HardestConfig {
+            starts: self.starts,
+            better: Entrant::Better.config(pioneer::CORRIDOR_WIDTH),
+            worlds: worlds
+                .map(|world| (&*world.course.name, world.world()))
+                .collect(),
+        }
+    }
+
+    pub(super) fn table(&self) -> Table {
+        let over = Metric::ratio(
+            "steps_over_unlocalized_oracle",
+            DrivenRun::steps,
+            DrivenRun::oracle_steps,
+        );
+        let rows = self
+            .worlds
+            .iter()
+            .map(|world| Row::new(&world.course.name).runs(self.maps));
+        Table::of::<DrivenRun>(HARDEST, "The worlds that are hardest for the better system")
+            .metric(Metric::mean(DrivenRun::success_percent).decimals(1))
+            .metric(Metric::mean(DrivenRun::steps))
+            .metric(over.titled("steps / Unlocalized oracle's").decimals(2))
+            .metric(Metric::least("least_success_percent", DrivenRun::success_percent).titled("success, least").decimals(1))
+            .rows(rows)
+            .note(format!(
+                "A run is a map with {} starts. In wings everything off the spine is there twice: a robot that begins in the wing without \
+                 the goal takes it for its twin, does not sense the goal where it should be, and goes to and fro until the spine tells the \
+                 wings apart. Blocks has crossing after equal crossing, and the loops of ladder are the same from both ends.",
+                self.starts
+            ))
+    }
+
+    /// Learns a world and drives in it.
+    pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let world = self
+            .worlds
+            .iter()
+            .find(|world| world.course.name == job.row);
+        let world = world.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+        Ok(self.drive(world, job.seed, |_, _| {})?.fields()?)
+    }
+
+    fn drive(
+        &self,
+        venue: &Venue,
+        seed: u64,
+        watch: impl FnMut(&Episode, &Episode),
+    ) -> Result<DrivenRun, BoxError> {
+        let robot = with_sensor_noise(&venue.robot, ENCODER_SD);
+        let learned = learn_better(&venue.course, &robot, 1, seed)?;
+        let driver = Driver {
+            venue,
+            robot: &robot,
+            map: &learned.map,
+            starts: self.starts,
+            seed,
+        };
+        driver.drive(|_| None, watch)
+    }
+
+    /// The ways by the first map of each world that was played.
+    pub(super) fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+        let first = |world: &&Venue| {
+            let mut own = runs
+                .iter()
+                .filter(|run| run.is_of(HARDEST, &world.course.name));
+            own.next()
+        };
+        let played = self
+            .worlds
+            .iter()
+            .filter_map(|world| Some((world, first(&world)?)));
+        played.map(|(world, run)| self.ways(world, run)).collect()
+    }
+
+    fn ways(&self, venue: &Venue, run: &Run) -> Result<Figure, BoxError> {
+        let mut plan = crate::plan_of_course(&venue.course, WIDTH);
+        let (mut detours, mut longest) = (0_u32, 0.0_f64);
+        self.drive(venue, run.seed, |episode, by_oracle| {
+            let times = f64::from(episode.steps) / f64::from(by_oracle.steps.max(1));
+            let detour = episode.steps > DETOUR * by_oracle.steps;
+            detours += u32::from(detour);
+            longest = longest.max(times);
+            let way: Vec<Point> = episode.path.iter().map(|pose| pose.position).collect();
+            plan.faint_trajectory(&way, Series(u32::from(detour)));
+        })?;
+        let name = &venue.course.name;
+        let starts = self.starts;
+        let figure = Figure::new(
+            format!("hardest-{}", name.replace(' ', "-")),
+            format!("Better in {name}: its ways by map 0"),
+            plan.drawing(format!("Plan of {name}: the ways from {starts} starts.")),
+        );
+        Ok(figure.table(HARDEST).caption(format!(
+            "From {detours} of {starts} starts it takes more than twice the Unlocalized oracle's steps, at most {longest:.1} times; \
+             those are drawn in the second colour."
+        )))
+    }
+}
+
+/// Width of a plan, user units.
+const WIDTH: f64 = 420.0;
+
+fn world(family: &str, seed: u64) -> Result<Venue, BoxError> {
+    let families = Family::all();
+    let drawn = Family::named(&families, family);
+    let drawn = drawn.ok_or_else(|| format!("there is no family {family}"))?;
+    let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+    let maze = (drawn.draw)(drawn.size(FamilySize::Middle), rng)?;
+    let name = format!("{family} {seed}");
+    let course = Course::for_body(&name, &MazeFile::from(maze), &pioneer::body())?;
+    let limit = course.step_limit();
+    Ok(Venue::new(HARDEST, &name, course, limit))
+}
