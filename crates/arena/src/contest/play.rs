@@ -126,17 +126,18 @@ pub struct LearnRecord {
 pub enum Claim {
     /// It is right and whole: the system says that it is done.
     Right,
-    /// It is wrong or unfinished: the system gave up.
+    /// It is wrong or unfinished: the system gave up, or held its map for rather wrong than right when its time was up.
     Wrong,
     /// The system does not say: its time was up, or being done says nothing of its map.
     Undecided,
 }
 
 impl Claim {
-    const fn of(end: &TaskEnd, claims: bool) -> Self {
+    fn of(end: &TaskEnd, claims: bool, certainty: Option<f64>) -> Self {
         match end {
             TaskEnd::Done if claims => Self::Right,
             TaskEnd::GaveUp { .. } => Self::Wrong,
+            TaskEnd::OutOfTime if certainty.is_some_and(|certainty| certainty < 0.5) => Self::Wrong,
             TaskEnd::Done | TaskEnd::OutOfTime => Self::Undecided,
         }
     }
@@ -613,9 +614,10 @@ impl<'a> Bout<'a> {
         let scale = (squares.grid, squares.pitch);
         let judgement = judge(&map, &visits, &self.truth, &gone, scale);
         (self.stands_for, _) = stands_for(&map, &visits, squares);
+        let certainty = self.outing.certainty();
         LearnRecord {
-            claim: Claim::of(&driven.end, self.claims),
-            certainty: self.outing.certainty(),
+            claim: Claim::of(&driven.end, self.claims, certainty),
+            certainty,
             end: driven.end,
             judgement,
             driven: driven.metres / self.corridors().max(squares.pitch),
