@@ -16,6 +16,7 @@ use super::condition::Condition;
 use super::contestant::{ContestRobot, Contestant, Entered, Schooling};
 use super::ideal::IdealObserver;
 use super::judgement::{MapJudgement, judge, stands_for};
+use super::paint::Paint;
 use super::true_graph::TrueGraph;
 use super::wanderers::Sender;
 use super::whereabouts::{PlaceVisit, Squares, believed};
@@ -393,12 +394,16 @@ impl<'a> Contest<'a> {
         cells.flat_map(out_of).collect()
     }
 
-    /// Returns the ceiling of whoever watches.
-    pub(super) fn observer(&self) -> IdealObserver<'a> {
+    /// Returns the ceiling of whoever watches in a course of the drawing.
+    pub(super) fn observer(&self, course: &Course) -> IdealObserver<'a> {
         IdealObserver {
             maze: self.maze_afterwards(),
             has_compass: self.contestant.has_compass(self.robot),
             reach: self.contestant.sees_cells(self.robot),
+            paint: match self.starts > 0 && self.contestant.sees_colours(self.robot) {
+                true => Paint::of(course),
+                false => Paint::default(),
+            },
         }
     }
 
@@ -463,7 +468,7 @@ impl<'a> Bout<'a> {
             maze,
             afterwards: contest.maze_afterwards(),
             truth: TrueGraph::of(maze, contest.contestant.places()),
-            observer: contest.observer(),
+            observer: contest.observer(outing.course()),
             claims: contest.contestant.claims(),
             squares: Squares { grid, pitch },
             outing,
