@@ -299,9 +299,9 @@ mod tests {
             told,
             [
                 ("small", 2, 2, 0),
-                ("middle", 4, 2, 2),
+                ("middle", 4, 4, 0),
                 ("large", 4, 0, 4),
-                ("middle, wheels 5", 2, 2, 0)
+                ("middle, wheels 5", 2, 0, 2)
             ]
         );
         assert!(drawn.iter().all(|rung| rung.false_right == rung.wrong));
