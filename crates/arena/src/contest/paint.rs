@@ -57,7 +57,7 @@ mod tests {
     /// A cell with a way on to the north, another to the east of that.
     const BEND: &str = "\
 o---o---o
-|       |
+|     G |
 o   o---o
 | S |   |
 o---o---o
