@@ -188,6 +188,17 @@ impl Contestant {
         }
     }
 
+    /// Returns whether its robot sees what colours walls have.
+    pub(super) const fn sees_colours(self, robot: ContestRobot) -> bool {
+        matches!(
+            (self, robot),
+            (
+                Self::Diktiometry | Self::DiktiometryBetter,
+                ContestRobot::Own
+            )
+        )
+    }
+
     /// Returns which cells are its places. What it takes for a place beside, with two ways, is a part of a way.
     #[must_use]
     pub const fn places(self) -> PlaceRule {

@@ -5,12 +5,14 @@ use tolman_geom::Pose;
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Landmark;
 
+use super::paint::Paint;
 use super::whereabouts::Squares;
 use crate::cpm::landmark_at;
 
 /// An observer that has the drawing and mistakes nothing of what it sees: the ceiling of who watches the same drive.
 ///
-/// In each cell it sees the walls and the landmark, and through each opening the walls of so many cells straight on: more than any robot.
+/// In each cell it sees the walls and the landmark, and through each opening the walls of so many cells straight on: more than any robot. Where
+/// the robot sees colours, it sees those of all walls around.
 #[derive(Clone, Debug)]
 pub(super) struct IdealObserver<'a> {
     pub(super) maze: Cow<'a, Maze>,
@@ -18,6 +20,8 @@ pub(super) struct IdealObserver<'a> {
     pub(super) has_compass: bool,
     /// How many cells it sees through an opening.
     pub(super) reach: u32,
+    /// What colours it sees.
+    pub(super) paint: Paint,
 }
 
 /// What is seen in a cell, from a direction on, clockwise.
@@ -25,6 +29,7 @@ pub(super) struct IdealObserver<'a> {
 struct CellView {
     landmark: Option<Landmark>,
     is_open: Vec<bool>,
+    colours: Vec<[u8; 3]>,
 }
 
 /// Where the robot may have been put down, and where it then is.
@@ -116,6 +121,7 @@ impl IdealObserver<'_> {
         CellView {
             landmark: landmark_at(&self.maze, cell),
             is_open,
+            colours: self.paint.seen(cell, turn).collect(),
         }
     }
 
@@ -152,6 +158,7 @@ mod tests {
             maze: Cow::Borrowed(&maze),
             has_compass,
             reach: 0,
+            paint: Paint::default(),
         };
         let cells: Vec<Cell> = cells.iter().map(|(x, y)| Cell::new(*x, *y)).collect();
         observer.chance(way, &cells)

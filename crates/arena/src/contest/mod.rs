@@ -9,6 +9,7 @@ mod contestant;
 mod entry_tests;
 mod ideal;
 mod judgement;
+mod paint;
 mod pathfinder;
 mod play;
 mod true_graph;

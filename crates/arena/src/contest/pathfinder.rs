@@ -56,6 +56,10 @@ impl<E> Mapper for Pathfinder<E> {
         self.learner.visits()
     }
 
+    fn certainty(&self) -> Option<f64> {
+        self.learner.certainty()
+    }
+
     fn map_bytes(&self) -> Option<usize> {
         self.learner.map_bytes()
     }

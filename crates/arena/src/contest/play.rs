@@ -16,6 +16,7 @@ use super::condition::Condition;
 use super::contestant::{ContestRobot, Contestant, Entered, Schooling};
 use super::ideal::IdealObserver;
 use super::judgement::{MapJudgement, judge, stands_for};
+use super::paint::Paint;
 use super::true_graph::TrueGraph;
 use super::wanderers::Sender;
 use super::whereabouts::{PlaceVisit, Squares, believed};
@@ -126,17 +127,18 @@ pub struct LearnRecord {
 pub enum Claim {
     /// It is right and whole: the system says that it is done.
     Right,
-    /// It is wrong or unfinished: the system gave up.
+    /// It is wrong or unfinished: the system gave up, or held its map for rather wrong than right when its time was up.
     Wrong,
     /// The system does not say: its time was up, or being done says nothing of its map.
     Undecided,
 }
 
 impl Claim {
-    const fn of(end: &TaskEnd, claims: bool) -> Self {
+    fn of(end: &TaskEnd, claims: bool, certainty: Option<f64>) -> Self {
         match end {
             TaskEnd::Done if claims => Self::Right,
             TaskEnd::GaveUp { .. } => Self::Wrong,
+            TaskEnd::OutOfTime if certainty.is_some_and(|certainty| certainty < 0.5) => Self::Wrong,
             TaskEnd::Done | TaskEnd::OutOfTime => Self::Undecided,
         }
     }
@@ -392,12 +394,16 @@ impl<'a> Contest<'a> {
         cells.flat_map(out_of).collect()
     }
 
-    /// Returns the ceiling of whoever watches.
-    pub(super) fn observer(&self) -> IdealObserver<'a> {
+    /// Returns the ceiling of whoever watches in a course of the drawing.
+    pub(super) fn observer(&self, course: &Course) -> IdealObserver<'a> {
         IdealObserver {
             maze: self.maze_afterwards(),
             has_compass: self.contestant.has_compass(self.robot),
             reach: self.contestant.sees_cells(self.robot),
+            paint: match self.starts > 0 && self.contestant.sees_colours(self.robot) {
+                true => Paint::of(course),
+                false => Paint::default(),
+            },
         }
     }
 
@@ -462,7 +468,7 @@ impl<'a> Bout<'a> {
             maze,
             afterwards: contest.maze_afterwards(),
             truth: TrueGraph::of(maze, contest.contestant.places()),
-            observer: contest.observer(),
+            observer: contest.observer(outing.course()),
             claims: contest.contestant.claims(),
             squares: Squares { grid, pitch },
             outing,
@@ -613,9 +619,10 @@ impl<'a> Bout<'a> {
         let scale = (squares.grid, squares.pitch);
         let judgement = judge(&map, &visits, &self.truth, &gone, scale);
         (self.stands_for, _) = stands_for(&map, &visits, squares);
+        let certainty = self.outing.certainty();
         LearnRecord {
-            claim: Claim::of(&driven.end, self.claims),
-            certainty: self.outing.certainty(),
+            claim: Claim::of(&driven.end, self.claims, certainty),
+            certainty,
             end: driven.end,
             judgement,
             driven: driven.metres / self.corridors().max(squares.pitch),

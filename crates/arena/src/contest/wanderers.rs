@@ -114,6 +114,7 @@ impl<'a> Sender<'a> {
         })?;
         let driven = first.map_or(episode.path.len(), |(_, steps)| steps + 1);
         let path = episode.path.get(..driven).unwrap_or(&episode.path);
+        let observer = self.contest.observer(&self.course);
         Ok(Located {
             outcome: match first {
                 Some((true, _)) => LocateOutcome::Right,
@@ -122,7 +123,7 @@ impl<'a> Sender<'a> {
                     why: "it came to the goal before it knew".to_owned(),
                 },
             },
-            ceiling: Some(self.contest.observer().after(squares, start, path)),
+            ceiling: Some(observer.after(squares, start, path)),
             with_true_map: None,
         })
     }

@@ -20,7 +20,7 @@ use self::records::{HomeRun, LearnRun, LocateRun};
 use self::rows::{ALL, Held, RowName};
 use crate::Film;
 
-pub use verdicts::{PoolJudgement, PoolRound, VerdictPool};
+pub use verdicts::{PoolJudgement, PoolRound, RungJudgement, VerdictPool};
 pub use worlds::{ArenaWorld, DrawnWorld};
 
 /// What the catalogue says of it.

@@ -56,6 +56,8 @@ pub struct VerdictPool {
 /// What a system made of its map, and whether that is right.
 #[derive(Clone, Copy, Debug)]
 struct OwnVerdict {
+    /// How hard its world was.
+    rung: usize,
     is_right: bool,
     claim: Claim,
     likelihood: f64,
@@ -87,8 +89,25 @@ pub struct PoolJudgement {
     pub undecided_percent: Option<f64>,
     /// How much better it tells right maps from wrong ones than their share does: 1 always knows. `None` if all are alike.
     pub brier_skill: Option<f64>,
-    /// How hard the worlds were, and how many of each kind.
-    pub drawn: Vec<(&'static str, u32)>,
+    /// How hard the worlds were, the easiest first.
+    pub drawn: Vec<RungJudgement>,
+}
+
+/// What came of the worlds of one kind of a [`VerdictPool`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RungJudgement {
+    /// How hard they were.
+    pub name: &'static str,
+    /// Worlds.
+    pub worlds: u32,
+    /// Maps that are right.
+    pub right: usize,
+    /// Of these, those that it called wrong.
+    pub false_alarms: usize,
+    /// Maps that are wrong.
+    pub wrong: usize,
+    /// Of these, those that it called right.
+    pub false_right: usize,
 }
 
 impl VerdictPool {
@@ -136,10 +155,12 @@ impl VerdictPool {
     pub fn take(&mut self, held: &[ContestRecord]) {
         self.rounds += 1;
         self.drawn[self.rung] += held.len() as u32;
+        let rung = self.rung;
         for record in held {
             self.abstained += u32::from(record.abstained.is_some());
             self.maps
                 .extend(record.learned.as_ref().map(|learned| OwnVerdict {
+                    rung,
                     is_right: learned.judgement.is_right,
                     claim: learned.claim,
                     likelihood: learned.likelihood(),
@@ -161,7 +182,7 @@ impl VerdictPool {
 
     /// Right maps and wrong ones.
     fn counts(&self) -> (usize, usize) {
-        let right = self.maps.iter().filter(|map| map.is_right).count();
+        let right = self.count(|map| map.is_right);
         (right, self.maps.len() - right)
     }
 
@@ -169,13 +190,10 @@ impl VerdictPool {
     #[must_use]
     pub fn judgement(&self) -> PoolJudgement {
         let (right, wrong) = self.counts();
-        let claimed = |claim, is_right| {
-            let maps = self.maps.iter();
-            maps.filter(|map| map.is_right == is_right && map.claim == claim)
-                .count()
-        };
+        let claimed =
+            |claim, is_right| self.count(|map| map.is_right == is_right && map.claim == claim);
         let undecided = claimed(Claim::Undecided, true) + claimed(Claim::Undecided, false);
-        let drawn = RUNGS.iter().zip(self.drawn);
+        let drawn = (0..RUNGS.len()).filter(|rung| self.drawn[*rung] > 0);
         PoolJudgement {
             right,
             wrong,
@@ -184,11 +202,27 @@ impl VerdictPool {
             false_alarm_percent: percent(claimed(Claim::Wrong, true), right),
             undecided_percent: percent(undecided, self.maps.len()),
             brier_skill: self.brier_skill(),
-            drawn: drawn
-                .filter(|(_, count)| *count > 0)
-                .map(|(rung, count)| (rung.name, count))
-                .collect(),
+            drawn: drawn.map(|rung| self.of_rung(rung)).collect(),
         }
+    }
+
+    fn of_rung(&self, rung: usize) -> RungJudgement {
+        let count = |is_right: bool| self.count(|map| map.rung == rung && map.is_right == is_right);
+        let mistaken = |is_right: bool, claim| {
+            self.count(|map| map.rung == rung && map.is_right == is_right && map.claim == claim)
+        };
+        RungJudgement {
+            name: RUNGS[rung].name,
+            worlds: self.drawn[rung],
+            right: count(true),
+            false_alarms: mistaken(true, Claim::Wrong),
+            wrong: count(false),
+            false_right: mistaken(false, Claim::Right),
+        }
+    }
+
+    fn count(&self, is_meant: impl Fn(&OwnVerdict) -> bool) -> usize {
+        self.maps.iter().filter(|map| is_meant(map)).count()
     }
 
     fn brier_skill(&self) -> Option<f64> {
@@ -257,15 +291,20 @@ mod tests {
         }
         assert_eq!(sizes, [5, 8, 16, 8, 16, 8], "{sizes:?}");
         assert!(pool.round().unwrap().is_none() && pool.is_enough());
+        let drawn = pool.judgement().drawn;
+        let told: Vec<_> = (drawn.iter())
+            .map(|rung| (rung.name, rung.worlds, rung.right, rung.wrong))
+            .collect();
         assert_eq!(
-            pool.judgement().drawn,
+            told,
             [
-                ("small", 2),
-                ("middle", 4),
-                ("large", 4),
-                ("middle, wheels 5", 2)
+                ("small", 2, 2, 0),
+                ("middle", 4, 4, 0),
+                ("large", 4, 0, 4),
+                ("middle, wheels 5", 2, 0, 2)
             ]
         );
+        assert!(drawn.iter().all(|rung| rung.false_right == rung.wrong));
     }
 
     #[test]

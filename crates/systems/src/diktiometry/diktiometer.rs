@@ -20,8 +20,10 @@ use super::{
 /// Each action is one control routine, from a place to the next. Its tasks:
 ///
 /// - **Explore**: the [`Planner`](super::Planner)'s walk, until nothing is left to try at any place
-///   that the map leads to, and no two places may be one. It gives up a map that has not been folded
-///   for 300 moves.
+///   that the map leads to, no two places may be one, and the map does not contradict itself. It gives
+///   up a map that has contradicted itself for 20 moves, or has not been folded for five moves for each
+///   of its places, at most 300; and one during which the robot was carried elsewhere, so that it no
+///   longer sees what it saw where it stopped.
 /// - **Reach** a place: the map's plan, made anew after every routine. It gives up if the map knows
 ///   no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
@@ -238,7 +240,9 @@ where
         if let (true, Some(observer)) = (self.visited.is_empty(), self.guide.observer()) {
             self.visited.push(observer.place());
         }
-        self.guide.go(&mut rover, direction)?;
+        if !self.guide.go(&mut rover, direction)? {
+            return Ok(Standing::UnderWay);
+        }
         self.visited
             .extend(self.guide.observer().map(Observer::place));
         let here = rover.robot().landmark();

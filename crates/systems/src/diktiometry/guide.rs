@@ -24,15 +24,22 @@ pub(super) struct Guide {
     landmarks: BTreeMap<Landmark, PlaceId>,
     /// Number of moves so far.
     moves: u32,
-    /// Since which of them some places of the map may be one.
-    unfolded: Option<u32>,
+    /// What speaks against the map, and since which of them.
+    doubt: Option<(MapState, u32)>,
+    /// Whether it was carried elsewhere since it began the map.
+    is_carried: bool,
 }
 
-/// The map is asked whether it is folded after every so many moves.
+/// The map is asked what speaks against it after every so many moves.
 const CHECKED: u32 = 10;
 
-/// A map that has not been folded for so many moves is given up: most that fold do sooner.
-const PATIENCE: u32 = 300;
+/// A map that has not been folded for so many moves for each of its places is given up, and for so many at the most: nearly all that fold do
+/// sooner.
+const PATIENCE: u32 = 5;
+const MOST_PATIENCE: u32 = 300;
+
+/// A map that has contradicted itself for so many moves is given up: bounds that hold mend none.
+const MOST_CONTRADICTED: u32 = 20;
 
 /// What is known of where the rover stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,7 +86,8 @@ impl Guide {
             walk: stream(seed, WALK_STREAM),
             landmarks: BTreeMap::new(),
             moves: 0,
-            unfolded: None,
+            doubt: None,
+            is_carried: false,
         }
     }
 
@@ -96,6 +104,7 @@ impl Guide {
     /// Begins with the map of `observer`.
     pub(super) fn take_over(&mut self, observer: Observer) {
         self.whereabouts = Whereabouts::Unknown;
+        self.is_carried = false;
         self.mapping = Some(RoverMap::of(observer));
     }
 
@@ -138,15 +147,21 @@ impl Guide {
         self.landmarks.insert(landmark, place);
     }
 
-    /// Lets `rover` go in `direction`, and the map take it in.
+    /// Lets `rover` go in `direction`, and the map take it in, and returns whether it went. A rover that no longer sees what it saw when it
+    /// stopped was carried elsewhere, and does not go.
     pub(super) fn go<V: Rover>(
         &mut self,
         rover: &mut V,
         direction: Direction,
-    ) -> Result<(), MapError<V::Error>> {
+    ) -> Result<bool, MapError<V::Error>> {
         let Some(mapping) = &mut self.mapping else {
-            return Ok(());
+            return Ok(false);
         };
+        if !mapping.is_where_it_was(rover)? {
+            self.is_carried = true;
+            self.whereabouts = Whereabouts::Unknown;
+            return Ok(false);
+        }
         // If the rover breaks off, it stands between two places.
         let before = core::mem::replace(&mut self.whereabouts, Whereabouts::Unknown);
         self.under_way = Some(direction);
@@ -156,10 +171,16 @@ impl Guide {
         self.whereabouts = before.after_a_move(history);
         self.moves = self.moves.saturating_add(1);
         if self.moves.is_multiple_of(CHECKED) {
-            let is_folded = self.observer().is_none_or(is_folded);
-            self.unfolded = (!is_folded).then(|| self.unfolded.unwrap_or(self.moves));
+            self.doubt = self.doubted();
         }
-        Ok(())
+        Ok(true)
+    }
+
+    /// Returns what speaks against the map now, and since when it does.
+    fn doubted(&self) -> Option<(MapState, u32)> {
+        let state = self.observer().and_then(objection)?;
+        let before = self.doubt.filter(|(before, _)| *before == state);
+        Some(before.unwrap_or((state, self.moves)))
     }
 
     /// Returns what to do next for `task`, if the rover senses the landmark `here`.
@@ -168,6 +189,9 @@ impl Guide {
             return Next::Break(Standing::Done);
         }
         match task {
+            Task::Explore if self.is_carried => give_up(
+                "the robot was carried elsewhere while it learned: what it saw where it stopped is not what it saw when it set off again",
+            ),
             Task::Explore if self.is_out_of_patience() => self.give_the_map_up(),
             Task::Explore | Task::Localize => self.wander(),
             Task::Reach(Goal::Place(id)) => self.reach(PlaceId(id)),
@@ -181,7 +205,9 @@ impl Guide {
             return false;
         };
         match task {
-            Task::Explore => is_explored(observer) && is_folded(observer),
+            Task::Explore => {
+                !self.is_carried && is_explored(observer) && objection(observer).is_none()
+            }
             Task::Localize => self.whereabouts == Whereabouts::Followed && is_sure(observer),
             Task::Reach(Goal::Landmark(landmark)) => here == Some(landmark),
             Task::Reach(Goal::Place(id)) => {
@@ -192,8 +218,15 @@ impl Guide {
     }
 
     fn is_out_of_patience(&self) -> bool {
-        self.unfolded
-            .is_some_and(|since| self.moves - since >= PATIENCE)
+        let Some(((state, since), observer)) = self.doubt.zip(self.observer()) else {
+            return false;
+        };
+        let places = observer.map().paths.places().count() as u32;
+        let patience = match state {
+            MapState::Contradictory => MOST_CONTRADICTED,
+            _ => (PATIENCE * places).min(MOST_PATIENCE),
+        };
+        self.moves - since >= patience
     }
 
     fn give_the_map_up(&self) -> Next {
@@ -277,10 +310,7 @@ impl Guide {
             (_, 1) => format!("at place {place}"),
             (_, tracks) => format!("at place {place}, or at one of {} others", tracks - 1),
         };
-        match self
-            .unfolded
-            .and_then(|_| observer.self_check().complaint())
-        {
+        match self.doubt.and_then(|_| observer.self_check().complaint()) {
             Some(complaint) => format!("{at}; {complaint}"),
             None => at,
         }
@@ -304,10 +334,14 @@ fn give_up(why: &str) -> Next {
     Next::Break(Standing::GaveUp { why })
 }
 
-/// Returns whether no places of the map may be one. By the paper's rule of matching, nobody asks.
-fn is_folded(observer: &Observer) -> bool {
-    observer.config().matching.identity == Identity::Meets
-        || observer.self_check().state() != MapState::Unfolded
+/// Returns what speaks against the map. By the paper's rule of matching, nobody asks.
+fn objection(observer: &Observer) -> Option<MapState> {
+    if observer.config().matching.identity == Identity::Meets {
+        return None;
+    }
+    let state = observer.self_check().state();
+    let is_against = matches!(state, MapState::Unfolded | MapState::Contradictory);
+    is_against.then_some(state)
 }
 
 /// Returns whether nothing is left to try at any place that a plan leads to. O(places + links ·

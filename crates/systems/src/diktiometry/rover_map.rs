@@ -4,7 +4,7 @@ use thiserror::Error as ThisError;
 use tolman_geom::{Interval, PoseBox};
 use tolman_maps::diktiometry::{
     Action, Config, Exits, FirstPlace, ObservedMove, ObservedMoveError, Observer, Percepts,
-    Signature, StartError, StepReport,
+    Signature, StartError, StepReport, WorldKind,
 };
 use tolman_maze::Direction;
 
@@ -17,6 +17,8 @@ use super::{Arrival, Rover};
 pub struct RoverMap {
     observer: Observer,
     exits: [bool; 4],
+    /// What the place looked like when the rover stopped there.
+    look: Option<Signature>,
 }
 
 /// A move that the map has taken in.
@@ -54,6 +56,7 @@ impl RoverMap {
         Ok(Self {
             observer: Observer::new(config, start)?,
             exits: seen.exits,
+            look: seen.look,
         })
     }
 
@@ -70,14 +73,32 @@ impl RoverMap {
 
     /// Returns a map whose rover has not looked yet: it sees no exits.
     pub(super) const fn of(observer: Observer) -> Self {
-        let exits = [false; 4];
-        Self { observer, exits }
+        Self {
+            observer,
+            exits: [false; 4],
+            look: None,
+        }
     }
 
     /// Lets `rover` look which ways lead on from where it stands.
     pub(super) fn look_round<R: Rover>(&mut self, rover: &mut R) -> Result<(), MapError<R::Error>> {
-        self.exits = rover.look().map_err(MapError::Robot)?.exits;
+        let seen = rover.look().map_err(MapError::Robot)?;
+        (self.exits, self.look) = (seen.exits, seen.look);
         Ok(())
+    }
+
+    /// Lets `rover` look, and returns whether it sees what it saw when it stopped: the same place, if it looks, and the same ways that lead on,
+    /// where none is opened or shut.
+    pub(super) fn is_where_it_was<R: Rover>(
+        &self,
+        rover: &mut R,
+    ) -> Result<bool, MapError<R::Error>> {
+        let seen = rover.look().map_err(MapError::Robot)?;
+        let Config {
+            percepts, world, ..
+        } = self.observer.config();
+        let has_other_exits = *world == WorldKind::Static && seen.exits != self.exits;
+        Ok(!has_other_exits && percepts.are_alike(seen.look.as_ref(), self.look.as_ref()))
     }
 
     /// Lets `rover` go in `direction` and tells the map.
@@ -93,6 +114,7 @@ impl RoverMap {
         let observed = observed(self.observer.config(), direction, &arrival);
         let report = self.observer.step(&observed)?;
         self.exits = arrival.exits;
+        self.look.clone_from(&arrival.look);
         Ok(MappedMove { arrival, report })
     }
 

@@ -256,6 +256,27 @@ fn another_goes_on_with_the_map_and_knows_where_it_is() {
     assert!(near(at, expected), "{at} for {expected}");
 }
 
+#[test]
+fn a_robot_that_is_carried_off_while_it_learns_says_so_and_stops() {
+    for seed in 0..5 {
+        let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.0), at_the_end);
+        let mut system = system(seed);
+        for _ in 0..3 {
+            let standing = system.act(&mut robot, Task::Explore).unwrap();
+            assert_eq!(standing, Standing::UnderWay, "seed {seed}");
+        }
+        let visits = Mapper::visits(&system);
+        // Amid a corridor: no place looks like that.
+        robot.robot_mut().at = Point::new(0.5, 2.0);
+        let standing = pursue(&mut system, &mut robot, Task::Explore);
+        assert!(
+            matches!(&standing, Standing::GaveUp { why } if why.contains("carried")),
+            "seed {seed}: {standing:?}"
+        );
+        assert_eq!(Mapper::visits(&system), visits, "it came to no place");
+    }
+}
+
 /// Fails once, after so many time steps.
 struct Failing(Scripted, Option<u32>);
 

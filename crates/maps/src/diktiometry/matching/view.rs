@@ -18,6 +18,20 @@ pub(crate) fn similarity(a: &Place, b: &Place, percepts: &Percepts) -> Similarit
     Similarity::of(share_a_view(a, b, percepts))
 }
 
+impl Percepts {
+    /// Returns whether two looks may be of one place, turned by a column at most: a compass errs now by another angle than before. They may if
+    /// one is missing.
+    #[must_use]
+    pub fn are_alike(&self, one: Option<&Signature>, other: Option<&Signature>) -> bool {
+        let (Self::Signatures(kind), Some(one), Some(other)) = (self, one, other) else {
+            return true;
+        };
+        let turned = [0, 1, kind.columns.saturating_sub(1)].into_iter();
+        let agreement = turned.map(|offset| one.agreement(other, offset, kind.tolerance));
+        agreement.max() >= Some(kind.enough())
+    }
+}
+
 /// Whether two signatures may be views of one place.
 pub(crate) fn alike(view: &Signature, other: &Signature, kind: &SignatureKind) -> bool {
     let offsets = match kind.rotation {

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use tolman_arena::contest::{
     Contest, ContestError, ContestRecord, ContestRobot, Contestant, Schooling,
 };
-use tolman_papers::arena::{ArenaWorld, DrawnWorld, PoolJudgement, PoolRound, VerdictPool};
+use tolman_papers::arena::{ArenaWorld, DrawnWorld, PoolRound, RungJudgement, VerdictPool};
 
 use super::{Arguments, Failure, MOST_WORLDS};
 
@@ -86,18 +86,29 @@ fn row(
         number(judged.undecided_percent, 1),
         number(judged.brier_skill, 2),
     )?;
-    writeln!(out, "  {}", drawn(&judged, pool.is_enough()))
+    for rung in &judged.drawn {
+        writeln!(out, "  {}", of_rung(rung))?;
+    }
+    match pool.is_enough() {
+        true => Ok(()),
+        false => writeln!(
+            out,
+            "  too few: {ENOUGH} right and {ENOUGH} wrong maps were wanted"
+        ),
+    }
 }
 
-/// Where its maps come from, and whether there are enough of them.
-fn drawn(judged: &PoolJudgement, is_enough: bool) -> String {
-    let worlds = judged.drawn.iter();
-    let worlds: Vec<String> = worlds
-        .map(|(name, count)| format!("{count} {name}"))
-        .collect();
-    let short = match is_enough {
-        true => String::new(),
-        false => format!("; too few: {ENOUGH} right and {ENOUGH} wrong maps were wanted"),
-    };
-    format!("worlds: {}{short}", worlds.join("; "))
+/// What came of the worlds of one kind.
+fn of_rung(rung: &RungJudgement) -> String {
+    let RungJudgement {
+        name,
+        worlds,
+        right,
+        false_alarms,
+        wrong,
+        false_right,
+    } = rung;
+    format!(
+        "{name}: worlds {worlds}; right maps {right}, called wrong {false_alarms}; wrong maps {wrong}, called right {false_right}"
+    )
 }
