@@ -1,9 +1,10 @@
 //! Step maps, speed runs and the decisions of their exploration, on the mazes of competitions where they are at hand
-//! and else on generated ones.
+//! and else on generated ones; `SPEED_RUN_MAZES=FOLDER` names others.
 //!
-//! Criterion measures one maze of each size; the table at the end is over all mazes. Its figures are the least of
-//! several repetitions of the very same work, so that a busy machine does not blur them; *worst* is the
-//! largest of these over all mazes and moments.
+//! A mouse never plans the same maze twice, and a processor that has seen a maze before foresees its branches. So the maze changes
+//! at every call: all mazes are walked in turn, fifteen times. Each maze has a JSON line with the least and the median of its fifteen times,
+//! which another program's figures for the same mazes can be set beside. The table at the end has the means over all mazes of both, the
+//! *worst* of the least ones, and what the very same work takes when it is repeated at once.
 
 #![expect(
     clippy::unwrap_used,
@@ -12,203 +13,222 @@
 )]
 
 use core::hint::black_box;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use criterion::Criterion;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 use tolman_maze::{Braided, Cell, Direction, Maze};
 use tolman_planners::speed_run::{
     Decision, Extent, RunState, SpeedRunConfig, SpeedRunExplorer, SpeedRunMap, SpeedRunTimes,
-    best_possible_ms,
 };
 use tolman_planners::{Passages, StepMap, Unknown};
 
-/// How often the same work is timed.
-const REPETITIONS: usize = 15;
+/// How often each maze has its turn.
+const ROUNDS: usize = 15;
 
 fn main() {
-    let mut criterion = Criterion::default().configure_from_args();
-    println!("| mazes | what | mean µs | worst µs | baseline µs | ratio |");
+    let classic = measure::<16>("classic", &SpeedRunConfig::classic());
+    let half_size = measure::<32>("halfsize", &SpeedRunConfig::half_size());
+    println!("| mazes | what | least µs | median µs | worst µs | repeated µs |");
     println!("| --- | --- | ---: | ---: | ---: | ---: |");
-    measure::<16>(&mut criterion, "classic", &SpeedRunConfig::classic());
-    measure::<32>(&mut criterion, "halfsize", &SpeedRunConfig::half_size());
+    for row in classic.iter().chain(&half_size) {
+        println!("{row}");
+    }
 }
 
-fn measure<const N: usize>(criterion: &mut Criterion, folder: &str, config: &SpeedRunConfig) {
+/// A maze with its name, and where its runs begin.
+struct Named {
+    name: String,
+    maze: Maze,
+    start: (Cell, Direction),
+}
+
+/// Prints a JSON line for each maze, and returns the rows of the table.
+fn measure<const N: usize>(folder: &str, config: &SpeedRunConfig) -> Vec<String> {
     let (source, mazes) = mazes(folder, N as u16);
-    let group = format!("{} {source}, {N}²", mazes.len());
     let times = SpeedRunTimes::<N>::new(config).unwrap();
-    let mut map = SpeedRunMap::<N>::new();
     let passages: Vec<Passages<N>> = mazes
         .iter()
-        .map(|maze| Passages::new(maze, Unknown::Closed).unwrap())
+        .map(|named| Passages::new(&named.maze, Unknown::Closed).unwrap())
         .collect();
-    let numbers = 0..mazes.len();
-
-    let step_map = |number: usize| {
-        let goals = mazes[number].goals().iter().copied();
+    let mut map = SpeedRunMap::<N>::new();
+    let step_map = Timed::of(mazes.len(), |number| {
+        let goals = mazes[number].maze.goals().iter().copied();
+        let begin = Instant::now();
         black_box(StepMap::new(&passages[number], goals));
-    };
-    let plain_steps = |number: usize| {
-        black_box(mazes[number].steps_to_goal());
-    };
-    row(
-        &group,
-        "step map",
-        numbers.clone().map(|number| least(|| step_map(number))),
-        Some(mean(
-            numbers.clone().map(|number| least(|| plain_steps(number))),
-        )),
-    );
-
-    let mut plan = |number: usize| {
-        let maze = &mazes[number];
-        let start = start(maze);
-        let state = RunState::Straight {
-            cell: start.0,
-            heading: start.1,
-        };
-        map.search(
-            &passages[number],
-            &times,
-            maze.goals(),
-            Extent::Until(state),
-        );
+        since(begin)
+    });
+    let plan = Timed::of(mazes.len(), |number| {
+        let Named { maze, start, .. } = &mazes[number];
+        let (cell, heading) = *start;
+        let state = RunState::Straight { cell, heading };
+        let begin = Instant::now();
+        let extent = Extent::Until(state);
+        map.search(&passages[number], &times, maze.goals(), extent);
         black_box(map.run(&passages[number], &times, state).count());
-    };
-    // The checker's, graph and all: slow, so every tenth maze has to do.
-    let plain_plan = |number: usize| {
-        let maze = &mazes[number];
-        black_box(best_possible_ms(maze, config, start(maze), maze.goals()));
-    };
-    let slow = mean(
-        numbers
-            .clone()
-            .step_by(10)
-            .map(|number| least(|| plain_plan(number))),
-    );
-    row(
-        &group,
-        "fastest run",
-        numbers.clone().map(|number| least(|| plan(number))),
-        Some(slow),
-    );
+        since(begin)
+    });
+    let decision = Timed::of(mazes.len(), |number| explore(&mazes[number], &times));
+    let all = [
+        ("step map", step_map),
+        ("plan", plan),
+        ("decision", decision),
+    ];
+    for (number, named) in mazes.iter().enumerate() {
+        println!("{}", line(&named.name, N, number, &all));
+    }
+    let group = format!("{} {source}, {N}²", mazes.len());
+    all.iter()
+        .map(|(what, timed)| timed.row(&group, what))
+        .collect()
+}
 
-    let decisions = mazes.iter().flat_map(|maze| {
-        let mut least: Vec<f64> = Vec::new();
-        for _ in 0..REPETITIONS {
-            for (number, time) in explore(maze, &times).into_iter().enumerate() {
-                match least.get_mut(number) {
-                    Some(least) => *least = time.min(*least),
-                    None => least.push(time),
-                }
+/// What a maze took, as a line of JSON.
+fn line(name: &str, side: usize, number: usize, all: &[(&str, Timed)]) -> String {
+    let mut line = serde_json::json!({ "maze": name, "side": side });
+    for (what, timed) in all {
+        let rounds = &timed.in_turn[number];
+        line[format!("{what} least us")] = rounded(least(rounds)).into();
+        line[format!("{what} median us")] = rounded(median(rounds)).into();
+    }
+    line.to_string()
+}
+
+/// Microseconds of the same work in all mazes.
+struct Timed {
+    /// By maze: a time for each round.
+    in_turn: Vec<Vec<f64>>,
+    /// By maze: the least of as many repetitions at once.
+    repeated: Vec<f64>,
+}
+
+impl Timed {
+    fn of(mazes: usize, mut work: impl FnMut(usize) -> f64) -> Self {
+        let mut in_turn = vec![Vec::with_capacity(ROUNDS); mazes];
+        for _ in 0..ROUNDS {
+            for (number, times) in in_turn.iter_mut().enumerate() {
+                times.push(work(number));
             }
         }
-        least
-    });
-    row(&group, "decision", decisions, None);
-
-    let mut group = criterion.benchmark_group("speed_run");
-    group.bench_function(format!("step map, {N}²"), |bencher| {
-        bencher.iter(|| step_map(0));
-    });
-    group.bench_function(format!("fastest run, {N}²"), |bencher| {
-        bencher.iter(|| plan(0));
-    });
-    group.sample_size(10);
-    group.bench_function(format!("exploration, {N}²"), |bencher| {
-        bencher.iter(|| explore(&mazes[0], &times));
-    });
-    group.finish();
-}
-
-fn row(group: &str, what: &str, figures: impl Iterator<Item = f64>, baseline: Option<f64>) {
-    let figures: Vec<f64> = figures.collect();
-    let worst = figures.iter().copied().fold(0.0, f64::max);
-    let mean = mean(figures.into_iter());
-    let baseline = baseline.map_or_else(
-        || "| |".to_owned(),
-        |baseline| format!("{baseline:.2} | {:.1} |", baseline / mean),
-    );
-    println!("| {group} | {what} | {mean:.2} | {worst:.2} | {baseline}");
-}
-
-fn mean(figures: impl Iterator<Item = f64>) -> f64 {
-    let figures: Vec<f64> = figures.collect();
-    figures.iter().sum::<f64>() / figures.len() as f64
-}
-
-/// Microseconds.
-fn least(mut work: impl FnMut()) -> f64 {
-    let mut least = f64::INFINITY;
-    for _ in 0..REPETITIONS {
-        let begin = Instant::now();
-        work();
-        least = least.min(1e6 * begin.elapsed().as_secs_f64());
+        let again = |number| least(&(0..ROUNDS).map(|_| work(number)).collect::<Vec<_>>());
+        Self {
+            in_turn,
+            repeated: (0..mazes).map(again).collect(),
+        }
     }
-    least
+
+    fn row(&self, group: &str, what: &str) -> String {
+        let of = |figure: fn(&[f64]) -> f64| -> Vec<f64> {
+            self.in_turn.iter().map(|times| figure(times)).collect()
+        };
+        let (least, median) = (of(least), of(median));
+        let worst = least.iter().copied().fold(0.0, f64::max);
+        let [least, median, repeated] =
+            [least, median, self.repeated.clone()].map(|all| mean(&all));
+        format!("| {group} | {what} | {least:.2} | {median:.2} | {worst:.2} | {repeated:.2} |")
+    }
 }
 
-/// Explores until the mouse is back; microseconds of every decision.
-fn explore<const N: usize>(maze: &Maze, times: &SpeedRunTimes<N>) -> Vec<f64> {
-    let (home, heading) = start(maze);
+fn since(begin: Instant) -> f64 {
+    1e6 * begin.elapsed().as_secs_f64()
+}
+
+fn mean(times: &[f64]) -> f64 {
+    times.iter().sum::<f64>() / times.len() as f64
+}
+
+fn least(times: &[f64]) -> f64 {
+    times.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+fn median(times: &[f64]) -> f64 {
+    let mut sorted = times.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted[sorted.len() / 2]
+}
+
+/// To hundredths, which is more than a clock tells.
+fn rounded(time: f64) -> f64 {
+    (100.0 * time).round() / 100.0
+}
+
+/// Explores until the mouse is back; microseconds of a decision, their mean.
+fn explore<const N: usize>(named: &Named, times: &SpeedRunTimes<N>) -> f64 {
+    let Named { maze, start, .. } = named;
+    let (home, heading) = *start;
     let mut walls = WallMap::<N>::new(maze.grid(), ClosedCells::Possible).unwrap();
     let mut explorer = SpeedRunExplorer::new(times, home, heading, maze.goals());
     let (mut at, mut looks) = (home, heading);
     let mut decisions = Vec::new();
     loop {
-        let rays = Direction::ALL.map(|side| {
-            if maze.is_open(at, side) {
-                CellRay::out_of_range(side, 1)
-            } else {
-                CellRay::to_wall(side, 0)
-            }
+        let rays = Direction::ALL.map(|side| match maze.is_open(at, side) {
+            true => CellRay::out_of_range(side, 1),
+            false => CellRay::to_wall(side, 0),
         });
         walls.observe(at, &rays).unwrap();
         let begin = Instant::now();
         let decision = explorer.decide(&walls, at, looks).unwrap();
-        decisions.push(1e6 * begin.elapsed().as_secs_f64());
+        decisions.push(since(begin));
         let Decision::Drive(direction) = decision else {
-            return decisions;
+            return mean(&decisions);
         };
         at = maze.grid().neighbour(at, direction).unwrap();
         looks = direction;
     }
 }
 
-fn start(maze: &Maze) -> (Cell, Direction) {
-    maze.start().unwrap_or((Cell::new(0, 0), Direction::North))
-}
-
-/// Where they come from, and the mazes.
-fn mazes(folder: &str, side: u16) -> (&'static str, Vec<Maze>) {
+/// Where they come from, and the mazes by name.
+fn mazes(folder: &str, side: u16) -> (&'static str, Vec<Named>) {
+    if let Some(folder) = std::env::var_os("SPEED_RUN_MAZES") {
+        let fits = |named: &Named| {
+            let larger = named.maze.grid().width().max(named.maze.grid().height());
+            (larger > 16) == (side > 16) && larger <= side
+        };
+        let named = in_folder(Path::new(&folder)).unwrap();
+        return ("of yours", named.into_iter().filter(fits).collect());
+    }
     let data = std::env::var_os("TOLMAN_DATA").map_or_else(
         || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
         PathBuf::from,
     );
-    let Ok(entries) = std::fs::read_dir(data.join("mazes").join(folder)) else {
-        let generated = (0..20).map(|seed| {
-            let braided = Braided {
-                width: side,
-                height: side,
-                share: 0.5,
-            };
-            let mut maze = braided
-                .generate(&mut ChaCha8Rng::seed_from_u64(seed))
-                .unwrap();
-            maze.set_goals(maze.grid().middle().collect());
-            maze
-        });
-        return ("generated", generated.collect());
+    match in_folder(&data.join("mazes").join(folder)) {
+        Some(mazes) => ("of competitions", mazes),
+        None => (
+            "generated",
+            (0..20).map(|seed| generated(seed, side)).collect(),
+        ),
+    }
+}
+
+fn generated(seed: u64, side: u16) -> Named {
+    let braided = Braided {
+        width: side,
+        height: side,
+        share: 0.5,
     };
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut maze = braided.generate(&mut rng).unwrap();
+    maze.set_goals(maze.grid().middle().collect());
+    Named::of(format!("seed {seed}"), maze)
+}
+
+fn in_folder(folder: &Path) -> Option<Vec<Named>> {
+    let entries = std::fs::read_dir(folder).ok()?;
     let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
     paths.sort();
-    let texts = paths
-        .iter()
-        .map(|path| std::fs::read_to_string(path).unwrap());
-    let mazes = texts.filter_map(|text| tolman_maze::read(&text).ok());
-    ("of competitions", mazes.map(|file| file.maze).collect())
+    let read = |path: &PathBuf| {
+        let text = std::fs::read_to_string(path).ok()?;
+        let name = path.file_stem()?.to_string_lossy().into_owned();
+        Some(Named::of(name, tolman_maze::read(&text).ok()?.maze))
+    };
+    Some(paths.iter().filter_map(read).collect())
+}
+
+impl Named {
+    fn of(name: String, maze: Maze) -> Self {
+        let start = maze.start().unwrap_or((Cell::new(0, 0), Direction::North));
+        Self { name, maze, start }
+    }
 }

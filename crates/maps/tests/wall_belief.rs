@@ -6,7 +6,9 @@ use core::f64::consts::FRAC_PI_2;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_geom::{Heading, Point, Pose, Vector};
-use tolman_maps::wall_belief::{PoseFilter, PoseFilterConfig, RangeReading, WallBelief};
+use tolman_maps::wall_belief::{
+    PoseFilter, PoseFilterConfig, RangeModel, RangeReading, WallBelief,
+};
 use tolman_maze::{Braided, Cell, Direction, Grid, Knowledge, Maze, Walls};
 use tolman_sim::{CorridorSize, World};
 
@@ -49,13 +51,13 @@ fn readings(world: &World, pose: Pose) -> [RangeReading; 4] {
     })
 }
 
-fn seen_from_everywhere(maze: &Maze, world: &World, looks: i8) -> WallBelief<8> {
+fn seen_from_everywhere(maze: &Maze, world: &World, looks: u8) -> WallBelief<8> {
     let mut belief = WallBelief::new(maze.grid(), SIZE.pitch(), SIZE.wall_thickness).unwrap();
     for cell in maze.grid().cells() {
         let pose = Pose::new(belief.middle(cell), Heading::EAST);
         for reading in readings(world, pose) {
             for _ in 0..looks {
-                belief.observe(pose, reading);
+                belief.observe(pose, reading, &SENSOR);
             }
         }
     }
@@ -88,23 +90,23 @@ fn a_wrong_belief_is_given_up() {
     };
     let side = (Cell::new(0, 0), Direction::East);
     for _ in 0..100 {
-        belief.observe(pose, reading(0.084));
+        belief.observe(pose, reading(0.084), &SENSOR);
     }
     assert_eq!(belief.knowledge(side.0, side.1), Knowledge::Wall);
     for _ in 0..8 {
-        belief.observe(pose, reading(0.264));
+        belief.observe(pose, reading(0.264), &SENSOR);
     }
     assert_eq!(belief.knowledge(side.0, side.1), Knowledge::Open);
     // What ends between two lines says nothing of the farther one, what is oblique or no number says nothing at all.
-    belief.observe(pose, reading(0.35));
+    belief.observe(pose, reading(0.35), &SENSOR);
     assert_eq!(
         belief.knowledge(Cell::new(1, 0), Direction::East),
         Knowledge::Wall
     );
     let before = belief.clone();
-    belief.observe(pose, reading(f64::NAN));
+    belief.observe(pose, reading(f64::NAN), &SENSOR);
     let oblique = Pose::new(pose.position, Heading::from_degrees(30.0));
-    belief.observe(oblique, reading(0.1));
+    belief.observe(oblique, reading(0.1), &SENSOR);
     assert_eq!(belief, before);
 }
 
@@ -113,8 +115,12 @@ const FILTER: PoseFilterConfig = PoseFilterConfig {
     slip: 0.1,
     drift: 0.2,
     spread: 0.001,
-    range: 0.005,
-    relative_range: 0.01,
+    sensor: SENSOR,
+};
+
+const SENSOR: RangeModel = RangeModel {
+    absolute: 0.005,
+    relative: 0.01,
     outliers: 0.1,
 };
 
@@ -164,14 +170,17 @@ fn numbers_out_of_range_are_refused() {
         refused(|config| config.particles = 0).unwrap_err(),
         "particles"
     );
-    assert_eq!(refused(|config| config.range = 0.0).unwrap_err(), "range");
+    assert_eq!(
+        refused(|config| config.sensor.absolute = 0.0).unwrap_err(),
+        "sensor.absolute"
+    );
     assert_eq!(
         refused(|config| config.slip = f64::NAN).unwrap_err(),
         "slip"
     );
     assert_eq!(
-        refused(|config| config.outliers = 1.5).unwrap_err(),
-        "outliers"
+        refused(|config| config.sensor.outliers = 1.5).unwrap_err(),
+        "sensor.outliers"
     );
     assert!(WallBelief::<8>::new(Grid::new(9, 2), 0.18, 0.012).is_err());
 }

@@ -49,7 +49,7 @@ impl Judgement {
             run_2: verdict.run_2,
             score: verdict.score(),
             optimum,
-            floor: f64::from(optimum) + f64::from(optimum + 1) / 30.0,
+            floor: floor(optimum),
             certified,
         })
     }
@@ -59,6 +59,12 @@ impl Judgement {
     pub fn above_floor(&self) -> Option<f64> {
         Some(self.score? - self.floor)
     }
+}
+
+/// Returns the score of a mouse that knows its maze, whose best run takes `optimum` steps: there, a reset, and there again.
+#[must_use]
+pub fn floor(optimum: u32) -> f64 {
+    f64::from(optimum) + f64::from(optimum + 1) / 30.0
 }
 
 /// Sends a mouse with a search through `maze` and judges it; what the search draws follows from

@@ -43,7 +43,7 @@ mod referee;
 mod trial;
 
 pub use certificate::{CertificateError, check};
-pub use judgement::{Judgement, try_on, watch};
+pub use judgement::{Judgement, floor, try_on, watch};
 pub use q_learning::CellTask;
 pub use referee::{MAX_STEPS, Referee, RefereeError, Ruling, ScoreSheet, brief};
 pub use trial::{MouseTrial, MouseTrialError, RefereedStep, SideSeen, sides_seen};

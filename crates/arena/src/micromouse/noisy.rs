@@ -5,7 +5,7 @@
 //! maze, and whoever sees where it really is.
 
 use thiserror::Error;
-use tolman_maps::wall_belief::PoseFilterConfig;
+use tolman_maps::wall_belief::{PoseFilterConfig, RangeModel};
 use tolman_maze::Maze;
 use tolman_robot::Ring;
 use tolman_sim::noise::{Fault, Gaussian};
@@ -91,9 +91,11 @@ impl NoisyConfig {
             slip: 0.577 * self.slip + 0.01,
             drift: self.drift + 0.02,
             spread: 0.0005,
-            range: self.range + 0.004,
-            relative_range: self.relative_range + 0.01,
-            outliers: 0.1,
+            sensor: RangeModel {
+                absolute: self.range + 0.004,
+                relative: self.relative_range + 0.01,
+                outliers: 0.1,
+            },
         }
     }
 }

@@ -7,7 +7,7 @@ use thiserror::Error;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::Knowledge;
 
-use super::{RangeReading, WallBelief};
+use super::{RangeModel, RangeReading, WallBelief};
 
 /// How a [`PoseFilter`] models wheels and sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,12 +20,8 @@ pub struct PoseFilterConfig {
     pub drift: f64,
     /// Standard deviation of where a particle is after a step, whatever was asked for, m: it keeps particles apart. ≥ 0.
     pub spread: f64,
-    /// Standard deviation of a range, m. > 0.
-    pub range: f64,
-    /// The same as a share of the range. ≥ 0.
-    pub relative_range: f64,
-    /// The share of readings that have nothing to do with the walls in the map, such as those that meet a post. Within 0 … 1.
-    pub outliers: f64,
+    /// How the range sensors err.
+    pub sensor: RangeModel,
 }
 
 /// A number of the configuration out of its range.
@@ -63,15 +59,15 @@ impl PoseFilter {
     pub fn new(config: PoseFilterConfig, pose: Pose) -> Result<Self, FilterError> {
         let positive = |field, value| (field, value, value > 0.0);
         let at_least_0 = |field, value| (field, value, value >= 0.0);
-        let share = (0.0..=1.0).contains(&config.outliers);
+        let share = (0.0..=1.0).contains(&config.sensor.outliers);
         let fields = [
             positive("particles", f64::from(config.particles)),
             at_least_0("slip", config.slip),
             at_least_0("drift", config.drift),
             at_least_0("spread", config.spread),
-            positive("range", config.range),
-            at_least_0("relative_range", config.relative_range),
-            ("outliers", config.outliers, share),
+            positive("sensor.absolute", config.sensor.absolute),
+            at_least_0("sensor.relative", config.sensor.relative),
+            ("sensor.outliers", config.sensor.outliers, share),
         ];
         if let Some((field, value, _)) = fields
             .into_iter()
@@ -115,10 +111,10 @@ impl PoseFilter {
         rng: &mut impl Rng,
     ) {
         for reading in readings {
-            let nothing = bell(&self.config, reading.range, reading.max_range);
+            let nothing = self.config.sensor.density(reading.range, reading.max_range);
             for particle in &mut self.particles {
                 particle.weight *=
-                    likelihood(&self.config, walls, particle.pose, *reading, nothing);
+                    likelihood(&self.config.sensor, walls, particle.pose, *reading, nothing);
             }
         }
         let sum: f64 = self.particles.iter().map(|particle| particle.weight).sum();
@@ -171,7 +167,7 @@ impl PoseFilter {
 
 /// How likely a reading is for a mouse at `pose`, up to a factor; `nothing` is its density where no wall is met.
 fn likelihood<const N: usize>(
-    config: &PoseFilterConfig,
+    sensor: &RangeModel,
     walls: &WallBelief<N>,
     pose: Pose,
     reading: RangeReading,
@@ -186,23 +182,14 @@ fn likelihood<const N: usize>(
         } else {
             left / 2.0
         };
-        hit += share * bell(config, reading.range, meeting.range);
+        hit += share * sensor.density(reading.range, meeting.range);
         left -= share;
         if left < 0.05 {
             break;
         }
     }
     // What is left meets nothing.
-    hit += left * nothing;
-    config.outliers / reading.max_range + (1.0 - config.outliers) * hit
-}
-
-/// The density of a reading whose expectation is `range`.
-fn bell(config: &PoseFilterConfig, reading: f64, range: f64) -> f64 {
-    let relative = config.relative_range * range;
-    let sd = libm::sqrt(config.range * config.range + relative * relative);
-    let off = (reading - range) / sd;
-    libm::exp(-0.5 * off * off) / (sd * libm::sqrt(TAU))
+    sensor.mixed(reading, hit + left * nothing)
 }
 
 /// Two independent normal numbers (Box and Muller 1958).

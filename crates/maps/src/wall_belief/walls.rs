@@ -6,22 +6,26 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 use tolman_planners::TooLarge;
 
+use super::RangeModel;
+
 /// What speaks for and against every wall of a maze of at most `N` × `N` cells, drawn to scale.
 ///
-/// A reading that meets a wall speaks for it, one that passes speaks against it. A wall is believed in, or taken for open,
-/// once [`WallBelief::CONVINCED`] more readings say so than say the contrary; it is unknown before and may be again.
+/// Every wall has its log-odds to stand. A reading that meets a wall speaks for it, one that passes speaks against it, each by as much as
+/// the sensor can be trusted at that range. A wall is believed in, or taken for open, beyond [`WallBelief::CONVINCED`]; it is unknown
+/// before and may be again.
 ///
 /// ```
 /// use tolman_geom::{Heading, Point, Pose};
-/// use tolman_maps::wall_belief::{RangeReading, WallBelief};
+/// use tolman_maps::wall_belief::{RangeModel, RangeReading, WallBelief};
 /// use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 ///
+/// let sensor = RangeModel { absolute: 0.005, relative: 0.02, outliers: 0.1 };
 /// let mut belief = WallBelief::<16>::new(Grid::new(4, 4), 0.18, 0.012)?;
 /// let pose = Pose::new(Point::new(0.09, 0.09), Heading::EAST);
 /// // Two cells on a wall stands: 0.36 + 0.09 m, less half its thickness.
 /// let reading = RangeReading { bearing: 0.0, range: 0.443, max_range: 1.0 };
-/// for _ in 0..WallBelief::<16>::CONVINCED {
-///     belief.observe(pose, reading);
+/// for _ in 0..2 {
+///     belief.observe(pose, reading, &sensor);
 /// }
 /// assert_eq!(belief.knowledge(Cell::new(1, 0), Direction::East), Knowledge::Open);
 /// assert_eq!(belief.knowledge(Cell::new(2, 0), Direction::East), Knowledge::Wall);
@@ -33,8 +37,8 @@ pub struct WallBelief<const N: usize> {
     grid: Grid,
     pitch: f64,
     thickness: f64,
-    /// By wall: readings for it less those against it.
-    votes: Vec<i8>,
+    /// By wall: the log-odds that it stands.
+    odds: Vec<f64>,
 }
 
 /// What one range sensor says.
@@ -57,19 +61,18 @@ pub struct Meeting {
     pub known: Knowledge,
 }
 
-/// How far from a line, as a share of the pitch, a reading may end and still count as the wall on it.
-const TOLERANCE: f64 = 0.25;
-
 /// A ray that leaves the axes by more tells of walls to the side.
 const STRAIGHT: f64 = 0.985;
 
 impl<const N: usize> WallBelief<N> {
-    /// How many readings more must speak for a wall than against it, or the other way round.
-    pub const CONVINCED: i8 = 2;
-    /// So many for an opening.
-    const DOUBTED: i8 = -Self::CONVINCED;
-    /// Readings beyond so many change nothing, so that a wrong belief can be given up.
-    const MOST: i8 = 6;
+    /// Log-odds from which on a wall is believed in; below their negative it is taken for open.
+    pub const CONVINCED: f64 = 3.0;
+    /// The log-odds grow no farther than this, so that a wrong belief can be given up.
+    const MOST: f64 = 9.0;
+    /// What is left of the log-odds of a wall that is doubted.
+    const DOUBT: f64 = 0.8;
+    /// What a single reading says at most: two of one stop err by the same pose.
+    const MOST_AT_ONCE: f64 = 1.6;
 
     /// Nothing is believed but the border. `pitch` is from the middle of a cell to the next, `thickness` that of a wall, m.
     ///
@@ -81,7 +84,7 @@ impl<const N: usize> WallBelief<N> {
             grid,
             pitch,
             thickness,
-            votes: vec![0; grid.wall_count()],
+            odds: vec![0.0; grid.wall_count()],
         })
     }
 
@@ -111,38 +114,85 @@ impl<const N: usize> WallBelief<N> {
         self.grid.contains(cell).then_some(cell)
     }
 
-    /// Takes in one reading made at `pose`: the walls it passes are open, and it ends at one. Where it ends between two lines of
-    /// the grid it says nothing of the farther one; far from parallel to both axes it says nothing at all. One of full range
-    /// met nothing. O(cells along the ray).
-    pub fn observe(&mut self, pose: Pose, reading: RangeReading) {
+    /// Takes in one reading that `sensor` made at `pose`. One that is far from parallel to both axes says nothing. O(n²) for n cells
+    /// along the ray.
+    ///
+    /// By Bayes' rule, each wall on the ray by itself: how likely is the reading if it stands, and if it does not, where the others stand
+    /// as likely as is believed so far?
+    pub fn observe(&mut self, pose: Pose, reading: RangeReading, sensor: &RangeModel) {
         let heading = pose.heading.turned(reading.bearing);
         let unit = heading.unit();
         if unit.x.abs().max(unit.y.abs()) < STRAIGHT || !reading.range.is_finite() {
             return;
         }
-        let met = reading.range < reading.max_range;
-        let face = self.thickness / 2.0;
-        for crossing in self.crossings(pose.position, heading) {
-            if !crossing.along_axis {
-                // It leaves its row: what it sees from there on is to the side.
-                return;
-            }
-            let beyond = reading.range + face - crossing.line.distance;
-            if beyond > TOLERANCE * self.pitch {
-                self.vote(crossing.cell, crossing.line.side, -1);
-            } else {
-                if met && beyond > -TOLERANCE * self.pitch {
-                    self.vote(crossing.cell, crossing.line.side, 1);
-                }
-                return;
+        let ray: Vec<Chance> = self
+            .chances(pose.position, heading, reading, sensor)
+            .collect();
+        let nothing = sensor.density(reading.range, reading.max_range);
+        for (number, chance) in ray.iter().enumerate() {
+            let without = ray.iter().enumerate();
+            let density = |stands: f64| {
+                let of = |(other, chance): (usize, &Chance)| match other == number {
+                    true => Chance { stands, ..*chance },
+                    false => *chance,
+                };
+                sensor.mixed(reading, Chance::met(without.clone().map(of), nothing))
+            };
+            let says = libm::log(density(1.0) / density(0.0));
+            let says = says.clamp(-Self::MOST_AT_ONCE, Self::MOST_AT_ONCE);
+            if let Some(odds) = chance.wall.and_then(|wall| self.odds.get_mut(wall)) {
+                *odds = (*odds + says).clamp(-Self::MOST, Self::MOST);
             }
         }
     }
 
-    fn vote(&mut self, cell: Cell, side: Direction, vote: i8) {
-        if let Some(votes) = self.votes.get_mut(self.grid.wall(cell, side).0 as usize) {
-            *votes = (*votes + vote).clamp(-Self::MOST, Self::MOST);
+    /// Takes in that something was touched where the wall of `cell` to `side` may stand.
+    pub fn bump(&mut self, cell: Cell, side: Direction) {
+        if let Some(odds) = self.odds.get_mut(self.grid.wall(cell, side).0 as usize) {
+            *odds = (*odds + Self::MOST_AT_ONCE).min(Self::MOST);
         }
+    }
+
+    /// Makes all walls that are believed in, or half so, less certain: something is wrong, and nobody knows what.
+    pub fn doubt_walls(&mut self) {
+        for odds in self.odds.iter_mut().filter(|odds| **odds > 0.0) {
+            *odds *= Self::DOUBT;
+        }
+    }
+
+    /// The walls that a reading may have ended at, while the ray stays in its row or column.
+    fn chances(
+        &self,
+        origin: Point,
+        heading: Heading,
+        reading: RangeReading,
+        sensor: &RangeModel,
+    ) -> impl Iterator<Item = Chance> {
+        let along = self
+            .crossings(origin, heading)
+            .take_while(|crossing| crossing.along_axis);
+        let ranges = along.map(move |crossing| (self.face(crossing.line), crossing));
+        let within = ranges.take_while(move |(range, _)| *range < reading.max_range);
+        within.map(move |(range, crossing)| {
+            let side = crossing.line.side;
+            let wall = self.grid.wall(crossing.cell, side).0 as usize;
+            let is_border = self.grid.neighbour(crossing.cell, side).is_none();
+            let odds = self.odds.get(wall).copied().unwrap_or(0.0);
+            Chance {
+                wall: (!is_border).then_some(wall),
+                stands: if is_border {
+                    1.0
+                } else {
+                    1.0 / (1.0 + libm::exp(-odds))
+                },
+                density: sensor.density(reading.range, range),
+            }
+        })
+    }
+
+    /// How far the face of a wall on a line is.
+    fn face(&self, line: Axis) -> f64 {
+        (line.distance - self.thickness / 2.0 / line.slope).max(0.0)
     }
 
     /// Where a ray from `origin` may end that reaches `max_range`: at the lines of the grid that it crosses where a wall may
@@ -155,8 +205,7 @@ impl<const N: usize> WallBelief<N> {
     ) -> impl Iterator<Item = Meeting> {
         let mut ended = false;
         let meetings = self.crossings(origin, heading).map_while(move |crossing| {
-            let face = self.thickness / 2.0 / crossing.line.slope;
-            let range = (crossing.line.distance - face).max(0.0);
+            let range = self.face(crossing.line);
             if ended || range >= max_range {
                 return None;
             }
@@ -222,9 +271,9 @@ impl<const N: usize> Walls for WallBelief<N> {
         if beyond.is_none() || !self.grid.contains(cell) {
             return Knowledge::Wall;
         }
-        match self.votes[self.grid.wall(cell, direction).0 as usize] {
-            Self::CONVINCED.. => Knowledge::Wall,
-            ..=Self::DOUBTED => Knowledge::Open,
+        match self.odds[self.grid.wall(cell, direction).0 as usize] {
+            odds if odds >= Self::CONVINCED => Knowledge::Wall,
+            odds if odds <= -Self::CONVINCED => Knowledge::Open,
             _ => Knowledge::Unknown,
         }
     }
@@ -240,6 +289,28 @@ struct Axis {
     side: Direction,
     /// The share of the ray that goes that way.
     slope: f64,
+}
+
+/// A wall that a reading may have ended at.
+#[derive(Clone, Copy)]
+struct Chance {
+    /// Its number; none at the border, of which nothing is to be learned.
+    wall: Option<usize>,
+    /// How likely it is to stand.
+    stands: f64,
+    /// How likely the reading is if it ended there.
+    density: f64,
+}
+
+impl Chance {
+    /// How likely a reading is that ends at the first wall that stands, and with `nothing` where none does.
+    fn met(ray: impl Iterator<Item = Self>, nothing: f64) -> f64 {
+        let (density, passes) = ray.fold((0.0, 1.0), |(density, passes), wall| {
+            let ends = passes * wall.stands;
+            (density + ends * wall.density, passes - ends)
+        });
+        density + passes * nothing
+    }
 }
 
 struct Crossing {

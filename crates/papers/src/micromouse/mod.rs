@@ -20,7 +20,7 @@ use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig, WorthConfig};
 
 use crate::data;
 use crate::tolerances::{MOUSE_SCORE, MOVES};
-use tolman_arena::micromouse::{Judgement, MAX_STEPS, try_on};
+use tolman_arena::micromouse::{Judgement, MAX_STEPS, floor, try_on};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row, Run, Table,
@@ -119,14 +119,13 @@ fn all_mazes(paper: &[PaperTable], sets: &[MazeSet]) -> BTreeMap<String, String>
 
 fn sets_table(name: &str, title: &str, sets: &[MazeSet]) -> Table {
     Table::of::<SetRun>(name, title)
-        .metric(Metric::mean(MouseRun::score_minus_floor))
+        .metric(Metric::mean(SetRun::score))
         .metric(Metric::percent("certified_percent", MouseRun::certified))
         .metric(Metric::percent("finished_percent", MouseRun::finished))
-        .metric(Metric::mean(SetRun::counted).named("score"))
         .rows(sets.iter().filter(|set| set.name != HALF_SIZE).map(MazeSet::row))
         .note(format!(
-            "One run a maze. The floor is the score of a mouse that knows the maze. A mouse that has not \
-             finished after {MAX_STEPS} steps has no score."
+            "One run a maze. The floor is the score of a mouse that knows the maze, and is subtracted. A mouse that \
+             has not finished after {MAX_STEPS} steps has no score."
         ))
 }
 
@@ -144,49 +143,95 @@ record! {
         run_1: Option<u32> => lower("first run").unit("steps"),
         /// Steps of the second run.
         move_length: Option<u32> => lower("move length").tolerance(MOVES),
+    }
+}
+
+record! {
+    /// The same in a maze of the paper.
+    #[check(PaperRun::relations)]
+    struct PaperRun {
+        ..run: MouseRun,
         /// A thirtieth of the first run's steps and all of the second's.
         score: Option<f64> => lower("score").tolerance(MOUSE_SCORE),
-        /// Score above that of a mouse that knows the maze.
-        score_minus_floor: Option<f64> => lower("score − floor"),
     }
 }
 
 record! {
     /// The same in a maze of a set.
+    #[check(SetRun::relations)]
     struct SetRun {
         ..run: MouseRun,
+        /// Score above that of a mouse that knows the maze.
+        score: Option<f64> => lower("score − floor"),
         /// Name of the maze.
         maze: String => neither("maze"),
-        /// Score as its row counts it: in the rows that say when to stop, above that of a mouse that knows the maze.
-        counted: Option<f64> => lower("score"),
     }
 }
 
 impl MouseRun {
     fn of(judgement: &Judgement) -> Self {
         let runs = judgement.run_1.zip(judgement.run_2);
-        let scores = judgement.score.zip(judgement.above_floor());
         Self {
             finished: judgement.score.is_some(),
             certified: judgement.certified,
             optimum: judgement.optimum,
             run_1: runs.map(|runs| runs.0),
             move_length: runs.map(|runs| runs.1),
-            score: scores.map(|scores| scores.0),
-            score_minus_floor: scores.map(|scores| scores.1),
         }
     }
 
     fn relations(&self) -> Result<(), String> {
         let (run_1, run_2) = (self.run_1, self.move_length);
-        let finished = "a run that finished has a score, another has none";
-        require(self.finished == self.score.is_some(), finished)?;
-        require(run_1.is_some() == run_2.is_some(), finished)?;
-        check_score(run_1, run_2, self.score)?;
-        let possible = self.score.is_none() || run_2.is_none_or(|run_2| run_2 >= self.optimum);
-        require(possible, "the second run has fewer steps than the optimum")?;
+        require(
+            run_1.is_some() == run_2.is_some(),
+            "a mouse that finished has made both runs",
+        )?;
+        let possible = run_2.is_none_or(|run_2| run_2 >= self.optimum);
+        require(
+            possible || !self.finished,
+            "the second run has fewer steps than the optimum",
+        )?;
         let best = !self.certified || run_2 == Some(self.optimum);
         require(best, "what is certified is the optimum")
+    }
+
+    /// Refuses a score, from which so much is subtracted, that is not that of the runs.
+    fn check_score(&self, score: Option<f64>, subtracted: f64) -> Result<(), String> {
+        let finished = "a run that finished has a score, another has none";
+        require(self.finished == score.is_some(), finished)?;
+        check_score(
+            self.run_1,
+            self.move_length,
+            score.map(|score| score + subtracted),
+        )
+    }
+}
+
+impl PaperRun {
+    fn of(judgement: &Judgement) -> Self {
+        Self {
+            run: MouseRun::of(judgement),
+            score: judgement.score,
+        }
+    }
+
+    fn relations(&self) -> Result<(), String> {
+        self.run.check_score(self.score, 0.0)
+    }
+}
+
+impl SetRun {
+    fn of(judgement: &Judgement, maze: &str) -> Self {
+        Self {
+            run: MouseRun::of(judgement),
+            score: judgement.above_floor(),
+            maze: maze.to_owned(),
+        }
+    }
+
+    fn relations(&self) -> Result<(), String> {
+        let floor = floor(self.run.optimum);
+        self.run.check_score(self.score, floor)
     }
 }
 
@@ -199,13 +244,8 @@ impl Micromouse {
     /// A run in a maze of a set.
     fn run_on_set(&self, job: &Job<'_>, searcher: Searcher) -> Result<Fields, BoxError> {
         let (maze, walls) = self.set(job.row)?.maze(job.run)?;
-        let run = MouseRun::of(&try_on(walls, searcher, job.seed)?.1);
-        let set_run = SetRun {
-            counted: run.score,
-            run,
-            maze: maze.clone(),
-        };
-        Ok(set_run.fields()?)
+        let judgement = try_on(walls, searcher, job.seed)?.1;
+        Ok(SetRun::of(&judgement, maze).fields()?)
     }
 
     /// A run in the maze of a table of the paper.
@@ -213,7 +253,7 @@ impl Micromouse {
         let table = self.paper.iter().find(|table| table.name == job.table);
         let row = table.and_then(|table| table.row(job.row));
         let (searcher, maze) = row.ok_or("there is no such run")?;
-        Ok(MouseRun::of(&try_on(maze, searcher, job.seed)?.1).fields()?)
+        Ok(PaperRun::of(&try_on(maze, searcher, job.seed)?.1).fields()?)
     }
 }
 

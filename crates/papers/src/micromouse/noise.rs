@@ -16,8 +16,8 @@ pub(super) const NOISE: &str = "noise";
 const LEVELS: [f64; 7] = [0.0, 0.25, 1.0, 2.0, 4.0, 5.0, 6.0];
 
 const LOCALIZATIONS: [(PoseSource, &str); 2] = [
-    (PoseSource::ParticleFilter, "particle filter"),
-    (PoseSource::DeadReckoning, "dead reckoning"),
+    (PoseSource::ParticleFilter, "12x12"),
+    (PoseSource::DeadReckoning, "12x12, dead reckoning"),
 ];
 
 /// Levels at which larger mazes are tried, by particle filter.
@@ -70,15 +70,15 @@ pub(super) fn table(options: &Options) -> Table {
         .metrics_from(NoiseRun::arrived)
         .rows(mice().map(|mouse| Row::new(mouse.row).runs(runs)))
         .note(
-            "One run a maze of 12 × 12 cells, half-braided, drawn by the run's seed, on the continuous simulator; 16x16 are as large, by particle filter, \
-             with so many times ordinary noise. Noise 1: wheels slip by up to \
+            "One run a maze, half-braided, drawn by the run's seed, on the continuous simulator. Rows are named by its cells and by how many times \
+             ordinary noise there is; without more the mouse has a particle filter. Noise 1: wheels slip by up to \
              10 % and drift by 0.2 rad/m; three range sensors are off by 3 mm and 2 %. Steps and score are of the runs that \
              arrived, the error is where the mouse thinks it is against where it is.",
         )
 }
 
 fn row(name: &str, level: f64) -> String {
-    format!("{name}, noise {level}")
+    format!("{name} · {level}")
 }
 
 /// A mouse, and the mazes that it is sent into.
@@ -98,7 +98,7 @@ fn mice() -> impl Iterator<Item = Mouse> {
         })
     });
     let larger = LARGER.map(|level| Mouse {
-        row: format!("16x16 · {level}"),
+        row: row("16x16", level.into()),
         side: 16,
         config: NoisyConfig::ordinary(PoseSource::ParticleFilter, level.into()),
     });

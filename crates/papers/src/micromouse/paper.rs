@@ -4,7 +4,7 @@ use std::path::Path;
 
 use tolman_maze::Maze;
 
-use super::{Metric, MouseRun, Row, Table};
+use super::{Metric, MouseRun, PaperRun, Row, Table};
 use crate::{data, maze_file};
 use tolman_experiment::BoxError;
 use tolman_systems::micromouse::Searcher;
@@ -143,8 +143,8 @@ pub(super) fn tables(folder: Option<&Path>) -> Result<Vec<PaperTable>, BoxError>
 
 impl PaperTable {
     pub(super) fn table(&self) -> Table {
-        let average_score = Metric::mean(MouseRun::score).named("average_score");
-        Table::of::<MouseRun>(self.name, self.title)
+        let average_score = Metric::mean(PaperRun::score).named("average_score");
+        Table::of::<PaperRun>(self.name, self.title)
             .metric(Metric::mean(MouseRun::move_length))
             .metric(average_score.titled("average score"))
             .metric(Metric::percent("finished_percent", MouseRun::finished))

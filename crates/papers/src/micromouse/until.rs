@@ -6,8 +6,8 @@ use tolman_maze::Maze;
 use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig, WorthConfig};
 use tolman_systems::micromouse::{Certify, Driver, MouseError, RunTwo, Until};
 
+use super::SetRun;
 use super::sets::MazeSet;
-use super::{MouseRun, SetRun};
 
 /// The set whose mazes they are.
 pub(super) const SET: &str = "classic";
@@ -27,8 +27,7 @@ pub(super) fn rows(table: Table, sets: &[MazeSet]) -> Table {
     };
     let runs = SEEDS * set.mazes.len() as u32;
     let note = format!(
-        "{} In the rows that say when the mouse stops to explore, each maze has {SEEDS} runs, which are the same in both but for that, \
-         and the score is counted from the floor.",
+        "{} In the rows that say when the mouse stops to explore, each maze has {SEEDS} runs, which are the same in both but for that.",
         table.note
     );
     let rows = ROWS.map(|(row, _)| Row::new(row).run_each(runs));
@@ -45,13 +44,8 @@ pub(super) fn of_row(row: &str) -> Option<Until> {
 pub(super) fn run(set: &MazeSet, until: Until, job: &Job<'_>) -> Result<Fields, BoxError> {
     let count = set.mazes.len().max(1) as u32;
     let (name, maze) = set.maze(job.run % count)?;
-    let run = MouseRun::of(&judged(maze, until, job.seed)?);
-    let set_run = SetRun {
-        counted: run.score_minus_floor,
-        run,
-        maze: name.clone(),
-    };
-    Ok(set_run.fields()?)
+    let judgement = judged(maze, until, job.seed)?;
+    Ok(SetRun::of(&judgement, name).fields()?)
 }
 
 /// A mouse whose random numbers follow from `seed`.

@@ -16,13 +16,18 @@ use crate::{Passages, StepMap, TooLarge, Unknown};
 pub struct SpeedRunExplorer<'a, const N: usize> {
     planner: SpeedRunPlanner<'a, N>,
     home: Cell,
-    goal: Goal,
+    stage: ExploreStage,
 }
 
+/// What an explorer is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Goal {
-    Ahead,
-    Visited,
+pub enum ExploreStage {
+    /// It has not been at a goal yet.
+    Search,
+    /// It has been at a goal, and a faster run may be hoped for than those it knows.
+    Proof,
+    /// It has been at a goal, and knows the fastest run.
+    Home,
 }
 
 /// What an explorer wants.
@@ -56,7 +61,7 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
         Self {
             planner: SpeedRunPlanner::new(times, start, goals),
             home,
-            goal: Goal::Ahead,
+            stage: ExploreStage::Search,
         }
     }
 
@@ -71,8 +76,8 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
         at: Cell,
         heading: Direction,
     ) -> Result<Decision, TooLarge> {
-        if self.planner.goals().contains(&at) {
-            self.goal = Goal::Visited;
+        if self.stage != ExploreStage::Search || self.planner.goals().contains(&at) {
+            self.stage = ExploreStage::Proof;
         }
         let hoped = Passages::new(walls, Unknown::Open)?;
         self.planner.update(&hoped);
@@ -90,14 +95,18 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
                 .flatten()
         });
         let mut targets = beside.peekable();
-        let steps = if self.goal == Goal::Ahead {
-            StepMap::new(&hoped, targets.chain(self.planner.goals().iter().copied()))
-        } else if targets.peek().is_some() {
-            StepMap::new(&hoped, targets)
-        } else if at == self.home {
-            return Ok(Decision::Finished { run_ms });
-        } else {
-            StepMap::new(&Passages::new(walls, Unknown::Closed)?, [self.home])
+        if self.stage == ExploreStage::Proof && targets.peek().is_none() {
+            self.stage = ExploreStage::Home;
+        }
+        let steps = match self.stage {
+            ExploreStage::Search => {
+                StepMap::new(&hoped, targets.chain(self.planner.goals().iter().copied()))
+            }
+            ExploreStage::Proof => StepMap::new(&hoped, targets),
+            ExploreStage::Home if at == self.home => return Ok(Decision::Finished { run_ms }),
+            ExploreStage::Home => {
+                StepMap::new(&Passages::new(walls, Unknown::Closed)?, [self.home])
+            }
         };
         let order = [heading, heading.left(), heading.right(), heading.opposite()];
         let open = order
@@ -105,6 +114,12 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
             .filter(|direction| walls.knowledge(at, *direction) == Knowledge::Open);
         let next = steps.descend(&hoped, at, open);
         Ok(next.map_or(Decision::Stuck, Decision::Drive))
+    }
+
+    /// Returns what the last decision was about.
+    #[must_use]
+    pub const fn stage(&self) -> ExploreStage {
+        self.stage
     }
 
     /// The planner: which run is hoped for, and in the end known to be the best.

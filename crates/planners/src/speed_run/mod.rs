@@ -60,7 +60,7 @@ mod times;
 #[cfg(feature = "alloc")]
 pub use certificate::{SpeedRunCertificate, SpeedRunCertificateError, best_possible_ms};
 pub use config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigError};
-pub use explorer::{Decision, SpeedRunExplorer};
+pub use explorer::{Decision, ExploreStage, SpeedRunExplorer};
 pub use map::{Extent, SpeedRunMap};
 pub use moves::{RunMove, RunStep, Side, Slalom};
 pub use planner::{Replanning, SpeedRunPlanner};

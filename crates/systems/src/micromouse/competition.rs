@@ -31,7 +31,7 @@ use thiserror::Error;
 use tolman_maps::wall_map::{CellRay, ClosedCells, ObserveError, TooLarge, WallMap};
 use tolman_maze::{Cell, Direction, Knowledge, Walls};
 use tolman_planners::speed_run::{
-    Decision, RunStep, SpeedRunCertificate, SpeedRunCertificateError, SpeedRunConfig,
+    Decision, ExploreStage, RunStep, SpeedRunCertificate, SpeedRunCertificateError, SpeedRunConfig,
     SpeedRunConfigError, SpeedRunExplorer, SpeedRunTimes,
 };
 use tolman_planners::{Passages, Unknown};
@@ -149,7 +149,7 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         self.walls.observe(self.at, &rays(open))?;
         loop {
             let decision = self.explorer.decide(&self.walls, self.at, self.heading)?;
-            self.note_stages()?;
+            self.note_stage();
             match decision {
                 Decision::Drive(side) => return self.drive(side),
                 Decision::Finished { run_ms } => {
@@ -161,19 +161,14 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
     }
 
     /// Notes when the mouse was first at a goal, and when it first knew its run to be the fastest.
-    fn note_stages(&mut self) -> Result<(), TooLarge> {
-        if self.goal_after.is_none() && self.brief.goals.contains(&self.at) {
-            self.goal_after = Some(self.cells);
+    fn note_stage(&mut self) {
+        let stage = self.explorer.stage();
+        if stage != ExploreStage::Search {
+            self.goal_after.get_or_insert(self.cells);
         }
-        if self.proof_after.is_none() && self.goal_after.is_some() {
-            let hoped = Passages::new(&self.walls, Unknown::Open)?;
-            let mut edges = self.explorer.planner().run(&hoped).edges();
-            let has_way = self.explorer.planner().time_ms().is_some();
-            if has_way && edges.all(|(cell, side)| self.walls.knowledge(cell, side).is_known()) {
-                self.proof_after = Some(self.cells);
-            }
+        if stage == ExploreStage::Home {
+            self.proof_after.get_or_insert(self.cells);
         }
-        Ok(())
     }
 
     /// No run leads ahead from the start, as where a wall stands ahead of it: turns to the next side that may be open,

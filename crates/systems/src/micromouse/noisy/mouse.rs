@@ -3,7 +3,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_control::heading_of;
 use tolman_geom::Pose;
 use tolman_maps::wall_belief::{PoseFilter, RangeReading, WallBelief};
-use tolman_maze::{Cell, Direction};
+use tolman_maze::{Cell, Direction, Walls};
 use tolman_planners::moves::{
     Leap, MouseStep, MoveDecision, MoveExplorer, MoveExplorerConfig, MoveMap,
 };
@@ -45,10 +45,14 @@ pub struct NoisyMouse {
     rng: ChaCha8Rng,
 }
 
-/// Readings taken in a stop.
-const LOOKS: u32 = 4;
-/// A mouse nearer to a wall ahead does not drive on, from its middle, m.
-const TOO_NEAR: f64 = 0.055;
+/// Readings taken in a stop at least, and at most while a side of the cell that a sensor looks at is not known.
+const LOOKS: (u32, u32) = (4, 16);
+/// A mouse nearer to a wall ahead does not drive on, from its middle, m: so many readings in a row have to say so.
+const TOO_NEAR: (f64, u32) = (0.055, 3);
+/// How far ahead of the middle of its cell, as a share of the pitch, a mouse is that bumps into the wall of that cell, and not into a post.
+const AT_WALL: (f64, f64) = (0.1, 0.4);
+/// How often what is believed is doubted before the mouse takes itself for stuck.
+const DOUBTS: u32 = 12;
 /// A turn or a place this near is reached, rad and m.
 const CLOSE: (f64, f64) = (0.03, 0.004);
 /// The share of its full speed that the mouse drives with. What its wheels and sensors get wrong in a time step is independent
@@ -110,13 +114,24 @@ impl NoisyMouse {
     /// # Errors
     /// If the robot fails.
     pub fn look<R: NoisyBody>(&mut self, robot: &mut R) -> Result<(), R::Error> {
-        for _ in 0..LOOKS {
+        for looks in 0..LOOKS.1 {
+            if looks >= LOOKS.0 && self.knows_its_cell() {
+                break;
+            }
             self.time_step(robot, TurnTranslate::STOP)?;
             for reading in readings(robot.sensing()) {
-                self.belief.observe(self.pose(), reading);
+                self.belief
+                    .observe(self.pose(), reading, &self.config.filter.sensor);
             }
         }
         Ok(())
+    }
+
+    /// Whether it knows the sides of its cell that a sensor looks at.
+    fn knows_its_cell(&self) -> bool {
+        let (cell, looks) = (self.cell(), self.looks_to());
+        let mut seen = [looks.left(), looks, looks.right()].into_iter();
+        seen.all(|side| self.belief.knowledge(cell, side).is_known())
     }
 
     /// Makes a step of the first run. It is done when it believes to have proven its run.
@@ -124,10 +139,7 @@ impl NoisyMouse {
     /// # Errors
     /// If the robot fails.
     pub fn explore<R: NoisyBody>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error> {
-        let at = self.cell();
-        let decision = self.explorer.decide(&self.belief, &self.brief.goals, at);
-        // `new` has refused a maze that is too large.
-        match decision.unwrap_or(MoveDecision::Stuck) {
+        match self.unless_stuck(MoveDecision::Stuck, Self::decide) {
             MoveDecision::Drive(leap) => self.leap(robot, leap)?,
             MoveDecision::Turn => self.turn_to(robot, self.looks_to().right())?,
             MoveDecision::Finished { .. } | MoveDecision::Enough { .. } => {
@@ -147,11 +159,31 @@ impl NoisyMouse {
         if self.brief.goals.contains(&self.cell()) {
             return Ok(NoisyNext::Done);
         }
-        let Some(leap) = self.leap_to_goal() else {
+        let Some(leap) = self.unless_stuck(None, |mouse| mouse.leap_to_goal()) else {
             return Ok(NoisyNext::Stuck);
         };
         self.leap(robot, leap)?;
         Ok(NoisyNext::Stepped)
+    }
+
+    fn decide(&mut self) -> MoveDecision {
+        let at = self.cell();
+        let decision = self.explorer.decide(&self.belief, &self.brief.goals, at);
+        // `new` has refused a maze that is too large.
+        decision.unwrap_or(MoveDecision::Stuck)
+    }
+
+    /// Returns what `plan` comes to. Every maze has a way to its goal: while `plan` is `stuck`, some wall is believed in that does not
+    /// stand, and all are doubted, so that the mouse looks again at those for which least speaks.
+    fn unless_stuck<T: PartialEq>(&mut self, stuck: T, plan: impl Fn(&mut Self) -> T) -> T {
+        for _ in 0..DOUBTS {
+            let planned = plan(self);
+            if planned != stuck {
+                return planned;
+            }
+            self.belief.doubt_walls();
+        }
+        stuck
     }
 
     /// The next leap to a goal: over walls believed open, or else over those not believed to stand.
@@ -192,6 +224,7 @@ impl NoisyMouse {
         let target = self.belief.middle(leap.end);
         let along = heading_of(looks).unit();
         let left = heading_of(looks.left()).unit();
+        let mut near = 0;
         for _ in 0..PATIENCE {
             let pose = self.pose();
             let away = target - pose.position;
@@ -200,8 +233,9 @@ impl NoisyMouse {
                 .sensing()
                 .scan()
                 .and_then(|scan| scan.ranges.get(1).copied());
-            let blocked = ahead > 0.0 && front.is_some_and(|range| range < TOO_NEAR);
-            if way < CLOSE.1 || blocked {
+            let is_near = ahead > 0.0 && front.is_some_and(|range| range < TOO_NEAR.0);
+            near = if is_near { near + 1 } else { 0 };
+            if way < CLOSE.1 || near >= TOO_NEAR.1 {
                 return Ok(());
             }
             // Towards the middle of the corridor, the more the farther from it.
@@ -213,6 +247,7 @@ impl NoisyMouse {
                 translate: ahead * (way / self.config.translate_per_step).min(PACE),
             };
             if self.time_step(robot, command)? {
+                self.bumped(if ahead > 0.0 { looks } else { looks.opposite() });
                 // Off the wall again, and look.
                 let back = TurnTranslate {
                     turn: 0.0,
@@ -225,6 +260,16 @@ impl NoisyMouse {
         Ok(())
     }
 
+    /// Takes in that it touched something while it drove to `side`: the wall of its cell there, unless that is too near or far.
+    fn bumped(&mut self, side: Direction) {
+        let cell = self.cell();
+        let off = self.pose().position - self.belief.middle(cell);
+        let ahead = off.dot(&heading_of(side).unit()) / self.belief.pitch();
+        if (AT_WALL.0..AT_WALL.1).contains(&ahead) {
+            self.belief.bump(cell, side);
+        }
+    }
+
     fn turn_to<R: NoisyBody>(&mut self, robot: &mut R, side: Direction) -> Result<(), R::Error> {
         for _ in 0..PATIENCE {
             let off = self.pose().heading.turn_to(heading_of(side));
@@ -232,7 +277,7 @@ impl NoisyMouse {
                 break;
             }
             let command = TurnTranslate {
-                turn: (off / self.config.turn_per_step).clamp(-1.0, 1.0),
+                turn: (off / self.config.turn_per_step).clamp(-PACE, PACE),
                 translate: 0.0,
             };
             self.time_step(robot, command)?;

@@ -1,0 +1,29 @@
+use core::f64::consts::TAU;
+
+use super::RangeReading;
+
+/// How range sensors err.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RangeModel {
+    /// Standard deviation of a range, m. > 0.
+    pub absolute: f64,
+    /// The same as a share of the range. ≥ 0.
+    pub relative: f64,
+    /// The share of readings that have nothing to do with the walls in the map, such as those that meet a post. Within 0 … 1.
+    pub outliers: f64,
+}
+
+impl RangeModel {
+    /// The density of a reading whose expectation is `range`.
+    pub(super) fn density(&self, reading: f64, range: f64) -> f64 {
+        let relative = self.relative * range;
+        let sd = libm::sqrt(self.absolute * self.absolute + relative * relative);
+        let off = (reading - range) / sd;
+        libm::exp(-0.5 * off * off) / (sd * libm::sqrt(TAU))
+    }
+
+    /// The density of a reading that has the density `met` by the walls, or may be an outlier.
+    pub(super) fn mixed(&self, reading: RangeReading, met: f64) -> f64 {
+        self.outliers / reading.max_range + (1.0 - self.outliers) * met
+    }
+}
