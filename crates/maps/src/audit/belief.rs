@@ -93,13 +93,11 @@ impl<'a> Belief<'a> {
         self.refresh();
     }
 
-    /// Drops what a way that shares no run with its witness speaks against, and what only one other run bears witness to that has no other
-    /// witness either; believes again what has a witness then.
+    /// Drops what a way that shares no run with its witness speaks against, and believes again what has a witness then: closures that bear
+    /// witness to each other alone have none.
     fn drop_contested(&mut self) {
         let believed = self.open(true).into_iter();
-        let contested: Vec<u32> = believed
-            .filter(|link| self.is_contested(*link) || self.is_of_two(*link))
-            .collect();
+        let contested: Vec<u32> = believed.filter(|link| self.is_contested(*link)).collect();
         if contested.is_empty() {
             return;
         }
@@ -107,34 +105,6 @@ impl<'a> Belief<'a> {
             self.believed[link as usize] = false;
         }
         self.come_to_rest();
-    }
-
-    /// Whether two runs bear witness to each other alone, which among many closures comes about by chance.
-    fn is_of_two(&self, link: u32) -> bool {
-        let mut asked = alloc::vec![link];
-        let mut runs = alloc::vec![self.links[link as usize].run];
-        let mut next = 0;
-        while let Some(one) = asked.get(next).map(|one| *one as usize) {
-            next += 1;
-            if self.by_odometry[one] == ByOdometry::Supports {
-                return false;
-            }
-            let over = self.found[one].iter().flat_map(|(way, _)| way.closures());
-            for over in over
-                .filter(|over| !asked.contains(over))
-                .collect::<Vec<_>>()
-            {
-                asked.push(over);
-                let run = self.links[over as usize].run;
-                if !runs.contains(&run) {
-                    runs.push(run);
-                }
-            }
-            if runs.len() > 2 {
-                return false;
-            }
-        }
-        true
     }
 
     fn is_contested(&mut self, link: u32) -> bool {
