@@ -116,7 +116,7 @@ fn what_a_system_makes_of_its_maps_is_judged_by_right_and_wrong_ones() {
         "2",
     ];
     let table = tolman(&arguments).done();
-    assert!(table.contains("  small: worlds 1; "), "{table}");
+    assert!(table.contains("  small: worlds 2; "), "{table}");
     assert!(table.contains("too few: 100 right"), "{table}");
     assert_eq!(tolman(&arguments).done(), table);
 }
