@@ -96,9 +96,9 @@ impl Hardest {
             .metric(Metric::least("least_success_percent", DrivenRun::success_percent).titled("success, least").decimals(1))
             .rows(rows)
             .note(format!(
-                "A run is a map with {} starts. In wings everything off the spine is there twice: a robot that begins in the wing without \
-                 the goal takes it for its twin, does not sense the goal where it should be, and goes to and fro until the spine tells the \
-                 wings apart. Blocks has crossing after equal crossing, and the loops of ladder are the same from both ends.",
+                "A run is a map with {} starts. In wings everything off the spine is there twice: where it takes one wing for the other, it leaves the \
+                 goal's, and goes to and fro until the spine tells the wings apart. Blocks has crossing after equal crossing, and the loops of \
+                 ladder are the same from both ends.",
                 self.starts
             ))
     }
