@@ -9,7 +9,7 @@
 //!    with the information that the match has.
 //! 4. The last keyframes together are matched to old ones that lie near, in a window that grows with the way since the last closure. Two
 //!    matches that agree become closures, and the graph is optimized.
-//! 5. [`ScanMatching::finish`] looks for all closures again, on the map that they made, until that finds no more.
+//! 5. [`ScanMatching::finish`] looks for all closures again, on the map that they made, until it finds the same ones twice.
 //! 6. [`ScanMatching::overlay`] finds where the map of another day lies on this one.
 //!
 //! Sources: E. Olson: Real-Time Correlative Scan Matching, 2009; K. Konolige et al.: Efficient Sparse Pose Adjustment for 2D Mapping,

@@ -57,6 +57,12 @@ impl PoseGraph {
         &self.edges
     }
 
+    /// Returns the edges that are closures, in the order they were added. O(edges).
+    pub fn closures(&self) -> impl Iterator<Item = &PoseEdge> {
+        let edges = self.edges.iter();
+        edges.filter(|edge| edge.kind == PoseEdgeKind::Closure)
+    }
+
     /// Adds a pose where it is believed to be, and returns its id.
     pub fn add_pose(&mut self, pose: Pose) -> u32 {
         self.poses.push(pose);

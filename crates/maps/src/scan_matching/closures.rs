@@ -139,8 +139,8 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Looks for all closures again, on the map as it is, and makes it agree, until that finds no more of them; then the map does not
-    /// change any more.
+    /// Looks for all closures again, on the map as it is, and makes it agree, until the same ones are found twice or the rounds are over; then
+    /// the map does not change any more.
     ///
     /// # Errors
     /// If a measurement does not fit the graph.
@@ -164,8 +164,7 @@ impl ScanMatching {
 
     /// The pairs of keyframes that are one place.
     fn closed(&self) -> Vec<[u32; 2]> {
-        let edges = self.graph.edges().iter();
-        let closures = edges.filter(|edge| edge.kind == PoseEdgeKind::Closure);
+        let closures = self.graph.closures();
         closures.map(|edge| [edge.from, edge.to]).collect()
     }
 

@@ -142,9 +142,7 @@ impl ScanMatching {
     /// Returns how many closures the map has.
     #[must_use]
     pub fn closures(&self) -> usize {
-        let edges = self.graph.edges().iter();
-        let closures = edges.filter(|edge| edge.kind == PoseEdgeKind::Closure);
-        closures.count()
+        self.graph.closures().count()
     }
 
     fn pose_of(&self, anchored: &Anchored) -> Pose {

@@ -6,7 +6,7 @@ use crate::venue::Venue;
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
 use tolman_arena::episode::{self, Episode, Lifted, Trial};
-use tolman_experiment::{BoxError, record, run_seed};
+use tolman_experiment::{BoxError, Metric, Table, record, run_seed};
 use tolman_sim::robots::LaserPioneerConfig;
 use tolman_systems::mslst::better::{BetterMap, BetterNavigator};
 
@@ -20,6 +20,32 @@ record! {
         /// Mean time steps of the Unlocalized oracle from the same starts, whose robot is as calibrated.
         oracle_steps: f64 => neither("Unlocalized oracle's steps").at_least(0),
     }
+}
+
+impl DrivenRun {
+    /// Returns a table of such runs, without its rows.
+    pub(super) fn table(name: &str, title: &str) -> Table {
+        let over = Metric::ratio(
+            "steps_over_unlocalized_oracle",
+            Self::steps,
+            Self::oracle_steps,
+        );
+        let least = Metric::least("least_success_percent", Self::success_percent);
+        Table::of::<Self>(name, title)
+            .metric(Metric::mean(Self::success_percent).decimals(1))
+            .metric(Metric::mean(Self::steps))
+            .metric(over.titled("steps / Unlocalized oracle's").decimals(2))
+            .metric(least.titled("success, least").decimals(1))
+    }
+}
+
+/// Starts by a map at least.
+const LEAST_STARTS: u32 = 5;
+
+/// Shares `runs` starts out: returns how many maps are learned, at most `most`, and how many starts each has.
+pub(super) fn shared_out(runs: u32, most: u32) -> (u32, u32) {
+    let maps = (runs / LEAST_STARTS).clamp(1, most);
+    (maps, (runs / maps).max(LEAST_STARTS))
 }
 
 /// Who drives, where, and from how many starts.

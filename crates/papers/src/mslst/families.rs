@@ -10,12 +10,11 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use serde::Serialize;
-use tolman_maze::{Braided, MazeFile, Perfect};
+use tolman_maze::{Braided, Perfect};
 
 use super::entrant::{Entrant, LearnerConfig};
 use crate::venue::{Drawing, LARGE_DRAWINGS, Venue};
 use tolman_arena::cast::Agent;
-use tolman_arena::course::Course;
 use tolman_arena::episode::{self, Trial};
 use tolman_arena::pioneer;
 use tolman_experiment::{
@@ -260,9 +259,7 @@ pub(super) fn random(job: &Job<'_>) -> Result<Venue, BoxError> {
         }
     };
     let name = format!("random maze {}", job.run);
-    let course = Course::for_body(&name, &MazeFile::from(maze), &pioneer::body())?;
-    let limit = course.step_limit();
-    Ok(Venue::new(job.table, &name, course, limit))
+    Venue::of_maze(job.table, &name, maze)
 }
 
 /// Median, quartiles and range of a field over all mazes.

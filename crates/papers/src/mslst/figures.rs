@@ -16,7 +16,7 @@ use tolman_systems::mslst::Learned;
 const SHOWN: usize = 25;
 
 /// Width of a plan, user units.
-const WIDTH: f64 = 420.0;
+pub(super) const WIDTH: f64 = 420.0;
 
 pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();

@@ -6,18 +6,17 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use serde::Serialize;
 use tolman_geom::Point;
-use tolman_maze::MazeFile;
 
-use super::driven::{DrivenRun, Driver};
+use super::driven::{DrivenRun, Driver, shared_out};
 use super::entrant::{Entrant, LearnerConfig};
+use super::figures::WIDTH;
 use crate::venue::{Venue, World};
-use tolman_arena::course::Course;
 use tolman_arena::episode::Episode;
 use tolman_arena::family::{Family, FamilySize};
 use tolman_arena::mslst::learn_better;
 use tolman_arena::pioneer::{self, ENCODER_SD, with_sensor_noise};
 use tolman_draw::{Figure, Series};
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Run, Table};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Run, Table};
 
 /// Name of the table.
 pub(super) const HARDEST: &str = "hardest";
@@ -30,9 +29,8 @@ const WORLDS: [(&str, u64); 4] = [
     ("ladder", 501),
 ];
 
-/// Maps of each world at most, and starts by each at least.
+/// Maps of each world at most.
 const MOST_MAPS: u32 = 50;
-const LEAST_STARTS: u32 = 5;
 
 /// An episode is drawn as a detour if it takes so many times as long as the Unlocalized oracle's.
 const DETOUR: u32 = 2;
@@ -56,14 +54,14 @@ pub(super) struct HardestConfig<'a> {
 impl Hardest {
     /// `runs` starts a world.
     pub(super) fn new(runs: u32, limit: Option<u32>) -> Result<Self, BoxError> {
-        let maps = (runs / LEAST_STARTS).clamp(1, MOST_MAPS);
+        let (maps, starts) = shared_out(runs, MOST_MAPS);
         let worlds = WORLDS.iter().map(|(family, seed)| {
             let venue = world(family, *seed)?;
             Ok(venue.limited(limit))
         });
         Ok(Self {
             maps,
-            starts: (runs / maps).max(LEAST_STARTS),
+            starts,
             worlds: worlds.collect::<Result<_, BoxError>>()?,
         })
     }
@@ -80,20 +78,11 @@ impl Hardest {
     }
 
     pub(super) fn table(&self) -> Table {
-        let over = Metric::ratio(
-            "steps_over_unlocalized_oracle",
-            DrivenRun::steps,
-            DrivenRun::oracle_steps,
-        );
         let rows = self
             .worlds
             .iter()
             .map(|world| Row::new(&world.course.name).runs(self.maps));
-        Table::of::<DrivenRun>(HARDEST, "The worlds that are hardest for the better system")
-            .metric(Metric::mean(DrivenRun::success_percent).decimals(1))
-            .metric(Metric::mean(DrivenRun::steps))
-            .metric(over.titled("steps / Unlocalized oracle's").decimals(2))
-            .metric(Metric::least("least_success_percent", DrivenRun::success_percent).titled("success, least").decimals(1))
+        DrivenRun::table(HARDEST, "The worlds that are hardest for the better system")
             .rows(rows)
             .note(format!(
                 "A run is a map with {} starts. In wings everything off the spine is there twice: where it takes one wing for the other, it leaves the \
@@ -165,14 +154,11 @@ impl Hardest {
             plan.drawing(format!("Plan of {name}: the ways from {starts} starts.")),
         );
         Ok(figure.table(HARDEST).caption(format!(
-            "From {detours} of {starts} starts it takes more than twice the Unlocalized oracle's steps, at most {longest:.1} times; \
-             those are drawn in the second colour."
+            "From {detours} of {starts} starts it takes more than twice the Unlocalized oracle's steps: these ways are drawn in the \
+             second colour. The worst takes {longest:.1} times as many."
         )))
     }
 }
-
-/// Width of a plan, user units.
-const WIDTH: f64 = 420.0;
 
 fn world(family: &str, seed: u64) -> Result<Venue, BoxError> {
     let families = Family::all();
@@ -181,7 +167,5 @@ fn world(family: &str, seed: u64) -> Result<Venue, BoxError> {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let maze = (drawn.draw)(drawn.size(FamilySize::Middle), rng)?;
     let name = format!("{family} {seed}");
-    let course = Course::for_body(&name, &MazeFile::from(maze), &pioneer::body())?;
-    let limit = course.step_limit();
-    Ok(Venue::new(HARDEST, &name, course, limit))
+    Venue::of_maze(HARDEST, &name, maze)
 }

@@ -10,13 +10,13 @@ use serde::Serialize;
 use tolman_maze::{Maze, MazeFile};
 
 use super::condition::Condition;
-use super::driven::{DrivenRun, Driver};
+use super::driven::{DrivenRun, Driver, shared_out};
 use super::entrant::{Entrant, LearnerConfig};
 use crate::venue::{self, Drawing, LARGE_DRAWINGS, Venue};
 use tolman_arena::course::Course;
 use tolman_arena::mslst::learn_better_without;
 use tolman_arena::pioneer;
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, run_seed};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, run_seed};
 use tolman_sim::DoorState;
 use tolman_systems::mslst::better::BetterPart;
 use tolman_systems::stream;
@@ -38,9 +38,6 @@ const PARTS: [(&str, Option<BetterPart>); 7] = [
 
 /// Stream of where doors shut.
 const DOOR_STREAM: u64 = 4;
-
-/// Starts in a drawing at least.
-const LEAST_STARTS: u32 = 5;
 
 /// The drawings, and what is planned in them.
 #[derive(Debug)]
@@ -64,10 +61,10 @@ pub(super) struct RobustnessConfig {
 impl Robustness {
     /// `runs` starts in all, in drawings with at least five starts each.
     pub(super) fn new(runs: u32, limit: Option<u32>) -> Self {
-        let mazes = (runs / LEAST_STARTS).clamp(1, LARGE_DRAWINGS.len() as u32);
+        let (mazes, starts) = shared_out(runs, LARGE_DRAWINGS.len() as u32);
         Self {
             mazes,
-            starts: (runs / mazes).max(LEAST_STARTS),
+            starts,
             limit,
             venues: (0..mazes).map(|_| Default::default()).collect(),
         }
@@ -105,16 +102,7 @@ impl Robustness {
         title: &str,
         rows: impl IntoIterator<Item = &'static str>,
     ) -> Table {
-        let over = Metric::ratio(
-            "steps_over_unlocalized_oracle",
-            DrivenRun::steps,
-            DrivenRun::oracle_steps,
-        );
-        Table::of::<DrivenRun>(name, title)
-            .metric(Metric::mean(DrivenRun::success_percent).decimals(1))
-            .metric(Metric::mean(DrivenRun::steps))
-            .metric(over.titled("steps / Unlocalized oracle's").decimals(2))
-            .metric(Metric::least("least_success_percent", DrivenRun::success_percent).titled("success, least").decimals(1))
+        DrivenRun::table(name, title)
             .rows(rows.into_iter().map(|row| Row::new(row).runs(self.mazes)))
             .note(format!(
                 "A run is a drawing of Large with {} starts, by one map that was learned in it. The Unlocalized oracle's robot is as \

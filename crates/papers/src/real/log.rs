@@ -6,7 +6,6 @@ use tolman_experiment::BoxError;
 use tolman_formats::RosBag;
 use tolman_formats::{LogEntry, LogReader, LogReport, LogScan, is_mcap};
 use tolman_geom::Pose;
-use tolman_maps::pose_graph::PoseEdgeKind;
 use tolman_maps::scan_matching::{ScanMatching, ScanMatchingConfig, ScanStep};
 use tolman_robot::{MapView, Mapper, TimedPose, Trajectory};
 use tolman_systems::places::{PlacesConfig, PlacesError, PlacesMapper};
@@ -207,8 +206,7 @@ impl RobotLog {
 
 impl MappedLog {
     fn of(matching: &ScanMatching) -> Self {
-        let edges = matching.graph().edges().iter();
-        let closures = edges.filter(|edge| edge.kind == PoseEdgeKind::Closure);
+        let closures = matching.graph().closures();
         Self {
             poses: matching.trajectory(),
             closures: matching.closures(),

@@ -10,6 +10,7 @@ use alloc::collections::BTreeMap;
 
 use serde::Serialize;
 use tolman_geom::Point;
+use tolman_maze::{Maze, MazeFile};
 use tolman_sim::robots::LaserPioneerConfig;
 
 use crate::Recorder;
@@ -134,6 +135,16 @@ impl Venue {
             cast: Cast::default(),
             paper: &[],
         }
+    }
+
+    /// A maze of which the paper says nothing, with a limit in proportion to its corridors.
+    ///
+    /// # Errors
+    /// If the robot does not fit its corridors.
+    pub(super) fn of_maze(table: &str, name: &str, maze: Maze) -> Result<Self, BoxError> {
+        let course = Course::for_body(name, &MazeFile::from(maze), &pioneer::body())?;
+        let limit = course.step_limit();
+        Ok(Self::new(table, name, course, limit))
     }
 
     /// With what the paper says.
