@@ -54,7 +54,6 @@ const STEPS: &[Step] = &[
     ("outside", || passed(outside::check())),
     ("api docs", || passed(docs::api())),
     ("golden", || passed(golden::run_quick())),
-    // With the command that the golden runs have just built.
     ("commands", commands),
     ("bare metal", bare_metal::check),
     ("firmware", firmware::check),
@@ -119,10 +118,10 @@ fn tests() -> Result<Outcome> {
 
 /// Every command that README, pages and help texts show.
 fn commands() -> Result<Outcome> {
-    let release = workspace::target_folder()?.join("release/tolman");
+    let built = workspace::target_folder()?.join("debug/tolman");
     // For the whole workspace, so that what the tests have compiled serves.
     let mut test = cargo("test --workspace --all-features --test commands --quiet -- --ignored");
-    passed(succeed(test.env("TOLMAN", release)))
+    passed(succeed(test.env("TOLMAN", built)))
 }
 
 /// A command of the workspace as the tests built it.

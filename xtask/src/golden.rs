@@ -50,24 +50,24 @@ const TABLES: &[(&str, &[&str])] = &[(
 /// # Errors
 /// If an experiment fails or a value is another.
 pub(crate) fn run(bless: bool) -> Result<()> {
-    run_all_but(&[], bless)
+    succeed(&mut cargo("build --release --quiet --package tolman"))?;
+    run_all_but(&[], bless, "release")
 }
 
 /// What takes longest, and is left to `cargo xtask golden` by hand.
 const SLOW: &[&str] = &["mslst", "mslst-sweeps", "diktiometry"];
 
-/// Compares all but the slowest.
+/// Compares all but the slowest, with the command that the tests have built.
 ///
 /// # Errors
 /// If an experiment fails or a value is another.
 pub(crate) fn run_quick() -> Result<()> {
-    run_all_but(SLOW, false)
+    run_all_but(SLOW, false, "debug")
 }
 
-fn run_all_but(left_out: &[&str], bless: bool) -> Result<()> {
-    succeed(&mut cargo("build --release --quiet --package tolman"))?;
+fn run_all_but(left_out: &[&str], bless: bool, profile: &str) -> Result<()> {
     let target = workspace::target_folder()?;
-    let tolman = || Command::new(target.join("release").join("tolman"));
+    let tolman = || Command::new(target.join(profile).join("tolman"));
     let mut moved = Vec::new();
     for (name, runs, more) in PINNED.iter().filter(|pinned| !left_out.contains(&pinned.0)) {
         let made = target.join("golden").join(name);

@@ -2,7 +2,7 @@
 //! that holds nothing but `mazes` and `logs`, and ends with the exit code that a comment behind it names, else 0.
 //!
 //! A debug build takes many minutes. `TOLMAN` may name another one: `cargo build --release -p tolman`, then
-//! `TOLMAN=target/release/tolman cargo test -p tolman --test commands -- --ignored`.
+//! `TOLMAN=target/debug/tolman cargo test -p tolman --test commands -- --ignored`.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![cfg(unix)]
 
