@@ -118,10 +118,9 @@ fn tests() -> Result<Outcome> {
 
 /// Every command that README, pages and help texts show.
 fn commands() -> Result<Outcome> {
-    let built = workspace::target_folder()?.join("debug/tolman");
     // For the whole workspace, so that what the tests have compiled serves.
     let mut test = cargo("test --workspace --all-features --test commands --quiet -- --ignored");
-    passed(succeed(test.env("TOLMAN", built)))
+    passed(succeed(test.env("TOLMAN", built("tolman")?.get_program())))
 }
 
 /// A command of the workspace as the tests built it.

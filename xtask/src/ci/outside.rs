@@ -11,7 +11,7 @@ use crate::workspace;
 /// The commit that the program is told it is built from.
 const COMMIT: &str = "0123abcd";
 
-/// Builds the program with what the workspace has compiled, and lets it draw a world, learn it and run an experiment.
+/// Builds the program, and lets it draw a world, learn it and run an experiment.
 ///
 /// # Errors
 /// If it does not build, a command of it fails, or its report names another program or commit than its own.
