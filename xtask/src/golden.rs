@@ -26,7 +26,7 @@ const PINNED: &[Pinned] = &[
     (
         "cpm",
         1,
-        &[(40, "explored"), (200, "aliased"), (100, "localization")],
+        &[(10, "explored"), (50, "aliased"), (25, "localization")],
     ),
     ("gngslam", 1, &[(10, "guesses")]),
     ("arena", QUICK, &[]),
@@ -55,7 +55,7 @@ pub(crate) fn run(bless: bool) -> Result<()> {
 }
 
 /// What takes longest, and is left to `cargo xtask golden` by hand.
-const SLOW: &[&str] = &["mslst", "mslst-sweeps", "diktiometry"];
+const SLOW: &[&str] = &["mslst", "mslst-sweeps", "diktiometry", "gngslam"];
 
 /// Compares all but the slowest, with the command that the tests have built.
 ///

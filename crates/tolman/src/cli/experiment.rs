@@ -24,7 +24,7 @@ Examples:
   tolman experiment baselines --quick --jobs 1 --out two
   tolman experiment --compare one two
   tolman experiment baselines --maze mazes/grid/braided-2.txt --maze mazes/j.maze --runs 100
-  tolman experiment diktiometry --table 3b --runs 10
+  tolman experiment diktiometry --table 3b --runs 2
   tolman experiment baselines --replay '2 (J)' Avoid 137")]
 pub(super) struct Arguments {
     /// The experiment; all of them one after the other when left out

@@ -67,7 +67,7 @@ Examples:
   tolman learn --system cpm --maze mazes/cpm-3.maze --out map.json
   tolman learn --system diktiometry --maze mazes/j-long.maze --out j-survey.json
   tolman maze show mazes/j.maze
-  tolman mouse mazes/grid --worst 3
+  tolman mouse mazes/grid/braided-1.txt
   tolman race mazes/grid/braided-2.txt --svg race.svg
   tolman arena --system cpm-better --family office
   tolman map --log logs/office.clf.gz --out office

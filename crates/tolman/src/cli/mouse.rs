@@ -39,7 +39,7 @@ ahead and to its right before it. --json writes one object a maze and line.
 Examples:
   tolman mouse mazes/grid/braided-2.txt
   tolman mouse mazes/grid --worst 3
-  tolman mouse mazes/grid --until worth
+  tolman mouse mazes/grid/braided-1.txt --until worth
   tolman mouse mazes/grid/perfect-1.txt --replay mouse.html --trace mouse.jsonl
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid")]
 pub(super) struct Arguments {
