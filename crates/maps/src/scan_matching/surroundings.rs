@@ -1,14 +1,17 @@
 //! What a laser that looks all round would see, by the scans of one that does not.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{FRAC_PI_2, TAU};
+use core::ops::Range;
 
-use tolman_geom::{Heading, Vector};
+use tolman_geom::{Heading, Point, Vector};
 use tolman_robot::{Ring, Scan};
 
 use super::ScanMatching;
 
 /// Keyframes before and after that show what is around.
 const SHOWN: usize = 14;
+/// Keyframes before and after whose surfaces tell how the heading has drifted.
+const ABOUT: usize = 20;
 
 impl ScanMatching {
     /// Returns what a `ring` of beams that looks along the axes of the map would see from a keyframe, by the keyframes before and after; `None` if there
@@ -16,6 +19,20 @@ impl ScanMatching {
     #[must_use]
     pub fn surroundings(&self, keyframe: usize, ring: Ring, ahead: Heading) -> Option<Scan> {
         let here = self.graph.poses().get(keyframe)?.position;
+        self.surroundings_of(keyframe, here, ring, ahead)
+    }
+
+    /// Returns what a `ring` of beams that looks along the axes of the map would see from a point, by the keyframes about one; as
+    /// [`surroundings`](Self::surroundings) else.
+    #[must_use]
+    pub fn surroundings_of(
+        &self,
+        keyframe: usize,
+        here: Point,
+        ring: Ring,
+        ahead: Heading,
+    ) -> Option<Scan> {
+        self.keyframes.get(keyframe)?;
         let mut scan = Scan::clear(ring);
         let end = (keyframe + SHOWN + 1).min(self.keyframes.len());
         let shown = keyframe.saturating_sub(SHOWN)..end;
@@ -36,7 +53,27 @@ impl ScanMatching {
     /// O(keyframes).
     #[must_use]
     pub fn axis(&self) -> Option<Heading> {
-        let keyframes = self.keyframes.iter().zip(self.graph.poses());
+        self.axis_of(0..self.keyframes.len())
+    }
+
+    /// Returns which way most surfaces run that were seen from about a keyframe, where the heading of the map has drifted: the quarter turn next to the
+    /// [axis](Self::axis) of the building. `None` before a surface was seen. O(keyframes).
+    #[must_use]
+    pub fn axis_about(&self, keyframe: usize) -> Option<Heading> {
+        let end = (keyframe + ABOUT + 1).min(self.keyframes.len());
+        let here = self.axis_of(keyframe.saturating_sub(ABOUT).min(end)..end)?;
+        let all = self.axis()?;
+        let off = all.turn_to(here);
+        let quarters = libm::round(off / FRAC_PI_2);
+        Some(Heading::from_radians(
+            all.radians() + off - quarters * FRAC_PI_2,
+        ))
+    }
+
+    fn axis_of(&self, range: Range<usize>) -> Option<Heading> {
+        let keyframes = self.keyframes[range.clone()]
+            .iter()
+            .zip(&self.graph.poses()[range]);
         let turned = keyframes.map(|(keyframe, pose)| {
             let four_times = Heading::from_radians(4.0 * pose.heading.radians());
             four_times.rotate(keyframe.axis)

@@ -1,4 +1,5 @@
 use alloc::collections::BTreeMap;
+use core::error::Error;
 use std::path::Path;
 
 use tolman_experiment::BoxError;
@@ -8,7 +9,10 @@ use tolman_formats::{LogEntry, LogReader, LogReport, LogScan, is_mcap};
 use tolman_geom::Pose;
 use tolman_maps::scan_matching::{ScanMatching, ScanMatchingConfig, ScanStep};
 use tolman_robot::{MapView, Mapper, TimedPose, Trajectory};
-use tolman_systems::places::{PlacesConfig, PlacesError, PlacesMapper};
+use tolman_systems::cpm::CpmOfSites;
+use tolman_systems::diktiometry::DiktiometryOfSites;
+use tolman_systems::gngslam::PlaceGraphOfSites;
+use tolman_systems::places::{OfSites, PlacesConfig, PlacesMapper, SiteMapper};
 
 /// The scans of a log, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,6 +34,12 @@ pub enum LogSystem {
     ScanMatching,
     /// Scans matched to those before; junctions, bends, dead ends and rooms recognized.
     Places,
+    /// The same places, mapped by the diktiometry.
+    Diktiometry,
+    /// The same places, mapped by CPM.
+    Cpm,
+    /// The same places, mapped by the place graph of GNG-SLAM.
+    PlaceGraph,
 }
 
 /// What was found in a log.
@@ -47,6 +57,10 @@ pub struct MappedLog {
     pub places: MapView,
     /// The scan at which each place was first come to, by its id.
     pub founded: BTreeMap<u32, usize>,
+    /// The places that the robot came to, each by the keyframe in its middle and, if the map knows it, its id.
+    pub visits: Vec<(usize, Option<u32>)>,
+    /// How likely the mapper takes its map to be right; `None` if it does not weigh that.
+    pub certainty: Option<f64>,
 }
 
 /// A place seen again.
@@ -140,7 +154,8 @@ impl RobotLog {
         system: LogSystem,
         odometry: &[Pose],
         see: impl FnMut(usize),
-    ) -> Result<MappedLog, PlacesError> {
+    ) -> Result<MappedLog, BoxError> {
+        let corridors = PlacesConfig::indoor().corridor_width;
         let config = ScanMatchingConfig::indoor();
         let mut mapper = match system {
             LogSystem::Odometry => {
@@ -151,19 +166,24 @@ impl RobotLog {
                     closed: Vec::new(),
                     places: MapView::default(),
                     founded: BTreeMap::new(),
+                    visits: Vec::new(),
+                    certainty: None,
                 });
             }
             LogSystem::Places => {
                 let mut mapper = PlacesMapper::new(PlacesConfig::indoor())?;
                 self.show(&mut mapper, odometry, see)?;
                 mapper.finish()?;
-                let mut found = MappedLog::of(mapper.matching());
-                found.places = mapper.map();
-                for site in mapper.sites() {
-                    let scan = found.keyframes.get(site.keyframe).copied();
-                    found.founded.entry(site.id).or_insert(scan.unwrap_or(0));
-                }
-                return Ok(found);
+                let visits = mapper.sites().into_iter();
+                let visits = visits.map(|site| (site.keyframe, Some(site.id)));
+                return Ok(MappedLog::of(mapper.matching()).with_places(mapper.map(), visits));
+            }
+            LogSystem::Diktiometry => {
+                return self.map_sites(DiktiometryOfSites::indoor(corridors), odometry, see);
+            }
+            LogSystem::Cpm => return self.map_sites(CpmOfSites::indoor(corridors), odometry, see),
+            LogSystem::PlaceGraph => {
+                return self.map_sites(PlaceGraphOfSites::indoor(), odometry, see);
             }
             LogSystem::Matching => ScanMatching::new(config.without_closures()),
             LogSystem::ScanMatching => ScanMatching::new(config),
@@ -171,6 +191,28 @@ impl RobotLog {
         self.show(&mut mapper, odometry, see)?;
         mapper.finish()?;
         Ok(MappedLog::of(&mapper))
+    }
+
+    /// Tells a mapper of the places of the log.
+    fn map_sites<O>(
+        &self,
+        of_sites: O,
+        odometry: &[Pose],
+        see: impl FnMut(usize),
+    ) -> Result<MappedLog, BoxError>
+    where
+        O: OfSites<Error: Error + Send + Sync + 'static>,
+        O::Mapper: Mapper<Error: Error + Send + Sync + 'static>,
+    {
+        let mut mapper = SiteMapper::new(PlacesConfig::indoor(), of_sites)?;
+        self.show(&mut mapper, odometry, see)?;
+        mapper.finish()?;
+        let visits = mapper.keyframes_of_visits().into_iter();
+        let found = MappedLog::of(mapper.matching()).with_places(mapper.map(), visits);
+        Ok(MappedLog {
+            certainty: mapper.certainty(),
+            ..found
+        })
     }
 
     /// Shows a mapper the log, step by step.
@@ -220,6 +262,24 @@ impl MappedLog {
                 .collect(),
             places: MapView::default(),
             founded: BTreeMap::new(),
+            visits: Vec::new(),
+            certainty: None,
         }
+    }
+
+    fn with_places(
+        mut self,
+        places: MapView,
+        visits: impl Iterator<Item = (usize, Option<u32>)>,
+    ) -> Self {
+        self.places = places;
+        self.visits = visits.collect();
+        for (keyframe, place) in &self.visits {
+            let scan = self.keyframes.get(*keyframe).copied().unwrap_or(0);
+            if let Some(place) = place {
+                self.founded.entry(*place).or_insert(scan);
+            }
+        }
+        self
     }
 }

@@ -391,10 +391,14 @@ impl Mapper for Cpm {
             (CpmObservation::Began(start), _) => {
                 let explorer = Explorer::new(self.config, *start)?;
                 let patterns = self.patterns.clone();
+                self.trail.begin(explorer.mapper.at());
                 self.layer = Some(Layer3::new(patterns, self.novelty, explorer));
             }
             (CpmObservation::Walked(walked), Some(layer)) => {
-                layer.take_in(walked)?;
+                if let Some(arrival) = layer.take_in(walked)? {
+                    let at = layer.explorer().mapper.at();
+                    self.trail.walked(walked.turn, at, arrival);
+                }
             }
             (CpmObservation::Walked(_), None) => return Err(CpmObserveError::NotBegun),
         }

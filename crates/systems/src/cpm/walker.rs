@@ -2,7 +2,8 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use thiserror::Error;
 use tolman_control::epuck::{
-    FEATURES, Forward, Pilot, PilotError, PlaceKind, Profile, ProfileError, SegmentError, Segments,
+    FEATURES, Forward, Pilot, PilotError, PlaceKind, Profile, ProfileError, SegmentConfig,
+    SegmentError, Segments,
 };
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::cpm::{Bearings, Sighting};
@@ -51,6 +52,29 @@ pub struct Observation {
     pub feature: [f64; FEATURES],
     /// That of the same place seen by a robot that walks the other way.
     pub half_turned: [f64; FEATURES],
+}
+
+impl Observation {
+    /// Returns what becomes a common pattern of what is round the robot; `None` where not two ways are seen.
+    ///
+    /// # Errors
+    /// If the profile cannot be segmented.
+    pub fn of(round: &Profile, features: &SegmentConfig) -> Result<Option<Self>, SegmentError> {
+        let ahead = round.segments(features)?;
+        let back = round.half_turned().segments(features)?;
+        let nearest = ahead
+            .segments()
+            .iter()
+            .map(|segment| segment.mean)
+            .fold(0.0, f64::max);
+        if ahead.ways() != 2 || nearest > TOO_NEAR {
+            return Ok(None);
+        }
+        Ok(Some(Self {
+            feature: ahead.feature(0.0)?,
+            half_turned: back.feature(0.0)?,
+        }))
+    }
 }
 
 /// A walk to its end.
@@ -723,22 +747,8 @@ impl<B: CpmRobot> Walker<B> {
         observations - observations / SPREAD + libm::floor(unwritten / stride) as u32
     }
 
-    /// What becomes a common pattern; none where not two ways are seen.
     fn observation(&self, view: &View) -> WalkResult<Option<Observation>, B> {
-        let ahead = view.profile.segments(&self.config.features)?;
-        let back = view.profile.half_turned().segments(&self.config.features)?;
-        let nearest = ahead
-            .segments()
-            .iter()
-            .map(|segment| segment.mean)
-            .fold(0.0, f64::max);
-        if ahead.ways() != 2 || nearest > TOO_NEAR {
-            return Ok(None);
-        }
-        Ok(Some(Observation {
-            feature: ahead.feature(0.0)?,
-            half_turned: back.feature(0.0)?,
-        }))
+        Ok(Observation::of(&view.profile, &self.config.features)?)
     }
 }
 

@@ -149,11 +149,17 @@ impl<E> Mapper for Diktiometer<E> {
     /// known of, which a mapper with percepts refuses.
     fn observe(&mut self, seen: &ObservedMove) -> Result<(), RefusedMove> {
         if let Some(observer) = self.guide.observer_mut() {
+            if self.visited.is_empty() {
+                self.visited.push(observer.place());
+            }
             observer.step(seen)?;
+            self.visited.push(observer.place());
             return Ok(());
         }
         let mut observer = Observer::new(self.config.mapper.clone(), FirstPlace::default())?;
+        self.visited.push(observer.place());
         observer.step(seen)?;
+        self.visited.push(observer.place());
         self.guide.take_over(observer);
         Ok(())
     }

@@ -21,6 +21,7 @@ mod errors;
 mod eye;
 mod guide;
 mod odometer;
+mod of_sites;
 mod place_middle;
 mod planner;
 mod route_finder;
@@ -36,6 +37,7 @@ pub use diktiometer::{Diktiometer, DiktiometerConfig, DiktiometerError, RefusedM
 pub use errors::{RoutineError, SenseError};
 pub use eye::{CameraEye, Eye, LaserEye, NoEye, aligned_signatures, exit_signatures};
 pub use odometer::Odometer;
+pub use of_sites::DiktiometryOfSites;
 pub use planner::{PlannedMove, Planner, Reason};
 pub use routine_config::{RoutineConfig, RoutineConfigError};
 pub use rover::{Arrival, Rover};

@@ -12,6 +12,7 @@
 
 mod frontier;
 mod map_file;
+mod of_sites;
 mod offline;
 mod online;
 mod place_pilot;
@@ -20,6 +21,7 @@ mod sighting;
 mod wanderer;
 
 pub use map_file::{MapFile, MapFileError};
+pub use of_sites::PlaceGraphOfSites;
 pub use offline::{OfflineSlam, OfflineSlamConfig, OfflineSlamError, OfflineSlamFailure};
 pub use online::{ExplorationPolicy, OnlineSlam, OnlineSlamConfig, OnlineSlamError};
 pub use place_pilot::{PlacePilot, PlacePilotConfig, PlacePilotError};

@@ -37,4 +37,11 @@ impl PlacesConfig {
             most_compared: 3,
         }
     }
+
+    /// Returns the same for a mapper that recognizes no place: another does.
+    #[must_use]
+    pub const fn unrecognized(mut self) -> Self {
+        self.most_compared = 0;
+        self
+    }
 }

@@ -2,12 +2,14 @@ use alloc::collections::BTreeMap;
 
 use thiserror::Error;
 use tolman_control::{CorridorDetector, RingError, View};
-use tolman_geom::{Heading, Pose};
+use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maps::pose_graph::PoseEdgeKind;
 use tolman_maps::scan_matching::{ScanMatching, ScanMatchingError, ScanStep};
-use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Ring};
+use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper};
 
-use super::{PlacesConfig, SiteKind, SitePlace};
+use super::place::ways_on;
+use super::site_way::{middle_of, ring};
+use super::{PlacesConfig, Site, SiteKind, SitePlace, SiteStep, SiteWay};
 
 /// Why a map of places cannot be made, or refuses a step.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -35,12 +37,11 @@ pub struct PlacesMapper {
     visits: Vec<(SiteKind, usize)>,
 }
 
-/// The ring that the detector reads: the paper's 72 beams.
-const BEAMS: u32 = 72;
+/// How far about a place counts to its middle, in corridor widths, and how often the middle is looked for from where it was found before.
+const MIDDLE_WIDTHS: f64 = 1.0;
+const CLIMBED: u32 = 8;
 /// A closure of a greater squared error is not believed.
 const DOUBT: f64 = 16.0;
-/// Their reach, in corridor widths.
-const REACH_WIDTHS: f64 = 4.0;
 
 impl PlacesMapper {
     /// Returns a map of nothing.
@@ -49,10 +50,9 @@ impl PlacesMapper {
     /// If the corridors' width is no length.
     pub fn new(config: PlacesConfig) -> Result<Self, PlacesError> {
         let width = config.corridor_width;
-        let ring = Ring::full(BEAMS, REACH_WIDTHS * width);
         Ok(Self {
             matching: ScanMatching::new(config.matching.clone()),
-            detector: CorridorDetector::new(ring, width)?,
+            detector: CorridorDetector::new(ring(width), width)?,
             config,
             judged: 0,
             open: Vec::new(),
@@ -93,14 +93,139 @@ impl PlacesMapper {
         site.collect()
     }
 
+    /// Returns how many places it has come to.
+    #[must_use]
+    pub const fn visit_count(&self) -> usize {
+        self.visits.len()
+    }
+
+    /// Returns the place that it came to as number `visit`, counted from 0, as far as it was seen. The way by which the robot left is known when it has
+    /// come to the next. O(keyframes).
+    #[must_use]
+    pub fn site(&self, visit: usize) -> Option<Site> {
+        let (kind, keyframe) = *self.visits.get(visit)?;
+        let axis = self.matching.axis_about(keyframe)?;
+        let around = self
+            .matching
+            .surroundings(keyframe, self.detector.ring(), axis)?;
+        let came_from = match visit {
+            0 => self.pose(keyframe).heading.reversed(),
+            _ => Heading::of(self.far_off(keyframe, (0..keyframe).rev())),
+        };
+        let came_by = Site::quarter(from_axis(axis, came_from));
+        // A way that the robot took leads on, whatever the scans show.
+        let mut open = ways_on(&around, self.config.corridor_width);
+        open[came_by] = true;
+        if let Some((_, next)) = self.visits.get(visit + 1) {
+            open[self.left_by(axis, keyframe, *next)] = true;
+        }
+        Some(Site {
+            keyframe,
+            middle: self.middle(keyframe),
+            kind,
+            open,
+            around,
+            came_by,
+        })
+    }
+
+    /// Climbs from where the robot stood to the middle of the free ground there.
+    fn middle(&self, keyframe: usize) -> Point {
+        let ring = self.detector.ring();
+        let reach = MIDDLE_WIDTHS * self.config.corridor_width;
+        let mut middle = self.pose(keyframe).position;
+        for _ in 0..CLIMBED {
+            let matching = &self.matching;
+            let Some(seen) = matching.surroundings_of(keyframe, middle, ring, Heading::EAST) else {
+                break;
+            };
+            middle += middle_of(&seen, reach);
+        }
+        middle
+    }
+
+    /// Returns the quarter by which the robot left a place for the next.
+    fn left_by(&self, axis: Heading, from: usize, to: usize) -> usize {
+        let left = Heading::of(self.far_off(from, from + 1..=to));
+        Site::quarter(from_axis(axis, left))
+    }
+
+    /// Returns the way to the place that it came to as number `visit`; `None` of the first. O(keyframes on the way · keyframes).
+    #[must_use]
+    pub fn way_to(&self, visit: usize) -> Option<SiteWay> {
+        let (from, to) = (self.site(visit.checked_sub(1)?)?, self.site(visit)?);
+        let poses = &self.matching.graph().poses()[from.keyframe..=to.keyframe];
+        let mut moved = Vector::zeros();
+        let mut steps = Vec::new();
+        for (keyframe, pair) in (from.keyframe + 1..).zip(poses.windows(2)) {
+            let axis = self.matching.axis_about(keyframe)?;
+            let step = pair[1].position - pair[0].position;
+            moved += Heading::from_radians(-axis.radians()).rotate(step);
+            let (ring, ahead) = (self.detector.ring(), pair[1].heading);
+            steps.push(SiteStep {
+                moved: pair[0].between(pair[1]),
+                around: self.matching.surroundings(keyframe, ring, ahead)?,
+            });
+        }
+        let axis = self.matching.axis_about(from.keyframe)?;
+        Some(SiteWay {
+            left_by: self.left_by(axis, from.keyframe, to.keyframe),
+            moved: moved + self.to_middle(&to)? - self.to_middle(&from)?,
+            length: self.way_between(from.keyframe, to.keyframe),
+            steps,
+            from,
+            to,
+        })
+    }
+
+    /// Returns the way from where the robot stood in a place to its middle, along the building's axes, m.
+    fn to_middle(&self, site: &Site) -> Option<Vector> {
+        let axis = self.matching.axis_about(site.keyframe)?;
+        let off = site.middle - self.pose(site.keyframe).position;
+        Some(from_axis(axis, Heading::EAST).rotate(off))
+    }
+
+    /// Returns where the first of some keyframes lies that is farther off than a corridor is wide, or the last.
+    fn far_off(&self, from: usize, others: impl Iterator<Item = usize>) -> Vector {
+        let here = self.pose(from).position;
+        let mut off = Vector::zeros();
+        for other in others {
+            off = self.pose(other).position - here;
+            if off.norm() > self.config.corridor_width {
+                break;
+            }
+        }
+        off
+    }
+
+    /// Takes the place that it came to as number `visit` for one it came to before, if the scans match; returns whether they do.
+    ///
+    /// # Errors
+    /// If a measurement does not fit.
+    pub fn recognize(&mut self, visit: usize, before: usize) -> Result<bool, PlacesError> {
+        let keyframes = [visit, before].map(|visit| self.visits.get(visit).map(|site| site.1));
+        match keyframes {
+            [Some(here), Some(there)] => Ok(self.matching.recognize(here, there)?),
+            _ => Ok(false),
+        }
+    }
+
+    /// Judges what is left; the poses are as they were.
+    ///
+    /// # Errors
+    /// If a measurement does not fit.
+    pub fn come_to_rest(&mut self) -> Result<(), PlacesError> {
+        let all = self.matching.graph().poses().len();
+        self.judge_to(all)?;
+        self.leave()
+    }
+
     /// Judges what is left, and makes the poses agree; then the map does not change any more.
     ///
     /// # Errors
     /// If a measurement does not fit.
     pub fn finish(&mut self) -> Result<(), PlacesError> {
-        let all = self.matching.graph().poses().len();
-        self.judge_to(all)?;
-        self.leave()?;
+        self.come_to_rest()?;
         Ok(self.matching.finish()?)
     }
 
@@ -198,6 +323,11 @@ impl PlacesMapper {
             .map(|pair| (pair[1].position - pair[0].position).norm())
             .sum()
     }
+}
+
+/// Returns a heading as seen from an axis.
+fn from_axis(axis: Heading, heading: Heading) -> Heading {
+    heading.turned(-axis.radians())
 }
 
 impl Mapper for PlacesMapper {

@@ -4,11 +4,17 @@
 //! [`CorridorDetector`](tolman_control::CorridorDetector) by which the robots tell corridors from junctions reads it. Where it sees no corridor there is a
 //! place: a junction, a bend, a dead end or a room, by which of the four ways lead on. A place is recognized where the map has one and both look alike; two
 //! recognitions must agree. Nothing is compared between places.
+//!
+//! Every other mapper of places learns from the same places: a [`SiteMapper`] tells it of the ways between them ([`OfSites`]).
 
 mod config;
 mod mapper;
 mod place;
+mod site_mapper;
+mod site_way;
 
 pub use config::PlacesConfig;
 pub use mapper::{PlacesError, PlacesMapper};
 pub use place::{SiteKind, SitePlace};
+pub use site_mapper::{OfSites, SiteMapper, SiteMapperError};
+pub use site_way::{Site, SiteStep, SiteWay};

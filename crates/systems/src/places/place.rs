@@ -31,7 +31,7 @@ impl SiteKind {
     /// Returns what a scan of a `ring` that looks along the axes of a building shows, where corridors are `width` m wide.
     #[must_use]
     pub fn of(scan: &Scan, width: f64) -> Self {
-        let open = [0, 1, 2, 3].map(|quarter| is_open(&scan.ranges, &scan.ring, quarter, width));
+        let open = ways_on(scan, width);
         match open.iter().filter(|open| **open).count() {
             0 | 1 => Self::DeadEnd,
             2 if open[0] == open[2] => Self::Passage,
@@ -39,6 +39,12 @@ impl SiteKind {
             _ => Self::Junction,
         }
     }
+}
+
+/// Returns in which of the four quarters a way leads on, as a scan of a ring that looks along the axes of a building shows, where corridors are
+/// `width` m wide.
+pub(super) fn ways_on(scan: &Scan, width: f64) -> [bool; 4] {
+    [0, 1, 2, 3].map(|quarter| is_open(&scan.ranges, &scan.ring, quarter, width))
 }
 
 /// Whether the middle half of a quarter's beams see nothing near in the mean.

@@ -50,6 +50,16 @@ enum System {
     Matching,
     /// The wheels alone
     Odometry,
+    /// The same places; the diktiometry finds out which are the same by bounds on the ways between them
+    Diktiometry,
+    /// The same places; CPM finds out which are the same by what was seen on the ways between them
+    Cpm,
+    /// The same places; the place graph of GNG-SLAM finds out which are the same by what the laser reads there
+    Gngslam,
+    /// Refused: it learns from actions, which no log names
+    Mslst,
+    /// Refused: it learns the walls of a grid's cells, which no log tells
+    Micromouse,
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
@@ -82,10 +92,20 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         writeln!(out, "{line}")?;
     }
     writeln!(out, "The report: {}", folder.join("report.html").display())?;
-    match picture.doubt() {
+    match doubt(&found, &picture) {
         None => Ok(()),
         Some(doubt) => Err(Failure::Failed(anyhow!("the map is doubtful: {doubt}"))),
     }
+}
+
+/// What speaks against a map: by the mapper's own judgement, or by what the laser read.
+fn doubt(found: &MappedLog, picture: &MapPicture) -> Option<String> {
+    let is_doubtful = found.certainty.is_some_and(|certainty| certainty < 0.5);
+    let by_itself = is_doubtful.then(|| {
+        "its places may be one with another, or two were taken for one; the ways between them do not tell"
+            .to_owned()
+    });
+    by_itself.or_else(|| picture.doubt())
 }
 
 /// What was found, a line each.
@@ -114,6 +134,11 @@ fn found(log: &RobotLog, system: System) -> Result<MappedLog, Failure> {
         System::Places => LogSystem::Places,
         System::Matching => LogSystem::Matching,
         System::Odometry => LogSystem::Odometry,
+        System::Diktiometry => LogSystem::Diktiometry,
+        System::Cpm => LogSystem::Cpm,
+        System::Gngslam => LogSystem::PlaceGraph,
+        System::Mslst => return Err(refused("MSLST learns from actions")),
+        System::Micromouse => return Err(refused("the mouse learns the walls of a grid's cells")),
     };
     let template = "{bar:30} scan {pos} of {len}, {eta} to go";
     let progress = bar(u32::try_from(log.scans.len()).unwrap_or(u32::MAX), template);
@@ -121,7 +146,13 @@ fn found(log: &RobotLog, system: System) -> Result<MappedLog, Failure> {
         progress.set_position(scans as u64);
     });
     progress.finish_and_clear();
-    found.or_bad_input()
+    found.map_err(anyhow::Error::from_boxed).or_bad_input()
+}
+
+fn refused(why: &str) -> Failure {
+    Failure::BadInput(anyhow!(
+        "{why}, and a log tells of none: give --system diktiometry, cpm or gngslam"
+    ))
 }
 
 /// All that there is to be written.
@@ -174,7 +205,7 @@ impl Mapped<'_> {
 
     fn report(&self, figure: &Figure) -> String {
         let Self { log, found, .. } = self;
-        let verdict = match self.picture.doubt() {
+        let verdict = match doubt(found, self.picture) {
             None => "Nothing that the laser read speaks against the map.".to_owned(),
             Some(doubt) => format!("The map is doubtful: {doubt}."),
         };

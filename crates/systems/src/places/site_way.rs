@@ -1,0 +1,83 @@
+use core::f64::consts::FRAC_PI_2;
+
+use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_robot::{Ring, Scan};
+
+use super::SiteKind;
+
+/// A place as a robot sees it that comes to it, whether or not it was there before.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Site {
+    /// The keyframe in its middle, by its number.
+    pub keyframe: usize,
+    /// Where its middle lies: that of the free ground about it, to which one comes from all sides.
+    pub middle: Point,
+    /// What it is.
+    pub kind: SiteKind,
+    /// Which of the four ways along the building's axes lead on, counter-clockwise from the first axis.
+    pub open: [bool; 4],
+    /// What is around the robot there. The first beam looks along the first axis.
+    pub around: Scan,
+    /// The way by which the robot came, a quarter.
+    pub came_by: usize,
+}
+
+/// The way from one place to the next, as the scans on it tell it. Nothing was recognized to measure it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SiteWay {
+    /// The place at its beginning.
+    pub from: Site,
+    /// The way by which the robot left that, a quarter.
+    pub left_by: usize,
+    /// How far the robot came along the building's axes, m.
+    pub moved: Vector,
+    /// Way that the robot went for that, m.
+    pub length: f64,
+    /// The keyframes on it, that of the place at its end last.
+    pub steps: Vec<SiteStep>,
+    /// The place at its end.
+    pub to: Site,
+}
+
+/// A keyframe on the way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SiteStep {
+    /// Its pose as seen from the keyframe before.
+    pub moved: Pose,
+    /// What is around it. The first beam looks ahead.
+    pub around: Scan,
+}
+
+impl Site {
+    /// Returns the quarter counter-clockwise from the first axis, by its number, that a heading lies nearest to.
+    #[must_use]
+    pub fn quarter(heading: Heading) -> usize {
+        let quarters = libm::round(heading.radians() / FRAC_PI_2);
+        (quarters as i64).rem_euclid(4) as usize
+    }
+}
+
+/// The ring of what is around a place: the paper's 72 beams, that see so many corridor widths far.
+#[must_use]
+pub(super) fn ring(corridor_width: f64) -> Ring {
+    Ring::full(BEAMS, REACH_WIDTHS * corridor_width)
+}
+
+const BEAMS: u32 = 72;
+const REACH_WIDTHS: f64 = 4.0;
+
+/// Returns where the middle of the free ground lies that a scan shows within `reach`, m, in the scan's frame.
+pub(super) fn middle_of(scan: &Scan, reach: f64) -> Vector {
+    let (mut area, mut moment) = (0.0, Vector::zeros());
+    for (beam, range) in (0..).zip(&scan.ranges) {
+        let range = range.min(reach);
+        let ahead = Heading::from_radians(scan.ring.bearing(beam)).unit();
+        area += range * range / 2.0;
+        moment += ahead * (range * range * range / 3.0);
+    }
+    if area > 0.0 {
+        moment / area
+    } else {
+        Vector::zeros()
+    }
+}
