@@ -36,5 +36,5 @@ pub mod run;
 mod simulated;
 
 pub use mind::{AnyBrain, AnyRollingBrain, Mind};
-pub use outing::{Depicted, HasSimulated, Outing, RobotFacts, Sent, Site};
+pub use outing::{Depicted, Founding, HasSimulated, Outing, RobotFacts, Sent};
 pub use simulated::Simulated;

@@ -164,7 +164,7 @@ impl RobotFacts {
 
 /// How a place of a map was made.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Site {
+pub struct Founding {
     /// Where the robot truly was, m.
     pub position: Point,
     /// After how many actions since the first place.
@@ -264,7 +264,7 @@ pub struct Sent<R: Robot, S> {
     robot: Limited<R>,
     system: S,
     /// How each place of the map was made, by id.
-    sites: Vec<Site>,
+    sites: Vec<Founding>,
     /// Actions made since the map has a place.
     actions: u32,
     count: Count<S>,
@@ -281,8 +281,8 @@ pub struct Sent<R: Robot, S> {
 }
 
 type Count<S> = Box<dyn Fn(&S) -> usize>;
-type Keep<S> = Box<dyn Fn(&S, &[Site]) -> Result<Option<String>, BoxError>>;
-type Judge<S> = Box<dyn Fn(&S, &[Site], Task) -> Option<String>>;
+type Keep<S> = Box<dyn Fn(&S, &[Founding]) -> Result<Option<String>, BoxError>>;
+type Judge<S> = Box<dyn Fn(&S, &[Founding], Task) -> Option<String>>;
 type Lie<S> = Box<dyn Fn(&S) -> BTreeMap<u32, Point>>;
 
 impl<R: Robot, S> fmt::Debug for Sent<R, S> {
@@ -324,7 +324,7 @@ impl<R: Robot, S> Sent<R, S> {
     #[must_use]
     pub fn keeping(
         self,
-        keep: impl Fn(&S, &[Site]) -> Result<Option<String>, BoxError> + 'static,
+        keep: impl Fn(&S, &[Founding]) -> Result<Option<String>, BoxError> + 'static,
     ) -> Self {
         let keep = Box::new(keep);
         Self { keep, ..self }
@@ -338,7 +338,10 @@ impl<R: Robot, S> Sent<R, S> {
 
     /// The same, with how each place was made, by id.
     #[must_use]
-    pub fn judging(self, judge: impl Fn(&S, &[Site], Task) -> Option<String> + 'static) -> Self {
+    pub fn judging(
+        self,
+        judge: impl Fn(&S, &[Founding], Task) -> Option<String> + 'static,
+    ) -> Self {
         let judge = Box::new(judge);
         Self { judge, ..self }
     }
@@ -427,7 +430,7 @@ where
         if let (Some(began), Some(now)) = (began, self.robot.now()) {
             self.acting += now.saturating_sub(began);
         }
-        let made = Site {
+        let made = Founding {
             position: self.robot.robot().simulated().truth().pose.position,
             action: self.actions,
         };

@@ -267,6 +267,17 @@ impl MappedLog {
         }
     }
 
+    /// Returns the keyframes of the last visit before and of each visit to a place where the robot had been, by the map. O(visits · log places).
+    #[must_use]
+    pub fn recognized(&self) -> Vec<[usize; 2]> {
+        let mut last = BTreeMap::new();
+        let visits = self.visits.iter();
+        let visits = visits.filter_map(|(keyframe, place)| Some((*keyframe, (*place)?)));
+        visits
+            .filter_map(|(keyframe, place)| Some([last.insert(place, keyframe)?, keyframe]))
+            .collect()
+    }
+
     fn with_places(
         mut self,
         places: MapView,

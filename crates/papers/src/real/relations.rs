@@ -24,16 +24,20 @@ const PUBLISHED_TIMES: f64 = 976_052_857.34;
 
 /// A closure is wrong if the dense map has it farther off, m.
 const WRONG_M: f64 = 0.5;
-/// The row of places.
-const PLACES: &str = "intel places";
+/// Two visits that a map takes for the same place are not if the dense map has them farther apart, m.
+/// A room or a crossing of corridors is as wide, and a robot stands anywhere in it.
+const ELSEWHERE_M: f64 = 4.0;
 /// The row whose wheels are made worse.
 const MADE_WORSE: &str = "intel dense, wheels made worse";
 
-pub(super) const ROWS: [(&str, Option<LogSystem>); 6] = [
+pub(super) const ROWS: [(&str, Option<LogSystem>); 9] = [
     ("intel raw", Some(LogSystem::Odometry)),
     ("intel published", None),
     ("intel matching", Some(LogSystem::Matching)),
-    (PLACES, Some(LogSystem::Places)),
+    ("intel places", Some(LogSystem::Places)),
+    ("intel diktiometry", Some(LogSystem::Diktiometry)),
+    ("intel cpm", Some(LogSystem::Cpm)),
+    ("intel place graph", Some(LogSystem::PlaceGraph)),
     ("intel dense", Some(LogSystem::ScanMatching)),
     (MADE_WORSE, Some(LogSystem::ScanMatching)),
 ];
@@ -74,10 +78,16 @@ record! {
         relations: usize => neither("relations").decimals(0),
         /// Places seen again.
         closures: usize => neither("closures").decimals(0),
-        /// Those of the places that the dense map has elsewhere.
+        /// Those of a map of places that the dense map has elsewhere.
         wrong_closures: Option<usize> => lower("wrong closures").decimals(0),
-        /// Places of the map of places.
+        /// Places of a map of places.
         places: usize => neither("places").decimals(0),
+        /// How often the robot came to a place.
+        visits: usize => neither("visits").decimals(0),
+        /// How often it took a place for one where it had been.
+        recognized: usize => neither("recognized").decimals(0),
+        /// How often the dense map says that it was elsewhere.
+        wrongly_recognized: Option<usize> => lower("wrongly recognized").decimals(0),
     }
 }
 
@@ -97,7 +107,9 @@ pub(super) fn table() -> Table {
             "Every fifth scan of the raw log. Relations whose times lie within 30 s have a floor of 0.09 m, since their times lie between scans \
              that are a second apart. Published: the corrected log that others map with, which went through a mapper of its authors. \
              Matching: scans matched to those before, without closures. Places: with closures where a junction, a bend, a dead end or a room \
-             was recognized. Dense: with closures everywhere; wrong is a closure of the places that the dense map has more than half a metre elsewhere. Wheels made worse: all the way they turn 2° a metre to one side besides, and \
+             was recognized. Diktiometry, CPM, place graph: the same places, recognized by that mapper alone. Dense: with closures everywhere; wrong is a \
+             closure of a map of places that the dense map has more than half a metre elsewhere, and a place recognized that it has more than \
+             four metres from where the robot was before. Wheels made worse: all the way they turn 2° a metre to one side besides, and \
              every way is 5 % too long or too short; the sides are drawn for each run.",
         )
 }
@@ -158,21 +170,38 @@ impl Intel {
         Ok(mapped.closed.iter().filter(is_wrong).count())
     }
 
+    /// Counts places taken for one that the dense map has elsewhere.
+    fn elsewhere(&self, mapped: &MappedLog, recognized: &[[usize; 2]]) -> Result<usize, BoxError> {
+        let dense = self.dense()?;
+        let is_elsewhere = |pair: &&[usize; 2]| {
+            let [there, here] = pair.map(|keyframe| dense.poses[mapped.keyframes[keyframe]]);
+            (there.position - here.position).norm() > ELSEWHERE_M
+        };
+        Ok(recognized.iter().filter(is_elsewhere).count())
+    }
+
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let (way, mapped) = self.way(job)?;
         let path = file(RELATIONS).ok_or("the relations of the Intel lab are gone")?;
         let relations = ReadRelations::open(&path)?.relations;
         let score = RelationScore::of(&way, &relations).ok_or("no relation lies on the way")?;
+        let (visits, recognized) = (mapped.visits.len(), mapped.recognized());
         let run = RelationRun {
             error_m: score.error,
             error_over_30s_m: score.far_error.ok_or("no relation is far")?,
             relations: score.relations,
             closures: mapped.closures,
-            wrong_closures: match job.row {
-                PLACES => Some(self.wrong(&mapped)?),
-                _ => None,
+            wrong_closures: match visits {
+                0 => None,
+                _ => Some(self.wrong(&mapped)?),
             },
             places: mapped.places.places.len(),
+            visits,
+            recognized: recognized.len(),
+            wrongly_recognized: match visits {
+                0 => None,
+                _ => Some(self.elsewhere(&mapped, &recognized)?),
+            },
         };
         Ok(run.fields()?)
     }

@@ -3,7 +3,7 @@ use serde_json::{Value, json};
 use tolman_arena::course::{Course, Terrain};
 use tolman_arena::gngslam::{LaidOver, PIONEER_2DX, paper_robot};
 use tolman_arena::pioneer::{LASER_PIONEER, body, calibrated};
-use tolman_arena::{Depicted, Outing, Sent, Simulated, Site};
+use tolman_arena::{Depicted, Founding, Outing, Sent, Simulated};
 use tolman_draw::Drawing;
 use tolman_geom::{Point, Pose};
 use tolman_maps::place_graph::PlaceGraph;
@@ -241,7 +241,7 @@ impl Ground {
 }
 
 /// Where the robot truly was when each place was made: those of before, and the new ones.
-fn with(before: &[Point], made: &[Site]) -> Vec<Point> {
+fn with(before: &[Point], made: &[Founding]) -> Vec<Point> {
     let new = made.iter().skip(before.len()).map(|site| site.position);
     before.iter().copied().chain(new).collect()
 }

@@ -6,7 +6,7 @@ use tolman_arena::course::{Course, Terrain};
 use tolman_arena::gngslam::LaidOver;
 use tolman_arena::mslst::better_config;
 use tolman_arena::pioneer::{LASER_PIONEER, body, calibrated};
-use tolman_arena::{Outing, Sent, Site};
+use tolman_arena::{Founding, Outing, Sent};
 use tolman_control::heading_of;
 use tolman_draw::Drawing;
 use tolman_geom::{Heading, Point, Pose};
@@ -126,7 +126,7 @@ fn read(map: &MapText) -> Result<BetterMapFile, Error> {
 }
 
 /// Where the robot truly was when each place was made: the first one before its first action.
-fn sites(start: Point, made: &[Site]) -> Vec<Point> {
+fn sites(start: Point, made: &[Founding]) -> Vec<Point> {
     let first = made.first().map(|_| start);
     let others = made.iter().skip(1).map(|site| site.position);
     first.into_iter().chain(others).collect()
