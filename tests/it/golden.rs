@@ -1,5 +1,5 @@
-//! The runs of an experiment, line by line, as they were when they were last looked at. Debug or release,
-//! one thread or many, today or next year: the lines stay the same.
+//! The runs of an experiment, line by line, as they were when they were last looked at. Debug or
+//! release, one thread or many, today or next year: the lines stay the same.
 
 use std::fs;
 use std::path::Path;

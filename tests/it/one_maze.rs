@@ -1,5 +1,5 @@
-//! One robot, one maze, one scale: each system learns the maze and goes to its goal, through the one loop
-//! that runs systems.
+//! One robot, one maze, one scale: each system learns the maze and goes to its goal, through the
+//! one loop that runs systems.
 
 use core::fmt::Debug;
 
@@ -107,8 +107,8 @@ fn the_diktiometry_does() {
         ..OfficeConfig::bare()
     };
     let office = Office::new(&maze(), &furniture).unwrap();
-    // Bounds that hold for this robot. With the paper's 10 % of the way, corridors of three cells get
-    // more places than they have.
+    // Bounds that hold for this robot. With the paper's 10 % of the way, corridors of three cells
+    // get more places than they have.
     let surveyor = SurveyorConfig {
         odometry_share: 0.02,
         compass_bound: 0.005,
@@ -120,7 +120,8 @@ fn the_diktiometry_does() {
     );
     let mut system = Diktiometer::new(config, LaserEye { columns: 24 }, SEED);
     let (end, (explored, reached)) = explore_then_reach(pioneer(), &mut system);
-    // A link or two that are not there stay on the map, with all seeds that were tried: it says so, and finds the goal by it.
+    // A link or two that are not there stay on the map, with all seeds that were tried: it says so,
+    // and finds the goal by it.
     assert!(
         matches!(&end, TaskEnd::GaveUp { why } if why.contains("contradicts itself")),
         "{end:?}"

@@ -39,7 +39,8 @@ fn nobody_beats_the_oracle_and_nobody_is_worse_than_chance() {
                 agent.name()
             );
         }
-        // It has the same plan and a worse idea of where it is, so that by luck alone it is the faster.
+        // It has the same plan and a worse idea of where it is, so that by luck alone it is the
+        // faster.
         assert!(
             (0.95 * oracle..1.7 * oracle).contains(&unlocalized),
             "{name}: {means:?}"

@@ -23,8 +23,9 @@ pub(crate) enum Outcome {
 
 type Step = (&'static str, fn() -> Result<Outcome>);
 
-/// Cheap and telling steps first. All that is linted, tested and documented has all features on, so that none stays unseen, and is
-/// compiled but once; what only holds without them is for the plain build, bare metal and firmware.
+/// Cheap and telling steps first. All that is linted, tested and documented has all features on, so
+/// that none stays unseen, and is compiled but once; what only holds without them is for the plain
+/// build, bare metal and firmware.
 const STEPS: &[Step] = &[
     ("format", || passes("fmt --all --check")),
     ("layers", || passed(layers::run())),
@@ -109,7 +110,8 @@ fn print_table(table: &[(&str, Duration, String)], total: Duration) {
     eprintln!("{:<11} {:>7.1} s", "total", total.as_secs_f64());
 }
 
-/// With one seed for all property tests, so that a change passes or fails by what it changes; by hand they draw anew.
+/// With one seed for all property tests, so that a change passes or fails by what it changes; by
+/// hand they draw anew.
 fn tests() -> Result<Outcome> {
     let mut test = cargo(if installed("cargo-nextest") {
         "nextest run --workspace --all-features --status-level fail"

@@ -1,4 +1,5 @@
-//! `cargo xtask golden`: a few runs of every experiment give the values that are committed, to the bit.
+//! `cargo xtask golden`: a few runs of every experiment give the values that are committed, to the
+//! bit.
 
 use alloc::collections::BTreeSet;
 use std::fs;
@@ -9,7 +10,8 @@ use anyhow::{Context, Result, ensure};
 
 use crate::workspace::{self, cargo, succeed};
 
-/// An experiment whose runs are pinned, the runs of each row (none: those of `--quick`), and the tables of which there are more.
+/// An experiment whose runs are pinned, the runs of each row (none: those of `--quick`), and the
+/// tables of which there are more.
 type Pinned = (&'static str, u32, &'static [(u32, &'static str)]);
 
 /// The rows that an experiment has for a first look: the slowest are left out.

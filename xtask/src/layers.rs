@@ -1,5 +1,5 @@
-//! `cargo xtask layers`: the dependencies between the crates are those of docs/architecture.md, and one
-//! public name means one thing.
+//! `cargo xtask layers`: the dependencies between the crates are those of docs/architecture.md, and
+//! one public name means one thing.
 //!
 //! The page's tables are the rule, `cargo metadata` is the fact; [`rules::faults`] compares them.
 //! [`names::faults`] holds the names of types to docs/glossary.md.

@@ -37,13 +37,15 @@ enum Verb {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
-    /// Everything a change must pass: format, lints, tests, pages in a browser, docs, layers, mazes, bare metal
+    /// Everything a change must pass: format, lints, tests, pages in a browser, docs, layers,
+    /// mazes, bare metal
     Ci {
         /// Run the remaining steps after one has failed
         #[arg(long)]
         keep_going: bool,
     },
-    /// Plays a few runs of every experiment and compares them, to the bit, with those in tests/golden
+    /// Plays a few runs of every experiment and compares them, to the bit, with those in
+    /// tests/golden
     Golden {
         /// Put the runs into tests/golden instead
         #[arg(long)]
@@ -51,7 +53,8 @@ enum Verb {
     },
     /// Holds the dependencies between the crates to the tables of docs/architecture.md
     Layers,
-    /// Reads every maze in mazes/ and checks that it can be solved, and that the fragments of Mazes 1 to 3 of CPM are distinctive
+    /// Reads every maze in mazes/ and checks that it can be solved, and that the fragments of Mazes
+    /// 1 to 3 of CPM are distinctive
     Mazes,
     /// Measures the speed: all criterion benches and the long ray fuzz, or one bench
     Bench {

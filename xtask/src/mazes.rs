@@ -1,4 +1,5 @@
-//! `cargo xtask mazes`: every maze of the project can be read and solved, and the fragments of Mazes 1 to 3 of CPM are distinctive.
+//! `cargo xtask mazes`: every maze of the project can be read and solved, and the fragments of
+//! Mazes 1 to 3 of CPM are distinctive.
 
 use std::process::Command;
 

@@ -46,7 +46,8 @@ fn confusing(side: u32) -> PlaneMaze {
     PlaneMaze::random(&maze, &mut rng).unwrap()
 }
 
-/// A robot that sees a way too many at one place of thirty, as in an open room, so that no map explains all that it meets.
+/// A robot that sees a way too many at one place of thirty, as in an open room, so that no map
+/// explains all that it meets.
 fn miscounted(world: &PlaneMaze, walks: u32) -> Explorer {
     let mut rng = ChaCha8Rng::seed_from_u64(2);
     let mut rover = PlaneWalker::new(world, WalkerNoise::NOISY, Reckoning::Bounded);

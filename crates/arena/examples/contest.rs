@@ -1,4 +1,5 @@
-//! Sends contestants into worlds of all families: `cargo run --release -p tolman-arena --example contest [SYSTEM] [WORLDS] [own|pioneer] [SIZE]`.
+//! Sends contestants into worlds of all families:
+//! `cargo run --release -p tolman-arena --example contest [SYSTEM] [WORLDS] [own|pioneer] [SIZE]`.
 #![expect(clippy::print_stdout, reason = "its table is its result")]
 
 use std::time::Instant;

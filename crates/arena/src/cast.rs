@@ -69,7 +69,8 @@ impl Agent {
     }
 }
 
-/// Makes the minds of all agents for one robot on one course, and works out only once what they share.
+/// Makes the minds of all agents for one robot on one course, and works out only once what they
+/// share.
 #[derive(Debug, Default)]
 pub struct Cast {
     policy: OnceLock<Arc<Policy>>,
@@ -118,7 +119,8 @@ impl Cast {
     }
 }
 
-/// Returns what is in `cell`, or else what `make` makes for it. Two threads may make it at once; they make the same.
+/// Returns what is in `cell`, or else what `make` makes for it. Two threads may make it at once;
+/// they make the same.
 fn once<T, E>(cell: &OnceLock<Arc<T>>, make: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
     let made = match cell.get() {
         Some(made) => made,

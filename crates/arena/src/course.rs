@@ -105,14 +105,15 @@ pub enum CourseError {
 
 /// A world with corridors of one width, a destination if there is one, and places to start from.
 ///
-/// Most are mazes. In a [free world](Self::in_free_world) walls stand anywhere; there the cells are squares of half the robot's
-/// radius, which the same questions are answered by.
+/// Most are mazes. In a [free world](Self::in_free_world) walls stand anywhere; there the cells are
+/// squares of half the robot's radius, which the same questions are answered by.
 #[derive(Clone, Debug)]
 pub struct Course {
     /// The maze, or the file's, name.
     pub name: String,
-    /// The maze it was built from. Of a free world: its squares, with walls where the robot cannot pass from the middle of one to
-    /// that of the next. Whoever needs corridors and junctions as cells asks [`is_free`](Self::is_free) first.
+    /// The maze it was built from. Of a free world: its squares, with walls where the robot cannot
+    /// pass from the middle of one to that of the next. Whoever needs corridors and junctions as
+    /// cells asks [`is_free`](Self::is_free) first.
     pub maze: Maze,
     /// Its walls and zones.
     pub world: Arc<World>,
@@ -133,8 +134,8 @@ struct FreeFloor {
     text: Arc<str>,
 }
 
-/// MSLST gives a robot 500 time steps in its Large maze; the first one drawn here has 63 cells to start from, each
-/// [`CORRIDOR_WIDTH`] wide.
+/// MSLST gives a robot 500 time steps in its Large maze; the first one drawn here has 63 cells to
+/// start from, each [`CORRIDOR_WIDTH`] wide.
 const STEPS_PER_METRE: f64 = 500.0 / (63.0 * CORRIDOR_WIDTH);
 
 /// No course is so short that a robot need not turn round in it, time steps.
@@ -163,14 +164,16 @@ impl Course {
         }
     }
 
-    /// Returns a world whose walls stand anywhere as a course to its zone `destination` for a robot of this `body`, whose layers
-    /// take corridors to be `corridor_width` metres wide. Doors count as open.
+    /// Returns a world whose walls stand anywhere as a course to its zone `destination` for a robot
+    /// of this `body`, whose layers take corridors to be `corridor_width` metres wide. Doors count
+    /// as open.
     ///
-    /// A passage that is wider than the body by less than half its radius may be taken for closed. O(area), and
-    /// O(length) for each wall.
+    /// A passage that is wider than the body by less than half its radius may be taken for closed.
+    /// O(area), and O(length) for each wall.
     ///
     /// # Errors
-    /// [`CourseError`] if the world has no destination or none that can be reached, or the robot does not fit.
+    /// [`CourseError`] if the world has no destination or none that can be reached, or the robot
+    /// does not fit.
     pub fn in_free_world(
         name: &str,
         world: World,
@@ -228,12 +231,12 @@ impl Course {
         }
     }
 
-    /// Returns a maze file as a course to its destination for a robot of this `body`. The file's corridor width counts,
-    /// or else MSLST's 1.9 robot units.
+    /// Returns a maze file as a course to its destination for a robot of this `body`. The file's
+    /// corridor width counts, or else MSLST's 1.9 robot units.
     ///
     /// # Errors
-    /// [`CourseError`] if the maze has no destination or none that can be reached, or the robot does
-    /// not fit.
+    /// [`CourseError`] if the maze has no destination or none that can be reached, or the robot
+    /// does not fit.
     pub fn for_body(name: &str, file: &MazeFile, body: &Body) -> Result<Self, CourseError> {
         let width = file.corridor_width.unwrap_or(CORRIDOR_WIDTH);
         let diameter = 2.0 * body.radius();
@@ -246,8 +249,8 @@ impl Course {
         Ok(course)
     }
 
-    /// Returns what tells this drawing from others of its name: a hash of walls, marks and the corridors' width; of a free world,
-    /// of walls, zones and doors.
+    /// Returns what tells this drawing from others of its name: a hash of walls, marks and the
+    /// corridors' width; of a free world, of walls, zones and doors.
     #[must_use]
     pub fn drawing(&self) -> String {
         let text = match &self.free {
@@ -261,8 +264,8 @@ impl Course {
         format!("{hash:016x}")
     }
 
-    /// Time steps after which a run has failed where nothing else is said: in proportion to the length
-    /// of the corridors, as many for each metre as MSLST gives in its Large maze.
+    /// Time steps after which a run has failed where nothing else is said: in proportion to the
+    /// length of the corridors, as many for each metre as MSLST gives in its Large maze.
     #[must_use]
     pub fn step_limit(&self) -> u32 {
         let of_a_cell = match &self.free {
@@ -273,8 +276,8 @@ impl Course {
         (libm::ceil(STEPS_PER_METRE * metres - 1e-9) as u32).max(LEAST_STEPS)
     }
 
-    /// Whether a way leads from a position to the destination: whether it lies in a cell that is not
-    /// walled off from it. In a free world a square beside it is as good.
+    /// Whether a way leads from a position to the destination: whether it lies in a cell that is
+    /// not walled off from it. In a free world a square beside it is as good.
     #[must_use]
     pub fn leads_on(&self, position: Point) -> bool {
         if let Some(free) = &self.free {
@@ -308,8 +311,9 @@ impl Course {
         self.steps_to_goal[self.maze.grid().index(cell)]
     }
 
-    /// The length of the shortest way from the marked start to the destination, m; `None` if there is none. In a free world it is
-    /// that along squares, which may be longer by a factor of up to √2.
+    /// The length of the shortest way from the marked start to the destination, m; `None` if there
+    /// is none. In a free world it is that along squares, which may be longer by a factor of up to
+    /// √2.
     #[must_use]
     pub fn shortest_metres(&self) -> Option<f64> {
         if let Some(free) = &self.free {
@@ -320,8 +324,9 @@ impl Course {
         Some(f64::from(self.steps_from(start)?) * self.corridor_width)
     }
 
-    /// The first of four cells without a wall between them, if there are any: in rooms a robot that follows corridors may go round
-    /// for ever and take one way out for another. Of a free world nothing is said.
+    /// The first of four cells without a wall between them, if there are any: in rooms a robot that
+    /// follows corridors may go round for ever and take one way out for another. Of a free world
+    /// nothing is said.
     #[must_use]
     pub fn room(&self) -> Option<Cell> {
         if self.is_free() {
@@ -350,8 +355,8 @@ impl Course {
         Pose::new(self.cell_centre(cell), heading_of(direction))
     }
 
-    /// The middle of the cell that the maze marks as its start, looking as it says; the middle of a free world's zone `start`,
-    /// looking along the longest clear way.
+    /// The middle of the cell that the maze marks as its start, looking as it says; the middle of a
+    /// free world's zone `start`, looking along the longest clear way.
     ///
     /// # Errors
     /// [`CourseError::NoStart`], [`CourseError::NoStartZone`].
@@ -363,9 +368,9 @@ impl Course {
         Ok(self.in_cell(cell, direction))
     }
 
-    /// A random start: any of [those cells](Self::starts), or of all where there is no destination, with equal chance; any
-    /// place in its middle from which the body would stand clear of walls on all four sides, any heading. In a free world it is
-    /// the middle of a square.
+    /// A random start: any of [those cells](Self::starts), or of all where there is no destination,
+    /// with equal chance; any place in its middle from which the body would stand clear of walls on
+    /// all four sides, any heading. In a free world it is the middle of a square.
     pub fn random_start(&self, body: &Body, rng: &mut impl Rng) -> Pose {
         let mut cells: Vec<Cell> = self.starts().collect();
         if cells.is_empty() {
@@ -384,8 +389,9 @@ impl Course {
         Pose::new(self.cell_centre(cell) + offset, heading)
     }
 
-    /// The middle of any cell from which the destination can be reached, looking along a way out of it; `None` if there are none.
-    /// In a free world it is moved to the middle between what bounds the robot on both sides.
+    /// The middle of any cell from which the destination can be reached, looking along a way out of
+    /// it; `None` if there are none. In a free world it is moved to the middle between what bounds
+    /// the robot on both sides.
     #[must_use]
     pub fn anywhere(&self, seed: u64) -> Option<Pose> {
         let out_of = |cell| {

@@ -101,7 +101,8 @@ pub fn run(
 /// Does as [`run()`] does, with a robot that is lifted on the way.
 ///
 /// # Errors
-/// [`EpisodeError`] if the robot cannot be built, or not be put where it begins or where it is lifted to.
+/// [`EpisodeError`] if the robot cannot be built, or not be put where it begins or where it is
+/// lifted to.
 pub fn run_lifted(
     trial: &Trial<'_>,
     mind: &mut Mind,

@@ -1,12 +1,14 @@
 //! Worlds made ready for robots, and the loops that run systems in them.
 //!
-//! In the order data flows: a [`course`] is a maze, or a world of free walls, made ready for runs, the [`pioneer`] the robot that
-//! runs in it, and an [`episode`] one run of a [`Mind`] of the [`cast`]: a brain of `tolman-systems`, or an [`oracle`]
-//! that knows the truth. [`run`] is the loop that lets any system drive any robot; [`mslst`] lets MSLST learn.
+//! In the order data flows: a [`course`] is a maze, or a world of free walls, made ready for runs,
+//! the [`pioneer`] the robot that runs in it, and an [`episode`] one run of a [`Mind`] of the
+//! [`cast`]: a brain of `tolman-systems`, or an [`oracle`] that knows the truth. [`run`] is the
+//! loop that lets any system drive any robot; [`mslst`] lets MSLST learn.
 //!
-//! [`micromouse`] is a paper's mouse and its referee; in the [`competition`] a micromouse
-//! explores a maze for its speed run. [`gngslam`] has the arenas and the data of the place map. [`log_score`] judges ways that were
-//! found from logs. [`mms`] is the protocol of the simulator of that name.
+//! [`micromouse`] is a paper's mouse and its referee; in the [`competition`] a micromouse explores
+//! a maze for its speed run. [`gngslam`] has the arenas and the data of the place map.
+//! [`log_score`] judges ways that were found from logs. [`mms`] is the protocol of the simulator of
+//! that name.
 
 extern crate alloc;
 

@@ -22,7 +22,8 @@ pub(crate) struct Lingerer {
 }
 
 impl Lingerer {
-    /// Returns one that makes `times` as many actions as it takes `explorer` to have been everywhere.
+    /// Returns one that makes `times` as many actions as it takes `explorer` to have been
+    /// everywhere.
     pub(crate) fn new(explorer: BetterExplorer, times: u32) -> Self {
         Self {
             explorer,

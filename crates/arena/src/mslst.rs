@@ -45,13 +45,14 @@ pub struct BetterLearned {
     pub actions: u32,
     /// Where the robot truly was when each place was made, by id; metres.
     pub positions: Vec<Point>,
-    /// True places: of the positions where actions ended, as many as lie a robot's diameter apart, first come first counted.
+    /// True places: of the positions where actions ended, as many as lie a robot's diameter apart,
+    /// first come first counted.
     pub true_places: Vec<Point>,
 }
 
-/// Lets the better system learn a course on its own, until it has been everywhere or has made ten times the steps that a run may
-/// take there; then lets it wander on until it has made `times` as many actions, so that its map can be seen to stop growing. The same seed
-/// gives the same map.
+/// Lets the better system learn a course on its own, until it has been everywhere or has made ten
+/// times the steps that a run may take there; then lets it wander on until it has made `times` as
+/// many actions, so that its map can be seen to stop growing. The same seed gives the same map.
 ///
 /// # Errors
 /// [`LearnError`] if the robot cannot be built for the course.
@@ -70,7 +71,8 @@ pub fn learn_better(
     )
 }
 
-/// Lets the better system learn a course without one of its parts, if `without` names one, until it has been everywhere.
+/// Lets the better system learn a course without one of its parts, if `without` names one, until it
+/// has been everywhere.
 ///
 /// # Errors
 /// As [`learn_better`].
@@ -87,7 +89,8 @@ pub fn learn_better_without(
     learn_by(course, robot, &config, 1, seed)
 }
 
-/// Returns what the better system reckons with on `robot` where corridors are `corridor_width` m wide.
+/// Returns what the better system reckons with on `robot` where corridors are `corridor_width` m
+/// wide.
 #[must_use]
 pub fn better_config(corridor_width: f64, robot: &LaserPioneerConfig) -> BetterConfig {
     BetterConfig {

@@ -56,10 +56,12 @@ pub trait Outing: InRun {
     /// Returns where the system believes to be.
     fn belief(&self) -> Vec<Guess>;
 
-    /// Returns the places that the system came to, in order, as it understands them now; empty if its places keep their names.
+    /// Returns the places that the system came to, in order, as it understands them now; empty if
+    /// its places keep their names.
     fn visits(&self) -> Vec<Option<u32>>;
 
-    /// Returns how likely the system takes its map to be right, 0 … 1; `None` if it does not weigh that.
+    /// Returns how likely the system takes its map to be right, 0 … 1; `None` if it does not weigh
+    /// that.
     fn certainty(&self) -> Option<f64> {
         None
     }
@@ -77,7 +79,8 @@ pub trait Outing: InRun {
         Duration::ZERO
     }
 
-    /// Lifts the robot, puts it down at `pose` and tells the system, and returns whether that goes on.
+    /// Lifts the robot, puts it down at `pose` and tells the system, and returns whether that goes
+    /// on.
     ///
     /// # Errors
     /// If the robot cannot stand there.
@@ -112,10 +115,12 @@ pub trait Outing: InRun {
         Err(format!("nobody opens or shuts its door {name}").into())
     }
 
-    /// Returns where the places of the map truly lie, as far as that is known, for pictures. O(map).
+    /// Returns where the places of the map truly lie, as far as that is known, for pictures.
+    /// O(map).
     fn sites(&self) -> BTreeMap<u32, Point>;
 
-    /// Returns which of several maps that it was given it takes for that of the maze, counted from 0.
+    /// Returns which of several maps that it was given it takes for that of the maze, counted from
+    /// 0.
     fn chosen(&self) -> usize {
         0
     }
@@ -126,7 +131,8 @@ pub trait Outing: InRun {
     /// If the map has no such form.
     fn map_file(&self) -> Result<Option<String>, BoxError>;
 
-    /// Returns why the map is known to be wrong or unfinished after `task`, by the truth too, which no system sees.
+    /// Returns why the map is known to be wrong or unfinished after `task`, by the truth too, which
+    /// no system sees.
     fn complaint(&self, task: Task) -> Option<String>;
 
     /// Returns the trace of the run so far.
@@ -258,7 +264,8 @@ impl Depicted for Epuck {
 /// Any [`System`] with any simulated robot, as an [`Outing`].
 ///
 /// What it does with its map is said by [`keeping`](Self::keeping), [`judged`](Self::judged),
-/// [`counting`](Self::counting), [`choosing`](Self::choosing) and [`lying`](Self::lying); without them it keeps none.
+/// [`counting`](Self::counting), [`choosing`](Self::choosing) and [`lying`](Self::lying); without
+/// them it keeps none.
 pub struct Sent<R: Robot, S> {
     course: Course,
     robot: Limited<R>,
@@ -360,8 +367,8 @@ impl<R: Robot, S> Sent<R, S> {
         Self { name, ..self }
     }
 
-    /// Shows the places of the map, and where it believes the robot to be, where the map has them, with its origin at
-    /// `world_from_map`; not where they truly lie.
+    /// Shows the places of the map, and where it believes the robot to be, where the map has them,
+    /// with its origin at `world_from_map`; not where they truly lie.
     #[must_use]
     pub fn laid_at(self, world_from_map: Pose) -> Self {
         let world_from_map = Some(world_from_map);

@@ -56,8 +56,9 @@ pub fn calibrated() -> LaserPioneerConfig {
     }
 }
 
-/// The same robot with sensors that err, as the better MSLST is judged: encoders by `encoders` of each step (standard deviation) and by a share
-/// of up to 2 % that holds for the whole run, ranges by 2 %.
+/// The same robot with sensors that err, as the better MSLST is judged: encoders by `encoders` of
+/// each step (standard deviation) and by a share of up to 2 % that holds for the whole run, ranges
+/// by 2 %.
 #[must_use]
 pub fn with_sensor_noise(robot: &LaserPioneerConfig, encoders: f64) -> LaserPioneerConfig {
     let mut noisy = robot.clone();

@@ -8,7 +8,8 @@ use tolman_robot::{Landmark, Robot, SensesLandmarks, Standing, Stopping, System,
 /// Returns the time since some moment. Results do not depend on it.
 pub type Stopwatch = fn() -> Duration;
 
-/// A robot in a run: its time steps are counted and limited, and it stands still when the run is over.
+/// A robot in a run: its time steps are counted and limited, and it stands still when the run is
+/// over.
 #[derive(Debug)]
 pub struct Limited<R: Robot> {
     robot: Stopping<R>,
@@ -60,7 +61,8 @@ impl<R: Robot> Limited<R> {
         self.stopwatch.map(|now| now())
     }
 
-    /// Returns how long the robot itself took while that was measured: where it is simulated, the simulator.
+    /// Returns how long the robot itself took while that was measured: where it is simulated, the
+    /// simulator.
     pub const fn stepping(&self) -> Duration {
         self.stepping
     }
@@ -166,8 +168,8 @@ pub fn run<R: Robot, S: System<Limited<R>>>(
     until_done(robot, |robot| system.act(robot, task))
 }
 
-/// Lets `act` make one action with `robot`, or who drives it, after the other until one says that the task is done or given
-/// up, or the robot is out of time.
+/// Lets `act` make one action with `robot`, or who drives it, after the other until one says that
+/// the task is done or given up, or the robot is out of time.
 ///
 /// # Errors
 /// What `act` says when the robot fails or it cannot go on.

@@ -7,7 +7,8 @@ use tolman_sim::{DoorError, DoorState, Model, PlaceError, Solo, StepError, Truth
 
 use crate::BoxError;
 
-/// A simulated robot that senses the zones `start` and `destination` of its world as landmarks, and leaves a path.
+/// A simulated robot that senses the zones `start` and `destination` of its world as landmarks, and
+/// leaves a path.
 #[derive(Debug)]
 pub struct Simulated<M: Model> {
     solo: Solo<M>,
@@ -94,10 +95,11 @@ impl<M: Model> Simulated<M> {
 }
 
 impl<M: Recordable> Simulated<M> {
-    /// Returns the trace of the run so far, from where it was put first: JSON lines with the world, the robot, and every
-    /// step's command, true pose, bump and readings.
+    /// Returns the trace of the run so far, from where it was put first: JSON lines with the world,
+    /// the robot, and every step's command, true pose, bump and readings.
     ///
-    /// The run is made once more for it: the same commands make the same run, if nobody lifted the robot or moved a door.
+    /// The run is made once more for it: the same commands make the same run, if nobody lifted the
+    /// robot or moved a door.
     ///
     /// # Errors
     /// If the robot cannot be built again by its configuration alone, or a line has no JSON form.

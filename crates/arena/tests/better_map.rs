@@ -1,5 +1,5 @@
-//! The better MSLST's map of the Large maze: how much memory it takes, that it comes back from its file, and what becomes of a
-//! robot or a world that is not as it was learned.
+//! The better MSLST's map of the Large maze: how much memory it takes, that it comes back from its
+//! file, and what becomes of a robot or a world that is not as it was learned.
 #![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 extern crate alloc;
@@ -101,7 +101,8 @@ const LOOP: &str = "\
 +---+---+---+---+
 ";
 
-/// The map of the loop, and the loop with a wall since across its short way from the start to the goal.
+/// The map of the loop, and the loop with a wall since across its short way from the start to the
+/// goal.
 fn learned_before() -> (BetterLearned, Course) {
     let course = |maze: &str| {
         let maze = tolman_maze::read(maze).unwrap();

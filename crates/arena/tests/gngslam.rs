@@ -86,7 +86,8 @@ fn wander(pitch: &Pitch, config: WandererConfig, legs: u32, seed: u64) -> Wander
     }
 }
 
-/// The cells where the middle of the robot can be: those that hold a place with room for half its width.
+/// The cells where the middle of the robot can be: those that hold a place with room for half its
+/// width.
 fn reachable(pitch: &Pitch) -> BTreeSet<Cell> {
     let (bounds, steps) = (pitch.bounds(), 160);
     let points = (0..steps).flat_map(|x| (0..steps).map(move |y| (x, y)));
@@ -134,7 +135,8 @@ fn data(seed: u64) -> DataSet {
     gather(&pitch, quick(&pitch, seed), seed, 300).unwrap()
 }
 
-/// The records are labelled by hand, of which one in a hundred is wrong, and the goals are straight ahead of theirs.
+/// The records are labelled by hand, of which one in a hundred is wrong, and the goals are straight
+/// ahead of theirs.
 #[test]
 fn the_truth_is_written_down_beside_the_records() {
     let (data, pitch) = (data(1), Pitch::paper().unwrap());
@@ -166,7 +168,8 @@ fn the_same_seed_gathers_the_same_data() {
     assert_ne!(data(2), data(3));
 }
 
-/// Any robot that turns, translates and senses ranges wanders: this one has a ring of laser beams and no camera.
+/// Any robot that turns, translates and senses ranges wanders: this one has a ring of laser beams
+/// and no camera.
 #[test]
 fn a_robot_with_a_laser_wanders_too() {
     let pitch = Pitch::paper().unwrap();

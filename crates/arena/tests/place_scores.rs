@@ -18,7 +18,8 @@ fn data(pitch: &Pitch) -> DataSet {
     gather(pitch, pitch.robot(4, 0.0).unwrap(), 4, RECORDS).unwrap()
 }
 
-/// The score of a map, and how much farther north it has records that look at the windows than those that look away, in cells.
+/// The score of a map, and how much farther north it has records that look at the windows than
+/// those that look away, in cells.
 fn learned(data: &DataSet, pitch: &Pitch) -> (PlaceScore, f64) {
     let records = data.records.iter().map(|record| record.record.clone());
     let records: Vec<PlaceRecord> = records.collect();
@@ -58,7 +59,8 @@ fn the_windows_are_on_their_side_of_the_map() {
     let (score, north) = learned(&data, &pitch);
     assert!(score.mean.by_centre > 2.0 * 0.175, "{score:?}");
     assert!(!score.mirrored && north > 1.0, "{score:?}, {north} cells");
-    // The test can fail: odometry that takes left for right gives a mirror image, as the paper's maps were.
+    // The test can fail: odometry that takes left for right gives a mirror image, as the paper's
+    // maps were.
     for record in &mut data.records {
         record.record.odometry.position.y *= -1.0;
     }

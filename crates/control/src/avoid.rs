@@ -6,9 +6,9 @@ use crate::{Layer, Outcome, Proposal, Situation};
 /// The last resort before a wall (MSLST, "Avoid").
 ///
 /// Works only while the robot translates, on the beams in the direction of travel. Any of the three
-/// in the middle below the buffer stops the translation and ends the action: cut short if a step was
-/// already made, failed if not. The eight beside them end it only when far below the buffer, and
-/// otherwise add a small turn away from the nearest wall.
+/// in the middle below the buffer stops the translation and ends the action: cut short if a step
+/// was already made, failed if not. The eight beside them end it only when far below the buffer,
+/// and otherwise add a small turn away from the nearest wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -26,7 +26,8 @@ pub struct Avoid {
         serde(deserialize_with = "crate::read::at_least_zero")
     )]
     pub far_below: f64,
-    /// Turn command added away from a wall beside. Paper: "a small rotation"; here 0.05, as Center's.
+    /// Turn command added away from a wall beside. Paper: "a small rotation"; here 0.05, as
+    /// Center's.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub turn: f64,
     /// Beams from the middle one that are "directly in front" on either side. Paper: 1 of 72.

@@ -112,8 +112,8 @@ impl CorridorDetector {
         self.ring
     }
 
-    /// Whether a view can be read: a scan of the detector's ring with a number for every beam (infinity
-    /// is one: nothing met), and a heading.
+    /// Whether a view can be read: a scan of the detector's ring with a number for every beam
+    /// (infinity is one: nothing met), and a heading.
     #[must_use]
     pub fn reads(&self, view: View<'_>) -> bool {
         view.heading.is_finite()
@@ -122,8 +122,8 @@ impl CorridorDetector {
             && !view.scan.ranges.iter().any(|range| range.is_nan())
     }
 
-    /// The corridor that is in view, or none where it looks like a junction, a bend or an open place
-    /// (or where it does not [read](Self::reads) the view).
+    /// The corridor that is in view, or none where it looks like a junction, a bend or an open
+    /// place (or where it does not [read](Self::reads) the view).
     #[must_use]
     pub fn detect(&self, view: View<'_>) -> Option<Corridor> {
         if !self.reads(view) {

@@ -6,7 +6,8 @@ use tolman_robot::{Compass, Ranges, Ring, Robot, TurnTranslate};
 
 use crate::{Outcome, Proposal, Stack, View};
 
-/// Carries out high-level actions through a [`Stack`], with any robot that senses ranges and its heading.
+/// Carries out high-level actions through a [`Stack`], with any robot that senses ranges and its
+/// heading.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -64,8 +65,8 @@ pub struct Driven<'a, R> {
 }
 
 impl<G: Rng> Drive<G> {
-    /// Time steps after which an action that no layer has ended [times out](Outcome::TimedOut), such as
-    /// that of a robot without a compass. Not in the paper.
+    /// Time steps after which an action that no layer has ended [times out](Outcome::TimedOut),
+    /// such as that of a robot without a compass. Not in the paper.
     pub const LONGEST_ACTION: u32 = 100;
 
     /// Returns a drive by the layers of `stack`, which draw from `rng`. An action takes at most
@@ -79,15 +80,16 @@ impl<G: Rng> Drive<G> {
         }
     }
 
-    /// Returns this drive, whose actions take at most `steps` time steps, at least 1. The last step of
-    /// an action that no layer has ended by then ends it as [`Outcome::TimedOut`].
+    /// Returns this drive, whose actions take at most `steps` time steps, at least 1. The last step
+    /// of an action that no layer has ended by then ends it as [`Outcome::TimedOut`].
     #[must_use]
     pub const fn longest_action(mut self, steps: u32) -> Self {
         self.longest_action = steps;
         self
     }
 
-    /// Returns this drive, whose layers see scans [straightened](crate::straightened): see [`Stack::straightening`].
+    /// Returns this drive, whose layers see scans [straightened](crate::straightened): see
+    /// [`Stack::straightening`].
     #[must_use]
     pub fn straightening(mut self) -> Self {
         self.stack = self.stack.straightening();
@@ -100,8 +102,8 @@ impl<G: Rng> Drive<G> {
         self.stack.ring()
     }
 
-    /// Carries out `action` with `robot` and returns how it ended, or `None` where `see` broke it off. `see` is
-    /// shown every time step once it is made. O(beams) a time step.
+    /// Carries out `action` with `robot` and returns how it ended, or `None` where `see` broke it
+    /// off. `see` is shown every time step once it is made. O(beams) a time step.
     ///
     /// # Errors
     /// If the robot fails.

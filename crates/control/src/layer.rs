@@ -8,7 +8,8 @@ use crate::{Corridor, Outcome};
 /// What the robot perceives in this time step.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
-    /// Ranges in the robot's frame, m; infinity where nothing was met is as good as the largest range.
+    /// Ranges in the robot's frame, m; infinity where nothing was met is as good as the largest
+    /// range.
     pub scan: &'a Scan,
     /// The compass heading; 0 is east.
     pub heading: Heading,

@@ -5,13 +5,13 @@ use crate::{Layer, Outcome, Proposal, Situation};
 /// Keeps the robot facing along the corridor it is in (MSLST, "Orient").
 ///
 /// - **Turn**: adds 0.04 for each beam between the robot's heading and the corridor's axis.
-/// - **Contradiction**: the paper lets the action fail when that turn "contradicts the rotation Move
-///   requested". Here: the two have opposite signs; or there is nothing to correct, the robot being
-///   aligned to the nearest beam, and Move asks for more than an eighth of a circle, which in a
-///   corridor is the way to the wall. So a robot told to go across the corridor fails in its first step
-///   wherever it looks, and Orient's own turn is carried out in the step that fails.
-/// - **Stuck**: where the walls are noticeably nearer than the corridor is wide, the robot stands in a
-///   corner: a small random translation is added instead.
+/// - **Contradiction**: the paper lets the action fail when that turn "contradicts the rotation
+///   Move requested". Here: the two have opposite signs; or there is nothing to correct, the robot
+///   being aligned to the nearest beam, and Move asks for more than an eighth of a circle, which in
+///   a corridor is the way to the wall. So a robot told to go across the corridor fails in its
+///   first step wherever it looks, and Orient's own turn is carried out in the step that fails.
+/// - **Stuck**: where the walls are noticeably nearer than the corridor is wide, the robot stands
+///   in a corner: a small random translation is added instead.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -28,8 +28,8 @@ pub struct Orient {
     /// Misalignment at which the robot stands square across the corridor, beams: a quarter circle.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub square_beams: f64,
-    /// Narrower than this is a corner, m. Paper: "noticeably less than the width"; here 0.95 widths,
-    /// since in a corridor the least sum is the width to within half a percent.
+    /// Narrower than this is a corner, m. Paper: "noticeably less than the width"; here 0.95
+    /// widths, since in a corridor the least sum is the width to within half a percent.
     #[cfg_attr(
         feature = "serde",
         serde(deserialize_with = "crate::read::at_least_zero")

@@ -3,7 +3,8 @@
 pub enum Outcome {
     /// Carried out: turned and translated.
     Completed,
-    /// A wall came close after at least one step of translation. MSLST does not record this as a failure.
+    /// A wall came close after at least one step of translation. MSLST does not record this as a
+    /// failure.
     CutShort,
     /// Not carried out: no step was made in the direction of travel.
     Failed,

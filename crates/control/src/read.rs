@@ -1,5 +1,5 @@
-//! Reads the numbers of a configuration and refuses those without sense: a file is as little to be trusted as
-//! whoever wrote it.
+//! Reads the numbers of a configuration and refuses those without sense: a file is as little to be
+//! trusted as whoever wrote it.
 
 use serde::de::{Deserialize, Deserializer, Error, Unexpected};
 

@@ -23,10 +23,10 @@ pub struct Stack {
 impl Stack {
     /// Returns a stack of any layers, the highest first, round one detector.
     ///
-    /// Whether every action ends is up to the layers. [`Stack::paper`] ends them all; a stack without
-    /// [`Settle`] can turn to and fro for ever, and one without [`Move`] has no end of its own. A
-    /// [`Drive`](crate::Drive) breaks such an action off as [`Outcome::TimedOut`]; whoever calls
-    /// [`correct`](Self::correct) counts the time steps.
+    /// Whether every action ends is up to the layers. [`Stack::paper`] ends them all; a stack
+    /// without [`Settle`] can turn to and fro for ever, and one without [`Move`] has no end of its
+    /// own. A [`Drive`](crate::Drive) breaks such an action off as [`Outcome::TimedOut`]; whoever
+    /// calls [`correct`](Self::correct) counts the time steps.
     #[must_use]
     pub fn new(detector: CorridorDetector, layers: Vec<Box<dyn Layer + Send>>) -> Self {
         Self {
@@ -36,9 +36,9 @@ impl Stack {
         }
     }
 
-    /// Returns the paper's four layers with the paper's gains, and [`Settle`] below them, which ends
-    /// what would swing without end. The robot is `robot_unit` metres in diameter and sees through
-    /// `ring`, in corridors `width` metres wide.
+    /// Returns the paper's four layers with the paper's gains, and [`Settle`] below them, which
+    /// ends what would swing without end. The robot is `robot_unit` metres in diameter and sees
+    /// through `ring`, in corridors `width` metres wide.
     ///
     /// # Errors
     /// [`RingError`] if the ring is no full circle of quarters or a length is none.
@@ -58,8 +58,8 @@ impl Stack {
         ))
     }
 
-    /// Returns this stack, which sees scans without [stuck beams](StuckBeams) and [straightened]: for lasers that err, of which Orient
-    /// would turn to and fro.
+    /// Returns this stack, which sees scans without [stuck beams](StuckBeams) and [straightened]:
+    /// for lasers that err, of which Orient would turn to and fro.
     #[must_use]
     pub fn straightening(self) -> Self {
         Self {
@@ -74,8 +74,8 @@ impl Stack {
         self.detector.ring()
     }
 
-    /// Starts a high-level action. Without it the stack goes north; an action that has ended and is not
-    /// followed by another starts anew.
+    /// Starts a high-level action. Without it the stack goes north; an action that has ended and is
+    /// not followed by another starts anew.
     pub fn begin(&mut self, action: Direction) {
         for layer in &mut self.layers {
             layer.begin(action);
@@ -83,8 +83,8 @@ impl Stack {
     }
 
     /// What to do in this time step, and whether the action ends with it. A view that cannot be
-    /// [read](CorridorDetector::reads), such as a scan of another ring or a compass that says NaN, fails
-    /// the action with the robot at rest. O(beams).
+    /// [read](CorridorDetector::reads), such as a scan of another ring or a compass that says NaN,
+    /// fails the action with the robot at rest. O(beams).
     pub fn correct(&mut self, view: View<'_>, rng: &mut dyn Rng) -> Proposal {
         if !self.detector.reads(view) {
             return Proposal {

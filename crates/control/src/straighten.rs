@@ -2,11 +2,13 @@ use tolman_robot::Scan;
 
 /// Beams beside one, on either side, that a straight wall is looked for on: many first.
 const BESIDE: [usize; 3] = [5, 3, 2];
-/// The farthest that a beam may end from a straight wall, as a share of its range: about two and a half times the noise of a laser that errs by 2 %.
+/// The farthest that a beam may end from a straight wall, as a share of its range: about two and a
+/// half times the noise of a laser that errs by 2 %.
 const OFF: f64 = 0.05;
 
-/// Returns a scan whose ranges end on the straight walls that the beams show together: each is that of the line fitted to the ends of
-/// the beams beside it, where they all lie near one line, and else as it was sensed. Noise of single beams goes, corners stay.
+/// Returns a scan whose ranges end on the straight walls that the beams show together: each is that
+/// of the line fitted to the ends of the beams beside it, where they all lie near one line, and
+/// else as it was sensed. Noise of single beams goes, corners stay.
 ///
 /// A line is a · x + b · y = 1, of which the fit is linear in the ends. O(beams).
 ///
@@ -37,7 +39,8 @@ pub fn straightened(scan: &Scan) -> Scan {
     straight
 }
 
-/// The range of a beam to the line through the ends of those beside it; none where they lie on no line.
+/// The range of a beam to the line through the ends of those beside it; none where they lie on no
+/// line.
 fn on_a_line(scan: &Scan, beam: usize, beside: usize) -> Option<f64> {
     let beams = scan.ranges.len();
     if beams <= 2 * beside {

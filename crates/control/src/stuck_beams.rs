@@ -4,9 +4,10 @@ use tolman_robot::Scan;
 
 /// Notices beams that are stuck, and leaves them out.
 ///
-/// Walls lead from beam to beam, so that a beam seldom says much more or much less than both beams beside it. One that does so in
-/// most scans is stuck; one that has stopped doing so for long is sound again. What a stuck beam says is replaced by the
-/// nearer of what the sound beams beside it say.
+/// Walls lead from beam to beam, so that a beam seldom says much more or much less than both beams
+/// beside it. One that does so in most scans is stuck; one that has stopped doing so for long is
+/// sound again. What a stuck beam says is replaced by the nearer of what the sound beams beside it
+/// say.
 ///
 /// ```
 /// use tolman_control::StuckBeams;
@@ -44,8 +45,8 @@ const ENOUGH: u8 = 16;
 const MOST: u8 = 48;
 
 impl StuckBeams {
-    /// Takes in a scan and returns it without what stuck beams say. A ring of another size keeps what is
-    /// known of the beams that both have. O(beams).
+    /// Takes in a scan and returns it without what stuck beams say. A ring of another size keeps
+    /// what is known of the beams that both have. O(beams).
     #[must_use]
     pub fn mended(&mut self, scan: &Scan) -> Scan {
         let ranges = &scan.ranges;

@@ -135,7 +135,8 @@ fn anywhere(width: f64, rng: &mut ChaCha8Rng) -> Pose {
     Pose::new(position, heading)
 }
 
-/// Returns rings of 8 to 360 beams × turns a time step × widths of corridors, and the plain, × actions.
+/// Returns rings of 8 to 360 beams × turns a time step × widths of corridors, and the plain, ×
+/// actions.
 fn trials() -> impl Iterator<Item = Trial> {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let mut trials = Vec::new();
@@ -202,7 +203,8 @@ fn the_layer_leaves_the_papers_robot_alone() {
     }
 }
 
-/// Hands the layer turns of 0.5 that change their side so often, and returns the size of the last one.
+/// Hands the layer turns of 0.5 that change their side so often, and returns the size of the last
+/// one.
 fn halved(layer: &mut Settle, changes: u32) -> f64 {
     let scan = Scan::clear(Ring::full(72, 1.25));
     let situation = Situation {

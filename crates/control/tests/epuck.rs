@@ -1,4 +1,5 @@
-//! CPM's e-puck on the simulator: it follows paths, looks round, finds the middle of junctions, and touches nothing.
+//! CPM's e-puck on the simulator: it follows paths, looks round, finds the middle of junctions, and
+//! touches nothing.
 
 #![expect(
     clippy::unwrap_used,
@@ -71,8 +72,8 @@ fn truth(pilot: &Pilot<Solo<Epuck>>, maze: &Maze) -> (Point, usize) {
     (Point::from(off), maze.degree(cell))
 }
 
-/// Drives for so many observations, at junctions always on by the next branch to the right; checks what it sees where it
-/// stands near the middle of a cell.
+/// Drives for so many observations, at junctions always on by the next branch to the right; checks
+/// what it sees where it stands near the middle of a cell.
 fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
     let mut pilot = pilot(maze, slip, seed);
     let (mut right, mut wrong) = (0, 0);
@@ -163,8 +164,8 @@ fn it_follows_every_path_without_touching_a_wall() {
     }
 }
 
-/// From a fork with a way to the south to the next, a cell on, with one to the north. The robot stands off the middle, towards the way to the
-/// south, where a fork has the most room.
+/// From a fork with a way to the south to the next, a cell on, with one to the north. The robot
+/// stands off the middle, towards the way to the south, where a fork has the most room.
 #[test]
 fn between_neighbouring_forks_it_keeps_its_way() {
     let text = "\

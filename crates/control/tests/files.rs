@@ -12,7 +12,8 @@ use tolman_control::epuck::{
 };
 use tolman_control::{Avoid, Center, Move, Orient};
 
-/// Whether a value reads back as it was, without a field of its own as well as with one that is not its.
+/// Whether a value reads back as it was, without a field of its own as well as with one that is not
+/// its.
 #[track_caller]
 fn round_trip<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) {
     let json = serde_json::to_value(value).unwrap();

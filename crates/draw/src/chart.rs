@@ -103,8 +103,8 @@ impl Axis {
 
 /// Lines, points and graphs in a frame with axes.
 ///
-/// Layers lie above each other in the order they are added. What is not finite, or has no place on a
-/// logarithmic axis, is left out.
+/// Layers lie above each other in the order they are added. What is not finite, or has no place on
+/// a logarithmic axis, is left out.
 ///
 /// ```
 /// use tolman_draw::{Axis, Chart, GraphEdge, GraphNode, GraphPicture, Line, LinePoint, Points, Series};
@@ -255,8 +255,8 @@ impl Chart {
         self
     }
 
-    /// Makes a unit as long on one axis as on the other, if both are linear; the height follows from the
-    /// width and the data.
+    /// Makes a unit as long on one axis as on the other, if both are linear; the height follows
+    /// from the width and the data.
     #[must_use]
     pub const fn equal(mut self) -> Self {
         self.aspect = Aspect::Equal;
@@ -278,7 +278,8 @@ impl Chart {
         self.layers.push(Layer::Graph(graph));
     }
 
-    /// Adds an image with its middle at a place, `width` user units wide. The note shows when the pointer rests on it.
+    /// Adds an image with its middle at a place, `width` user units wide. The note shows when the
+    /// pointer rests on it.
     pub fn image(&mut self, at: Point, image: Image, width: f64, note: impl Into<String>) {
         let note = note.into();
         self.layers.push(Layer::Pinned(Pinned {

@@ -121,7 +121,8 @@ impl FloorPlan {
         self.stroke("trajectory faint", None, positions, series);
     }
 
-    /// Adds a broad band along positions, without ends: a way of a map, above which other things can be seen.
+    /// Adds a broad band along positions, without ends: a way of a map, above which other things
+    /// can be seen.
     pub fn way(&mut self, positions: &[Point], series: Series) {
         self.stroke("way", None, positions, series);
     }
@@ -199,9 +200,9 @@ impl FloorPlan {
         self.layers.push(markup);
     }
 
-    /// Adds square cells, `side` metres wide, each with its middle and its value, coloured by the depth
-    /// of `shade`; values that are not finite are left out. Below the plan stands what the colours
-    /// mean, once for all cells: give every call the same shade.
+    /// Adds square cells, `side` metres wide, each with its middle and its value, coloured by the
+    /// depth of `shade`; values that are not finite are left out. Below the plan stands what the
+    /// colours mean, once for all cells: give every call the same shade.
     ///
     /// ```
     /// use tolman_draw::{FloorPlan, Shade};
@@ -286,8 +287,8 @@ impl FloorPlan {
         }
     }
 
-    /// SVG path data through positions. Corners that nobody would see are left out, and so is a place
-    /// that rounds to the one before.
+    /// SVG path data through positions. Corners that nobody would see are left out, and so is a
+    /// place that rounds to the one before.
     fn path(&self, positions: &[Point]) -> String {
         let places = positions.iter().map(|position| self.at(*position));
         short_line(simplified(&places.collect::<Vec<_>>()))

@@ -7,8 +7,8 @@ use super::Series;
 use super::number::{line, tenths};
 use super::words;
 
-/// A graph to be drawn over a [`FloorPlan`](super::FloorPlan) or in a [`Chart`](super::Chart), each node at its
-/// coordinates.
+/// A graph to be drawn over a [`FloorPlan`](super::FloorPlan) or in a [`Chart`](super::Chart), each
+/// node at its coordinates.
 ///
 /// Nodes that are not finite are left out, and so are edges that end at such a node or at none.
 ///
@@ -168,7 +168,8 @@ impl GraphPicture {
         }
     }
 
-    /// The labels of nodes, each with where its text begins: beside its node, where it covers least of the nodes, the signs and the labels before it.
+    /// The labels of nodes, each with where its text begins: beside its node, where it covers least
+    /// of the nodes, the signs and the labels before it.
     fn labels(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(&str, (f64, f64))> {
         let nodes = self.nodes.iter().filter(|node| is_finite(node));
         let labelled = nodes.clone().filter(|node| !node.label.is_empty());

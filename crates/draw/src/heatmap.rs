@@ -17,8 +17,8 @@ const HATCH: f64 = 5.0;
 /// What is written in a cell that is hatched all over.
 const NONE: &str = "–";
 
-/// A table of values as a picture: one parameter across, another down, each value written in its cell and
-/// shown by the depth of its colour.
+/// A table of values as a picture: one parameter across, another down, each value written in its
+/// cell and shown by the depth of its colour.
 ///
 /// ```
 /// use tolman_draw::{HeatMap, Shade};
@@ -54,7 +54,8 @@ pub struct HeatMap {
     pub hatching: Option<Hatching>,
 }
 
-/// Parts of the cells of a [`HeatMap`] that are hatched: the share of what a value is of that is of another kind than all else.
+/// Parts of the cells of a [`HeatMap`] that are hatched: the share of what a value is of that is of
+/// another kind than all else.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hatching {
     /// What a hatched part stands for, in a few words.
@@ -86,7 +87,8 @@ fn words_of(name: &str) -> Vec<String> {
     name.split_whitespace().map(str::to_owned).collect()
 }
 
-/// Slanted lines in a rectangle, and its outline, as the data of a path. It needs no pattern, whose name would be known to the whole page.
+/// Slanted lines in a rectangle, and its outline, as the data of a path. It needs no pattern, whose
+/// name would be known to the whole page.
 fn hatch([x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
     let mut path = format!(
         "M{} {}h{}v{}h{}z",

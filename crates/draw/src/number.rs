@@ -51,8 +51,8 @@ pub(super) fn extent(values: impl Iterator<Item = f64>, extent: (f64, f64)) -> (
 /// Of no values: nothing is below its low end or above its high end.
 pub(super) const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
-/// The label of a value on an axis with this distance between labels: as many decimals as that needs,
-/// digits in groups of three, powers of ten where there would be too many.
+/// The label of a value on an axis with this distance between labels: as many decimals as that
+/// needs, digits in groups of three, powers of ten where there would be too many.
 pub(super) fn tick_label(value: f64, step: f64) -> String {
     let exponent = libm::log10(step.abs()).floor();
     if exponent >= 5.0 && value.abs() > 0.0 {

@@ -3,7 +3,8 @@
 use tolman_geom::{Heading, Point, Pose};
 use tolman_sim::Bounds;
 
-/// A region that holds something whose place is not known exactly, for [`FloorPlan::region`](super::FloorPlan::region).
+/// A region that holds something whose place is not known exactly, for
+/// [`FloorPlan::region`](super::FloorPlan::region).
 ///
 /// ```
 /// use tolman_draw::{FloorPlan, Region, Series};
@@ -54,9 +55,10 @@ impl Region {
         }
     }
 
-    /// The ellipse of so many standard deviations around the mean of a Gaussian: half its axes are the
-    /// square roots of the covariance's eigenvalues, times `deviations`. An eigenvalue that rounding has
-    /// made negative counts as 0; of the two entries off the diagonal their mean counts.
+    /// The ellipse of so many standard deviations around the mean of a Gaussian: half its axes are
+    /// the square roots of the covariance's eigenvalues, times `deviations`. An eigenvalue that
+    /// rounding has made negative counts as 0; of the two entries off the diagonal their mean
+    /// counts.
     pub fn of_covariance(mean: Point, covariance: [[f64; 2]; 2], deviations: f64) -> Self {
         let [[xx, xy], [yx, yy]] = covariance;
         let xy = f64::midpoint(xy, yx);

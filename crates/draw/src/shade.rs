@@ -5,8 +5,8 @@ use maud::{Markup, html};
 use super::Series;
 use super::number::{NOTHING, extent, tenths};
 
-/// How values become depths of one colour: none at the low end, full at the high end. Works on light and
-/// dark pages alike, and one colour tells more from less to every reader.
+/// How values become depths of one colour: none at the low end, full at the high end. Works on
+/// light and dark pages alike, and one colour tells more from less to every reader.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shade {
     /// What the values are, with their unit.
@@ -79,7 +79,8 @@ impl Shade {
         format!("{:.2}", 0.06 + 0.84 * self.share(value))
     }
 
-    /// The class of text upon a value: what stands out more from this depth, be the page light or dark.
+    /// The class of text upon a value: what stands out more from this depth, be the page light or
+    /// dark.
     pub(super) fn text_class(&self, value: f64) -> &'static str {
         if self.share(value) > 0.8 { "upon" } else { "" }
     }

@@ -8,7 +8,8 @@ use super::{
 };
 use tolman_draw::Figure;
 
-/// Refuses options that would run nothing, more than there is room for, or could not be written down.
+/// Refuses options that would run nothing, more than there is room for, or could not be written
+/// down.
 pub(super) fn options(options: &Options, entry: &Entry) -> Result<(), Error> {
     match options.runs_of(entry) {
         0 => return Err(Error::Zero { option: "--runs" }),
@@ -138,8 +139,8 @@ fn metric(table: &Table, metric: &Metric) -> Result<(), String> {
 /// The names of a run's own parts in `runs.jsonl`.
 pub(super) const RESERVED: [&str; 4] = ["table", "row", "run", "seed"];
 
-/// Refuses a run, just played or read back, that is no record of its table or has a value that none can
-/// have.
+/// Refuses a run, just played or read back, that is no record of its table or has a value that none
+/// can have.
 pub(super) fn run(experiment: &Experiment, run: &Run) -> Result<(), BoxError> {
     let mut tables = experiment.tables.iter();
     let Some(table) = tables.find(|table| table.name == run.table) else {
@@ -179,8 +180,8 @@ pub(super) fn figures(experiment: &Experiment, figures: &[Figure]) -> Result<(),
     })
 }
 
-/// The longest name of a figure: file systems allow 255 bytes with the extension and what a temporary
-/// file adds, and nobody reads as many.
+/// The longest name of a figure: file systems allow 255 bytes with the extension and what a
+/// temporary file adds, and nobody reads as many.
 const LONGEST_NAME: usize = 100;
 
 fn figure_names(names: &[String]) -> Result<(), String> {

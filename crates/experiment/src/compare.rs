@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use super::at::at;
 use super::{Error, Fields, Run};
 
-/// Compares the `runs.jsonl` of two folders of results. Every value counts to its last bit; the order
-/// of the lines does not. What else lies in the folders is not read.
+/// Compares the `runs.jsonl` of two folders of results. Every value counts to its last bit; the
+/// order of the lines does not. What else lies in the folders is not read.
 ///
 /// # Errors
 /// [`Error::File`] if a folder has no `runs.jsonl` that can be read, [`Error::NoRuns`] if a line of
@@ -94,8 +94,8 @@ impl fmt::Display for Differences {
     }
 }
 
-/// What differs between a run of the first folder and its fellow of the second: the name of the field,
-/// or `the run`, and how.
+/// What differs between a run of the first folder and its fellow of the second: the name of the
+/// field, or `the run`, and how.
 fn changes(a: Option<&Run>, b: Option<&Run>) -> Vec<(String, String)> {
     let (Some(a), Some(b)) = (a, b) else {
         let what = told(a.map(|_| ""), b.map(|_| ""));

@@ -85,8 +85,9 @@ pub trait Procedure: Sync + core::fmt::Debug {
         Ok(Vec::new())
     }
 
-    /// Returns the runs that the report carries replays of, as many as fit, the most important first; `None`, the default, for
-    /// the first of each row. `runs` is complete and sorted by table, row and index.
+    /// Returns the runs that the report carries replays of, as many as fit, the most important
+    /// first; `None`, the default, for the first of each row. `runs` is complete and sorted by
+    /// table, row and index.
     ///
     /// # Errors
     /// If a run cannot be read.
@@ -156,8 +157,8 @@ impl Experiment {
         Ok(self)
     }
 
-    /// Holds the number of runs that the caller asks for against the tables that have one of their own: refuses it for those that
-    /// are named, and says of the others that it is not theirs.
+    /// Holds the number of runs that the caller asks for against the tables that have one of their
+    /// own: refuses it for those that are named, and says of the others that it is not theirs.
     ///
     /// # Errors
     /// [`Error::FixedRuns`].
@@ -207,8 +208,8 @@ impl Experiment {
         replay.map_err(|source| Error::run(job, source))
     }
 
-    /// The pictures of the procedure. Of an experiment in part those of its tables; figures of several
-    /// tables are left out then.
+    /// The pictures of the procedure. Of an experiment in part those of its tables; figures of
+    /// several tables are left out then.
     pub(super) fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let mut figures = self.procedure.figures(runs)?;
         figures.retain(|figure| {

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 /// Writes a file beside its place and moves it there, so that a reader sees the former file or the
 /// new one, never a part. The data are on the disk before the move.
 ///
-/// A link is followed, a file that may not be written is left as it is, and what is no file (a device, a
-/// pipe) is written to, not replaced.
+/// A link is followed, a file that may not be written is left as it is, and what is no file (a
+/// device, a pipe) is written to, not replaced.
 ///
 /// # Errors
 /// What the system says; nothing new is then left behind.

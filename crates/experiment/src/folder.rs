@@ -14,8 +14,8 @@ const CONFIG: &str = "config.toml";
 const RUNS: &str = "runs.jsonl";
 /// Finished runs beyond the number asked for, kept for a later, larger number.
 const SPARE: &str = "spare.jsonl";
-/// An empty file that is locked while a process has the folder open. It stays: to remove it would let
-/// two processes lock two files of the same name.
+/// An empty file that is locked while a process has the folder open. It stays: to remove it would
+/// let two processes lock two files of the same name.
 const LOCK: &str = ".lock";
 
 /// The folder of single replays, which may be there before any run was played.
@@ -147,7 +147,8 @@ fn refuse_foreign(path: &Path) -> Result<(), Error> {
     for entry in entries {
         let name = at("read the folder", path, entry)?.file_name();
         let name = name.to_string_lossy();
-        // What a process that died before its first whole file may leave behind, and single replays.
+        // What a process that died before its first whole file may leave behind, and single
+        // replays.
         let ours =
             name == LOCK || name == REPLAYS || (name.starts_with('.') && name.ends_with(".tmp"));
         if !ours {

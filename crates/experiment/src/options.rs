@@ -26,7 +26,8 @@ impl Default for Program {
 }
 
 impl Program {
-    /// The one that runs now and is called `command`. Cargo names itself to the programs it starts in the variable `CARGO`.
+    /// The one that runs now and is called `command`. Cargo names itself to the programs it starts
+    /// in the variable `CARGO`.
     pub fn current(command: &'static str) -> Self {
         match env::var_os("CARGO") {
             Some(_) if command == OWN => Self::Xtask,
@@ -49,13 +50,13 @@ pub struct Options {
     pub seed: u64,
     /// Runs of each row, at most [`Self::MOST_RUNS`]; `None` takes the experiment's own number.
     pub runs: Option<u32>,
-    /// Threads, never more than [`Self::MOST_JOBS`] nor than there are runs to play; `None` takes one
-    /// for each core. Results do not depend on it.
+    /// Threads, never more than [`Self::MOST_JOBS`] nor than there are runs to play; `None` takes
+    /// one for each core. Results do not depend on it.
     pub jobs: Option<u32>,
     /// Maze files that take the place of the experiment's own worlds.
     pub mazes: Vec<PathBuf>,
-    /// Time steps after which a run has failed, in place of the experiment's own limits, where runs have such a limit. What a paper
-    /// says of another one is then left out.
+    /// Time steps after which a run has failed, in place of the experiment's own limits, where runs
+    /// have such a limit. What a paper says of another one is then left out.
     pub limit: Option<u32>,
     /// The folder of results; `None` is `results/NAME` under the current folder.
     pub out: Option<PathBuf>,
@@ -83,7 +84,8 @@ impl Options {
         })
     }
 
-    /// Runs of a row that has another number than the experiment's: the caller's, else its own, `full` or `quick`.
+    /// Runs of a row that has another number than the experiment's: the caller's, else its own,
+    /// `full` or `quick`.
     pub fn runs_else(&self, full: u32, quick: u32) -> u32 {
         self.runs.unwrap_or(if self.quick { quick } else { full })
     }

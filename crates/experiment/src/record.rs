@@ -44,9 +44,9 @@ pub trait Record: Serialize + DeserializeOwned {
 ///
 /// The doc comment of a field is the column's definition, its type says what it holds, and an
 /// `Option` that not every run has it. Behind `=>` stand the methods of [`Column`](crate::Column).
-/// Each field gives a constant of its name, by which metrics refer to it. `#[check(function)]` names
-/// the [check](Record::check); `..base: Base` takes in the fields of another record. The crate needs
-/// serde among its dependencies.
+/// Each field gives a constant of its name, by which metrics refer to it. `#[check(function)]`
+/// names the [check](Record::check); `..base: Base` takes in the fields of another record. The
+/// crate needs serde among its dependencies.
 ///
 /// ```
 /// use tolman_experiment::{Metric, Record, Table, record, require};

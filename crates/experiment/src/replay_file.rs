@@ -10,7 +10,8 @@ use super::{Error, Experiment, Job, Options, check};
 /// played can be written as well. Tells where the file is.
 ///
 /// # Errors
-/// If there is no such table or row, its runs are not recorded, or the run or the file cannot be made.
+/// If there is no such table or row, its runs are not recorded, or the run or the file cannot be
+/// made.
 pub fn write_replay(
     experiment: &Experiment,
     options: &Options,

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::{Error, Experiment, Job, Progress, Run};
 
-/// The most runs of each row that are recorded: as many as MSLST made of each. With more runs a row, the
-/// others are a small part of the time and would be most of the page.
+/// The most runs of each row that are recorded: as many as MSLST made of each. With more runs a
+/// row, the others are a small part of the time and would be most of the page.
 const FIRST: u32 = 25;
 
 /// The most bytes that all replays of a page may take.
@@ -58,9 +58,9 @@ impl Recorded {
     }
 }
 
-/// Records the first runs of each row, in parallel on the current threads, up to [`FIRST`], as long as their replays fit
-/// `budget` bytes; where no room is left for a run as large as those before, none is played in vain. `None` if the caller
-/// asked to stop.
+/// Records the first runs of each row, in parallel on the current threads, up to [`FIRST`], as long
+/// as their replays fit `budget` bytes; where no room is left for a run as large as those before,
+/// none is played in vain. `None` if the caller asked to stop.
 pub(super) fn record(
     experiment: &Experiment,
     runs: &[Run],
@@ -150,7 +150,8 @@ fn record_shown(
     Ok(Some(replays))
 }
 
-/// How many more runs of each row are likely to fit, if `done` of them took so many bytes; the first is always tried.
+/// How many more runs of each row are likely to fit, if `done` of them took so many bytes; the
+/// first is always tried.
 fn room(done: u32, bytes: usize, budget: usize) -> u32 {
     match done {
         0 => 1,

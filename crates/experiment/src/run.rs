@@ -74,8 +74,8 @@ impl Run {
     }
 }
 
-/// What one run measured, by name: a [`Record`](super::Record) without its type. Alphabetical, so that
-/// equal fields are written equally.
+/// What one run measured, by name: a [`Record`](super::Record) without its type. Alphabetical, so
+/// that equal fields are written equally.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Fields(BTreeMap<String, Field>);

@@ -25,8 +25,8 @@ struct Broken<'a> {
     key: Option<Key>,
 }
 
-/// Reads the usable runs of files; tells of every line that is not usable and of what becomes of its
-/// run when `wanted` runs of each row are. A file that is not there has no runs.
+/// Reads the usable runs of files; tells of every line that is not usable and of what becomes of
+/// its run when `wanted` runs of each row are. A file that is not there has no runs.
 ///
 /// Of two lines that contradict each other none is used: nothing says which one is right.
 pub(super) fn read<'a>(

@@ -55,8 +55,9 @@ fn skill(forecasts: &[(f64, f64)]) -> f64 {
 }
 
 impl<'a> Sample<'a> {
-    /// What a statistic measures of runs; `None` if no run has the field. `others` are the runs of the row
-    /// that [`Statistic::Multiple`] names, sorted by index; `table` are those of all rows, row by row.
+    /// What a statistic measures of runs; `None` if no run has the field. `others` are the runs of
+    /// the row that [`Statistic::Multiple`] names, sorted by index; `table` are those of all rows,
+    /// row by row.
     pub(super) fn of(
         statistic: &Statistic,
         runs: &[&'a Run],
@@ -144,8 +145,9 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// The value: part of a whole, mean, median, quantile, least, greatest, sum, ratio of sums or of spreads, or when the mean curve settles; and whether what
-    /// the metric waits for came about, always where it waits for nothing.
+    /// The value: part of a whole, mean, median, quantile, least, greatest, sum, ratio of sums or
+    /// of spreads, or when the mean curve settles; and whether what the metric waits for came
+    /// about, always where it waits for nothing.
     pub(super) fn value(&self) -> (f64, Reached) {
         let value = match self {
             Self::Flags { flags, whole } => whole * mean(&zeros_and_ones(flags)),
@@ -188,7 +190,8 @@ impl<'a> Sample<'a> {
         tolman_stats::quantile(self.spread()?, 0.5).ok()
     }
 
-    /// The numbers whose spread says something of the value, which it does not of the least, the greatest and the sum.
+    /// The numbers whose spread says something of the value, which it does not of the least, the
+    /// greatest and the sum.
     fn spread(&self) -> Option<&[f64]> {
         match self {
             Self::Numbers {
@@ -237,8 +240,9 @@ impl<'a> Sample<'a> {
         .ok()
     }
 
-    /// The interval of the difference between the value and that of a sample of `others` runs which is known by its value alone:
-    /// `observed` less how far two such samples of this one's runs differ by chance. `None` where there is nothing to draw from.
+    /// The interval of the difference between the value and that of a sample of `others` runs which
+    /// is known by its value alone: `observed` less how far two such samples of this one's runs
+    /// differ by chance. `None` where there is nothing to draw from.
     pub(super) fn stand_in(
         &self,
         observed: f64,

@@ -1,12 +1,12 @@
 //! When the mean curve of a row settles.
 
-/// The settling time of control theory: from when on the mean of all runs' curves stays at or below a limit that all rows of
-/// the table share.
+/// The settling time of control theory: from when on the mean of all runs' curves stays at or below
+/// a limit that all rows of the table share.
 ///
-/// The limit is the lowest mean of `level` among the rows, and `margin` times the mean of `scale` in the row `of` above it.
-/// Rows whose runs lack one of the three fields have no part in it. The value is the end of the first step from which on
-/// no step's mean is above the limit; where the last one is, the row does not settle, and the value is the length of the
-/// curve.
+/// The limit is the lowest mean of `level` among the rows, and `margin` times the mean of `scale`
+/// in the row `of` above it. Rows whose runs lack one of the three fields have no part in it. The
+/// value is the end of the first step from which on no step's mean is above the limit; where the
+/// last one is, the row does not settle, and the value is the length of the curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settling {
     /// A field that holds numbers at equal steps.
@@ -32,8 +32,8 @@ pub enum Reached {
     No,
 }
 
-/// When the mean of curves settles at or below a limit, and whether it does. A curve that ends early counts as far as it
-/// goes.
+/// When the mean of curves settles at or below a limit, and whether it does. A curve that ends
+/// early counts as far as it goes.
 pub(super) fn settles(curves: &[&[f64]], step: f64, limit: f64) -> (f64, Reached) {
     let length = curves.iter().map(|curve| curve.len()).max().unwrap_or(0);
     let above = |at: &usize| {

@@ -31,7 +31,8 @@ pub struct SummaryRow {
     pub metric: String,
     /// The value: the mean unless the metric says otherwise. `null` if it is not a number.
     pub value: f64,
-    /// There and false where the metric waits for something that did not come about: `value` is what was not enough.
+    /// There and false where the metric waits for something that did not come about: `value` is
+    /// what was not enough.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reached: Option<bool>,
     /// The standard deviation, for means and medians of two runs or more.

@@ -121,8 +121,8 @@ impl Table {
         self
     }
 
-    /// Adds a metric for each field from this one on, in the order of the record: of a flag the percentage of runs, named
-    /// `FIELD_percent`, of a number the mean. Words and curves have none.
+    /// Adds a metric for each field from this one on, in the order of the record: of a flag the
+    /// percentage of runs, named `FIELD_percent`, of a number the mean. Words and curves have none.
     ///
     /// ```
     /// use tolman_experiment::{Table, record};
@@ -235,16 +235,18 @@ pub struct Row {
     pub name: String,
     /// The paper's values, at most one for each metric.
     pub paper: Vec<PaperValue>,
-    /// How many runs it has, whatever the caller asks for: those of something without chance, one for each
-    /// thing it is tried on. `None` leaves it to the caller.
+    /// How many runs it has, whatever the caller asks for: those of something without chance, one
+    /// for each thing it is tried on. `None` leaves it to the caller.
     pub runs: Option<u32>,
     /// Whether no caller changes the number of its runs.
     pub(super) is_fixed: bool,
     /// How many runs the paper's row has, if another number than the table's.
     pub paper_runs: Option<u32>,
-    /// Whether it is a system of our own, which may be better than what the paper has; others reproduce the paper.
+    /// Whether it is a system of our own, which may be better than what the paper has; others
+    /// reproduce the paper.
     pub own: bool,
-    /// Which files its runs need that are not here, and where they come from; `None` if all is here.
+    /// Which files its runs need that are not here, and where they come from; `None` if all is
+    /// here.
     pub missing: Option<String>,
     /// Whether it has no runs of its own, but those of all other rows.
     pub(super) is_pooled: bool,
@@ -285,7 +287,8 @@ impl Row {
         self.said(metric.into(), mean, Some(sd))
     }
 
-    /// Adds a number of the paper that ours is not judged by, with the reason: a bound, a range, a world of another size.
+    /// Adds a number of the paper that ours is not judged by, with the reason: a bound, a range, a
+    /// world of another size.
     #[must_use]
     pub fn paper_aside(
         mut self,
@@ -319,7 +322,8 @@ impl Row {
         self
     }
 
-    /// Says which files its runs need that are not here, and where they come from. It stands with the paper's values alone.
+    /// Says which files its runs need that are not here, and where they come from. It stands with
+    /// the paper's values alone.
     #[must_use]
     pub fn missing(mut self, what: impl Into<String>) -> Self {
         self.missing = Some(what.into());
@@ -333,14 +337,16 @@ impl Row {
         self
     }
 
-    /// Sets how many runs it has, where that is not what the caller asks of every row but follows from it.
+    /// Sets how many runs it has, where that is not what the caller asks of every row but follows
+    /// from it.
     #[must_use]
     pub fn runs(mut self, runs: u32) -> Self {
         self.runs = Some(runs);
         self
     }
 
-    /// Gives it a number of runs that no caller changes: one for each of `things` that it is tried on, or as many as its paper has.
+    /// Gives it a number of runs that no caller changes: one for each of `things` that it is tried
+    /// on, or as many as its paper has.
     #[must_use]
     pub fn run_each(mut self, things: u32) -> Self {
         self.is_fixed = true;
@@ -451,7 +457,8 @@ impl Metric {
         Self::new(name, Statistic::Median(field.into()))
     }
 
-    /// The number of a numeric field below which a share of the runs lies, 0 … 1, by definition R-7.
+    /// The number of a numeric field below which a share of the runs lies, 0 … 1, by definition
+    /// R-7.
     pub fn quantile(name: impl Into<String>, field: impl Into<String>, share: f64) -> Self {
         let field = field.into();
         Self::new(name, Statistic::Quantile { field, share })
@@ -516,8 +523,8 @@ impl Metric {
         Self::new(name, Statistic::RatioOfSpreads { over, under })
     }
 
-    /// The sum of a numeric field over all runs divided by its sum over the runs of the row named `of` that
-    /// bear the same index: how many times that row's value.
+    /// The sum of a numeric field over all runs divided by its sum over the runs of the row named
+    /// `of` that bear the same index: how many times that row's value.
     pub fn multiple(
         name: impl Into<String>,
         field: impl Into<String>,
@@ -527,9 +534,10 @@ impl Metric {
         Self::new(name, Statistic::Multiple { field, of })
     }
 
-    /// How much better forecasts are than always telling how often the flag named `outcome` is set (Brier 1950): 1 − the mean of the
-    /// field named `error`, which is the squared error of each forecast, over the variance of the flag. 1 is never wrong, 0 as good
-    /// as that, below it worse. No value of a row in which the flag is always the same.
+    /// How much better forecasts are than always telling how often the flag named `outcome` is set
+    /// (Brier 1950): 1 − the mean of the field named `error`, which is the squared error of each
+    /// forecast, over the variance of the flag. 1 is never wrong, 0 as good as that, below it
+    /// worse. No value of a row in which the flag is always the same.
     pub fn skill(
         name: impl Into<String>,
         error: impl Into<String>,
@@ -646,7 +654,8 @@ pub enum Statistic {
         /// The name of the other row.
         of: String,
     },
-    /// How much better forecasts are than the base rate; see [`Metric::skill`]. No interval is told.
+    /// How much better forecasts are than the base rate; see [`Metric::skill`]. No interval is
+    /// told.
     Skill {
         /// The numeric field of the squared errors.
         error: String,
@@ -693,7 +702,8 @@ impl Statistic {
     }
 }
 
-/// How far our value may lie from the paper's and still match it. A quantity has one tolerance in all tables.
+/// How far our value may lie from the paper's and still match it. A quantity has one tolerance in
+/// all tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// How far.

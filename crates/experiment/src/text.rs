@@ -16,8 +16,8 @@ pub enum Ink {
 }
 
 /// All tables of an analysis, each with a line end. Behind a value of ours stands `=` where it
-/// matches the paper's, `!` where it differs, `+` where it is better and `?` where nobody can tell, and how much of a
-/// difference could have been seen. The last line counts them.
+/// matches the paper's, `!` where it differs, `+` where it is better and `?` where nobody can tell,
+/// and how much of a difference could have been seen. The last line counts them.
 pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
     let mut text = String::new();
     for table in &analysis.tables {

@@ -10,15 +10,15 @@ use tolman_stats::{
 
 /// The judgement of one value.
 ///
-/// It *differs* where the 95 % interval of the difference, with the spread of both samples, excludes 0 and the difference exceeds
-/// the tolerance; it *matches* where the difference is within the tolerance and the interval includes 0. Of all else the
-/// runs cannot tell.
+/// It *differs* where the 95 % interval of the difference, with the spread of both samples,
+/// excludes 0 and the difference exceeds the tolerance; it *matches* where the difference is within
+/// the tolerance and the interval includes 0. Of all else the runs cannot tell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// What was found.
     pub finding: Finding,
-    /// Interval of ours minus the paper's, in the metric's unit; `None` where nobody can say. Half its width is what could have
-    /// been seen.
+    /// Interval of ours minus the paper's, in the metric's unit; `None` where nobody can say. Half
+    /// its width is what could have been seen.
     pub difference: Option<ConfidenceInterval>,
     /// The values of ours within the tolerance, ends included; `None` where none is stated.
     pub accepted: Option<ConfidenceInterval>,
@@ -41,7 +41,8 @@ pub enum Finding {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Doubt {
-    /// The interval includes 0 and reaches beyond the tolerance, in which the difference does not lie.
+    /// The interval includes 0 and reaches beyond the tolerance, in which the difference does not
+    /// lie.
     TooWide,
     /// The difference is certain, and within the tolerance.
     Slight,
@@ -111,7 +112,8 @@ impl Verdict {
         }
     }
 
-    /// Returns half the width of the interval of the difference: what could have been seen, in the metric's unit.
+    /// Returns half the width of the interval of the difference: what could have been seen, in the
+    /// metric's unit.
     #[must_use]
     pub fn resolution(&self) -> Option<f64> {
         self.difference

@@ -1,6 +1,6 @@
-//! The program of a classic micromouse, without its hardware: an example of how wall map, planners and exploration go
-//! together on a chip. No standard library, no allocation, no panic; everything a [`Mouse`] holds fits into
-//! 10 kB.
+//! The program of a classic micromouse, without its hardware: an example of how wall map, planners
+//! and exploration go together on a chip. No standard library, no allocation, no panic; everything
+//! a [`Mouse`] holds fits into 10 kB.
 //!
 //! The firmware's main loop drives one cell, reads the three wall sensors and asks for the next
 //! [`Command`]; when it notices a crash it says so. The fast run comes out as moves.

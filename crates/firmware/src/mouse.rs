@@ -18,7 +18,8 @@ const PATIENCE: u8 = 60;
 /// Where the mouse is put at the start, and where it looks then.
 const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
 
-/// The mouse: what it knows and what it is doing. Directions to and from it are its own: north is ahead.
+/// The mouse: what it knows and what it is doing. Directions to and from it are its own: north is
+/// ahead.
 #[derive(Clone, Debug)]
 pub struct Mouse<'a> {
     times: &'a SpeedRunTimes<MAZE>,
@@ -64,8 +65,8 @@ pub enum Command {
         /// Milliseconds.
         run_ms: u16,
     },
-    /// Stay: the walls known do not say where the mouse is, or contradict what it sees. It has to be carried back to
-    /// the start.
+    /// Stay: the walls known do not say where the mouse is, or contradict what it sees. It has to
+    /// be carried back to the start.
     CarryBack,
     /// Stay: no way leads to the goal as far as the walls are known.
     GiveUp,
@@ -132,8 +133,8 @@ impl<'a> Mouse<'a> {
         })
     }
 
-    /// Says that the mouse has crashed and lost its way. What it saw last may be wrong and is forgotten.
-    /// It has to stand in some cell, with an open side behind it.
+    /// Says that the mouse has crashed and lost its way. What it saw last may be wrong and is
+    /// forgotten. It has to stand in some cell, with an open side behind it.
     ///
     /// # Errors
     /// Never, as the maze is as large as the map.
@@ -146,14 +147,15 @@ impl<'a> Mouse<'a> {
         Ok(())
     }
 
-    /// Says that the mouse was carried back to the start. What it saw last is forgotten, in case it was
-    /// wrong.
+    /// Says that the mouse was carried back to the start. What it saw last is forgotten, in case it
+    /// was wrong.
     pub fn carried_back(&mut self) {
         self.walls.undo(DOUBTFUL);
         self.task = explore(self.times, self.goals, START);
     }
 
-    /// Hands out the moves of the fastest run on the walls known to be open, once the mouse is ready.
+    /// Hands out the moves of the fastest run on the walls known to be open, once the mouse is
+    /// ready.
     ///
     /// # Errors
     /// Never, as the maze is as large as the map.

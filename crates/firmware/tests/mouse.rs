@@ -25,9 +25,9 @@ fn seen_as(heading: Direction, side: Direction) -> Direction {
     Direction::ALL[(heading.index() + side.index()) % 4]
 }
 
-/// Drives until the mouse stays, and crashes before the cells that `crashes` counts, to be put down in one of the
-/// cells it has been to. Says how long the fast run takes that it has found, or none if it gives up or never comes
-/// back.
+/// Drives until the mouse stays, and crashes before the cells that `crashes` counts, to be put down
+/// in one of the cells it has been to. Says how long the fast run takes that it has found, or none
+/// if it gives up or never comes back.
 fn drive(maze: &Maze, crashes: &[usize]) -> Option<u16> {
     let config = SpeedRunConfig::classic();
     let times = SpeedRunTimes::new(&config).unwrap();

@@ -1,8 +1,10 @@
-//! Pose graphs in the plane as g2o, GTSAM, Cartographer's and slam_toolbox's tools write them: `VERTEX_SE2 id x y θ`,
-//! `EDGE_SE2 from to x y θ` with the upper triangle of the information matrix, row by row, and `FIX id`.
+//! Pose graphs in the plane as g2o, GTSAM, Cartographer's and slam_toolbox's tools write them:
+//! `VERTEX_SE2 id x y θ`, `EDGE_SE2 from to x y θ` with the upper triangle of the information
+//! matrix, row by row, and `FIX id`.
 //!
-//! Source: R. Kümmerle, G. Grisetti, H. Strasdat, K. Konolige, W. Burgard: g2o: A General Framework for Graph Optimization, 2011,
-//! and <https://github.com/RainerKuemmerle/g2o/wiki/File-Format-SLAM-2D>.
+//! Source: R. Kümmerle, G. Grisetti, H. Strasdat, K. Konolige, W. Burgard: g2o: A General Framework
+//! for Graph Optimization, 2011, and
+//! <https://github.com/RainerKuemmerle/g2o/wiki/File-Format-SLAM-2D>.
 
 mod fault;
 mod line;
@@ -65,7 +67,8 @@ pub struct G2oEdge {
     pub to: u64,
     /// Where `to` lies as seen from `from`.
     pub measured: Pose,
-    /// The inverse of the measurement's covariance: x, y, m, and the heading, rad; symmetric and positive definite.
+    /// The inverse of the measurement's covariance: x, y, m, and the heading, rad; symmetric and
+    /// positive definite.
     pub information: Matrix3<f64>,
     /// The line of the file, from 1; 0 of an edge that was in none.
     pub line: usize,
@@ -99,10 +102,12 @@ fn of_first(fault: &Option<Box<str>>) -> String {
 }
 
 impl G2o {
-    /// Reads a file's bytes, plain or gzipped. Of a truncated gzip file the beginning is used, and said to be.
+    /// Reads a file's bytes, plain or gzipped. Of a truncated gzip file the beginning is used, and
+    /// said to be.
     ///
     /// # Errors
-    /// [`G2oError`] if nothing of it is of use; single lines that are not are [left out](Self::left_out).
+    /// [`G2oError`] if nothing of it is of use; single lines that are not are
+    /// [left out](Self::left_out).
     pub fn read(bytes: &[u8]) -> Result<Self, G2oError> {
         if !bytes.starts_with(&[0x1f, 0x8b]) {
             return Self::parse(&String::from_utf8_lossy(bytes));
@@ -121,7 +126,8 @@ impl G2o {
         }
     }
 
-    /// Reads the text of a file. A file without any `VERTEX_SE2` has the poses that its edges name, all at the origin.
+    /// Reads the text of a file. A file without any `VERTEX_SE2` has the poses that its edges name,
+    /// all at the origin.
     ///
     /// # Errors
     /// [`G2oError::NoEdges`]; single lines that are of no use are [left out](Self::left_out).

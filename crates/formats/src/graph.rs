@@ -1,6 +1,8 @@
-//! Maps of places as graphs, in the formats that others read: all of them are written from a [`MapView`](tolman_robot::MapView).
+//! Maps of places as graphs, in the formats that others read: all of them are written from a
+//! [`MapView`](tolman_robot::MapView).
 //!
-//! A way that can be gone both ways stands in a `MapView` twice, and so it does in the files: all graphs are directed.
+//! A way that can be gone both ways stands in a `MapView` twice, and so it does in the files: all
+//! graphs are directed.
 
 mod dot;
 mod geojson;

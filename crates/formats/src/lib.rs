@@ -1,11 +1,13 @@
 //! Other people's files, read into plain structs.
 //!
-//! [`RosMap`] is an occupancy grid as `map_server` of ROS writes it: a YAML file with the grid's scale and place, and a PGM
-//! picture beside it. [`RosMapHeader`] and [`GreyMap`] are the two files by themselves. [`G2o`] is a pose graph in the plane, read
-//! and written.
+//! [`RosMap`] is an occupancy grid as `map_server` of ROS writes it: a YAML file with the grid's
+//! scale and place, and a PGM picture beside it. [`RosMapHeader`] and [`GreyMap`] are the two files
+//! by themselves. [`G2o`] is a pose graph in the plane, read and written.
 //!
-//! [`LogReader`] reads logs of robots; what cannot be used of them stands in a [`LogReport`]. [`ReadTrajectory`] and [`tum`] are ways in
-//! time, [`ReadRelations`] what is known of them. [`UtiasRobot`], [`TucDrive`] and [`SonarTable`] are data sets of others. [`dot`], [`graphml`], [`node_link_json`] and [`route_geojson`] write maps of places.
+//! [`LogReader`] reads logs of robots; what cannot be used of them stands in a [`LogReport`].
+//! [`ReadTrajectory`] and [`tum`] are ways in time, [`ReadRelations`] what is known of them.
+//! [`UtiasRobot`], [`TucDrive`] and [`SonarTable`] are data sets of others. [`dot`], [`graphml`],
+//! [`node_link_json`] and [`route_geojson`] write maps of places.
 //!
 //! ```
 //! use tolman_formats::{GreyMap, MapCell, RosMap, RosMapHeader};

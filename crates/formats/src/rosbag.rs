@@ -1,7 +1,8 @@
 //! Bags of ROS 2 in MCAP files: laser scans, odometry, and where the laser sits.
 //!
-//! Read are `sensor_msgs/msg/LaserScan`, `nav_msgs/msg/Odometry`, and of `tf2_msgs/msg/TFMessage` the topic `/tf_static`.
-//! All else is counted and left out, and so are a second laser and a second odometry.
+//! Read are `sensor_msgs/msg/LaserScan`, `nav_msgs/msg/Odometry`, and of `tf2_msgs/msg/TFMessage`
+//! the topic `/tf_static`. All else is counted and left out, and so are a second laser and a second
+//! odometry.
 //!
 //! Sources: the format's specification (mcap.dev), and the interface definitions of ROS 2.
 
@@ -30,7 +31,8 @@ const SCAN: &str = "sensor_msgs/msg/LaserScan";
 const ODOMETRY: &str = "nav_msgs/msg/Odometry";
 const TRANSFORMS: &str = "tf2_msgs/msg/TFMessage";
 
-/// What a bag holds. Entries are in the order of the file; instead of a line, the number of the message stands, from 1.
+/// What a bag holds. Entries are in the order of the file; instead of a line, the number of the
+/// message stands, from 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RosBag {
     /// Scans and odometry. A scan before the first odometry or after the last is left out.

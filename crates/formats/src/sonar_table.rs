@@ -1,7 +1,8 @@
-//! Readings of a ring of sonars with a word for what the robot did, one scan a line: `r₁,…,rₙ,Word`, lengths in m.
+//! Readings of a ring of sonars with a word for what the robot did, one scan a line:
+//! `r₁,…,rₙ,Word`, lengths in m.
 //!
-//! Source: the wall-following data of the UCI repository (A. Freire, G. Barreto and others, 2009), whose first line names the
-//! columns.
+//! Source: the wall-following data of the UCI repository (A. Freire, G. Barreto and others, 2009),
+//! whose first line names the columns.
 
 use std::path::Path;
 

@@ -1,4 +1,5 @@
-//! The SLAM data set of the Chemnitz University of Technology: places that looked alike, beside what wheels and gyroscope say.
+//! The SLAM data set of the Chemnitz University of Technology: places that looked alike, beside
+//! what wheels and gyroscope say.
 //!
 //! ```text
 //! odom2 time vx vy turn_rate var_vx var_vy var_turn_rate
@@ -6,7 +7,8 @@
 //! point2 time x y covariance…
 //! ```
 //!
-//! Source: P. Neubert, S. Schubert, P. Protzel, IEEE Robotics and Automation Letters 2019, and the data set's readme.
+//! Source: P. Neubert, S. Schubert, P. Protzel, IEEE Robotics and Automation Letters 2019, and the
+//! data set's readme.
 
 use std::path::Path;
 

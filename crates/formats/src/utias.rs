@@ -1,4 +1,5 @@
-//! The multi-robot data set of the University of Toronto (UTIAS MRCLAM, K. Leung 2009): a folder with a file of each kind a robot.
+//! The multi-robot data set of the University of Toronto (UTIAS MRCLAM, K. Leung 2009): a folder
+//! with a file of each kind a robot.
 //!
 //! ```text
 //! RobotN_Odometry.dat      time forward_velocity turn_rate

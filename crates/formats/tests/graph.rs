@@ -1,4 +1,5 @@
-//! Graphs are read by the programs of others: `cargo test -p tolman-formats --test graph -- --ignored` fetches networkx and evo from PyPI.
+//! Graphs are read by the programs of others:
+//! `cargo test -p tolman-formats --test graph -- --ignored` fetches networkx and evo from PyPI.
 
 use std::fs;
 use std::path::{Path, PathBuf};

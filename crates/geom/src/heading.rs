@@ -53,7 +53,8 @@ impl Heading {
         } else {
             turned
         };
-        // Adding τ to a value a rounding error above −2π gives −π's neighbour; keep the interval half-open.
+        // Adding τ to a value a rounding error above −2π gives −π's neighbour; keep the interval
+        // half-open.
         Self(if wrapped <= -PI { PI } else { wrapped })
     }
 

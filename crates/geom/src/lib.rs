@@ -8,8 +8,9 @@
 //! why poses are named `world_from_robot` where both frames matter. A [`Twist`] is a velocity, and
 //! [`Pose::moved`] follows one along its exact arc.
 //!
-//! What is known only within bounds has types of its own: an [`Interval`] holds a number, a [`PointBox`] a position, a
-//! [`PoseBox`] a pose, and all that is computed with them is rounded outwards, so that what is true stays inside.
+//! What is known only within bounds has types of its own: an [`Interval`] holds a number, a
+//! [`PointBox`] a position, a [`PoseBox`] a pose, and all that is computed with them is rounded
+//! outwards, so that what is true stays inside.
 //!
 //! All other trigonometry goes through [`libm`], so the same numbers come out on every platform.
 //!

@@ -1,6 +1,7 @@
 use crate::{Interval, IntervalError, Point};
 
-/// A position known to lie in a rectangle along the axes; or a displacement, which is a position seen from another.
+/// A position known to lie in a rectangle along the axes; or a displacement, which is a position
+/// seen from another.
 ///
 /// Never empty. All operations are sound and monotone, as those of [`Interval`] are.
 ///
@@ -127,11 +128,13 @@ impl PointBox {
         (self - other).norm()
     }
 
-    /// All places of a position turned about the origin by any of `angles`, rad: the least box up to rounding.
+    /// All places of a position turned about the origin by any of `angles`, rad: the least box up
+    /// to rounding.
     ///
-    /// For a given angle the turned position depends linearly on the position, so it is extreme in a corner; along
-    /// the angles a corner follows a circle about the origin, whose extremes lie at the ends or where it crosses an
-    /// axis. (Cosine and sine each as an interval of its own would be sound, but wider.)
+    /// For a given angle the turned position depends linearly on the position, so it is extreme in
+    /// a corner; along the angles a corner follows a circle about the origin, whose extremes lie at
+    /// the ends or where it crosses an axis. (Cosine and sine each as an interval of its own would
+    /// be sound, but wider.)
     #[must_use]
     pub fn rotated(self, angles: Interval) -> Self {
         /// Nearly a full circle, on which all extremes lie.
@@ -175,8 +178,8 @@ fn trace(a: f64, b: f64, ends: &Ends) -> Interval {
     });
     let [(first, before), (second, after)] = ends;
     let hull = first.hull(second);
-    // Over less than half a circle there is an extreme between the ends only where the slope changes sign. Where a
-    // slope's sign is not certain, an end is an extreme up to rounding.
+    // Over less than half a circle there is an extreme between the ends only where the slope
+    // changes sign. Where a slope's sign is not certain, an end is an extreme up to rounding.
     let longest = || PointBox::new(a, b).norm();
     let rises_then_falls = before.high() >= 0.0 && after.low() <= 0.0;
     let falls_then_rises = before.low() <= 0.0 && after.high() >= 0.0;

@@ -2,8 +2,8 @@ use nalgebra::{Isometry2, UnitComplex};
 
 use crate::{Heading, Point, Twist, Vector};
 
-/// A position and a heading, and so the rigid transform from the frame it carries to the frame it is
-/// given in: `world_from_robot.transform(point_in_robot)` is the point in the world.
+/// A position and a heading, and so the rigid transform from the frame it carries to the frame it
+/// is given in: `world_from_robot.transform(point_in_robot)` is the point in the world.
 ///
 /// ```
 /// use tolman_geom::{Heading, Point, Pose};
@@ -51,7 +51,8 @@ impl Pose {
         }
     }
 
-    /// The pose of `other` as seen from this one: `world_from_a.between(world_from_b)` is `a_from_b`.
+    /// The pose of `other` as seen from this one: `world_from_a.between(world_from_b)` is
+    /// `a_from_b`.
     #[must_use]
     pub fn between(self, other: Self) -> Self {
         self.inverse().compose(other)

@@ -2,11 +2,12 @@ use core::f64::consts::TAU;
 
 use crate::{Interval, IntervalError, PointBox, Pose};
 
-/// A pose known to lie within bounds, and so a rigid transform known within bounds: the uncertain [`Pose`].
+/// A pose known to lie within bounds, and so a rigid transform known within bounds: the uncertain
+/// [`Pose`].
 ///
-/// The heading is not wrapped: it may be wider than a full circle, and headings a full circle apart are the same
-/// wherever poses are compared. All operations are sound: whatever true poses lie in the operands, the true result
-/// lies in the result.
+/// The heading is not wrapped: it may be wider than a full circle, and headings a full circle apart
+/// are the same wherever poses are compared. All operations are sound: whatever true poses lie in
+/// the operands, the true result lies in the result.
 ///
 /// ```
 /// use tolman_geom::{Heading, Interval, Point, PointBox, Pose, PoseBox};
@@ -26,8 +27,8 @@ use crate::{Interval, IntervalError, PointBox, Pose};
 /// # Ok::<(), tolman_geom::IntervalError>(())
 /// ```
 ///
-/// Source: Engelson and McDermott, *Maps considered as adaptive planning resources*: positions and headings as
-/// intervals, composed and inverted along links.
+/// Source: Engelson and McDermott, *Maps considered as adaptive planning resources*: positions and
+/// headings as intervals, composed and inverted along links.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseBox {
@@ -79,8 +80,9 @@ impl PoseBox {
         Self::new((-self.position).rotated(-self.heading), -self.heading)
     }
 
-    /// `other` as seen from here: `world_from_a.between(world_from_b)` is `a_from_b`. Narrower than composing with the
-    /// inverse, which forgets that its position and its heading are seen from the same place.
+    /// `other` as seen from here: `world_from_a.between(world_from_b)` is `a_from_b`. Narrower than
+    /// composing with the inverse, which forgets that its position and its heading are seen from
+    /// the same place.
     #[must_use]
     pub fn between(self, other: Self) -> Self {
         Self::new(
@@ -103,9 +105,9 @@ impl PoseBox {
             && heading.is_ok_and(|heading| self.heading.meets(nearest(heading, self.heading)))
     }
 
-    /// What both allow, headings up to full circles; none if they contradict each other, which is a *fact*: a bound was
-    /// broken, or the two are not estimates of the same pose. Where wide headings agree in two parts of the circle,
-    /// what lies between them is in the result as well.
+    /// What both allow, headings up to full circles; none if they contradict each other, which is a
+    /// *fact*: a bound was broken, or the two are not estimates of the same pose. Where wide
+    /// headings agree in two parts of the circle, what lies between them is in the result as well.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         Some(Self::new(
@@ -114,7 +116,8 @@ impl PoseBox {
         ))
     }
 
-    /// The least box that holds both, the headings of `other` brought to within half a circle of those here.
+    /// The least box that holds both, the headings of `other` brought to within half a circle of
+    /// those here.
     #[must_use]
     pub fn hull(self, other: Self) -> Self {
         Self::new(

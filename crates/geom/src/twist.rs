@@ -20,7 +20,8 @@ impl Twist {
         Self { linear, angular }
     }
 
-    /// The twist of a differential drive whose wheels roll at `left` and `right` m/s, `track` metres apart.
+    /// The twist of a differential drive whose wheels roll at `left` and `right` m/s, `track`
+    /// metres apart.
     ///
     /// Wheels on one spot (`track` 0) have no twist: the result is then not finite.
     ///

@@ -230,7 +230,8 @@ proptest! {
                 }
             }
         }
-        // 400 steps of at most 0.0075 rad miss an extreme of a circle of at most 33 m by under a millimetre.
+        // 400 steps of at most 0.0075 rad miss an extreme of a circle of at most 33 m by under a
+        // millimetre.
         prop_assert!(turned.x.width() - touched.x.width() < 2e-3);
         prop_assert!(turned.y.width() - touched.y.width() < 2e-3);
     }
@@ -250,8 +251,8 @@ proptest! {
     }
 }
 
-/// Round a square, a side 1 m ± 10 cm ahead and 5 cm aside, a corner 90° ± 1°: how the bounds grow, as the sound and tight
-/// arithmetic of others has it.
+/// Round a square, a side 1 m ± 10 cm ahead and 5 cm aside, a corner 90° ± 1°: how the bounds grow,
+/// as the sound and tight arithmetic of others has it.
 #[test]
 fn boxes_grow_round_a_square_as_they_must() {
     let leg = PoseBox::new(

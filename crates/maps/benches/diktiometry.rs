@@ -1,7 +1,8 @@
-//! A move taken in by the observer of a diktiometry, on open worlds of places that all look alike: while the world is being
-//! learned and once it is known; and of places of many looks.
+//! A move taken in by the observer of a diktiometry, on open worlds of places that all look alike:
+//! while the world is being learned and once it is known; and of places of many looks.
 //!
-//! Criterion measures moves on known maps; the table is of single moves, of which percentiles say more on a busy machine.
+//! Criterion measures moves on known maps; the table is of single moves, of which percentiles say
+//! more on a busy machine.
 
 #![expect(
     clippy::unwrap_used,
@@ -23,7 +24,8 @@ use tolman_maps::diktiometry::{Config, StepReport, Use};
 use tolman_maze::Direction;
 use walk::{ODOMETRY, Scripted, Walk, open, painted};
 
-/// Moves through each of the worlds of many looks, and how many of the first and of the last of them make a row.
+/// Moves through each of the worlds of many looks, and how many of the first and of the last of
+/// them make a row.
 const LOOKED_AT: usize = 8000;
 const ROW: usize = 1000;
 
@@ -72,7 +74,8 @@ fn main() {
     criterion.final_summary();
 }
 
-/// Walls of eight colours, and merges by looks: on a map that is being learned they are weighed with every move.
+/// Walls of eight colours, and merges by looks: on a map that is being learned they are weighed
+/// with every move.
 fn by_looks() {
     for (name, look_merge) in [("off", Use::Off), ("on", Use::On)] {
         let mut config = painted();

@@ -1,13 +1,17 @@
-//! CPM, the common-pattern map: path fragments between junctions, each a sequence of common patterns.
+//! CPM, the common-pattern map: path fragments between junctions, each a sequence of common
+//! patterns.
 //!
-//! Kawewong, Honda, Tsuboyama, Hasegawa: "Reasoning on the Self-Organizing Incremental Associative Memory for Online Robot
-//! Path Planning" (2010). In the order data flows:
+//! Kawewong, Honda, Tsuboyama, Hasegawa: "Reasoning on the Self-Organizing Incremental Associative
+//! Memory for Online Robot Path Planning" (2010). In the order data flows:
 //!
-//! - a [`Dictionary`] holds the common patterns (CPs), which a quantizer has found; a [`PatternId`] is one of them;
-//! - a [`Traversal`] is what a robot observed along one fragment, between two [`Sighting`]s of junctions, dead ends or landmarks;
+//! - a [`Dictionary`] holds the common patterns (CPs), which a quantizer has found; a [`PatternId`]
+//!   is one of them;
+//! - a [`Traversal`] is what a robot observed along one fragment, between two [`Sighting`]s of
+//!   junctions, dead ends or landmarks;
 //! - a [`Turn`] (Δ) is what it did at a junction;
 //! - a [`CpMapper`] takes both in, as a [`CpMapperConfig`] says;
-//! - the [`CpMap`] (ℳ) has the fragments and junctions; similar fragments, by [`FragmentMatching`], are one;
+//! - the [`CpMap`] (ℳ) has the fragments and junctions; similar fragments, by [`FragmentMatching`],
+//!   are one;
 //! - a [`Plan`] is a way through it;
 //! - a [`Localizer`] finds where on some maps a robot is that was put somewhere;
 //! - a `MapFile` (feature `serde`) keeps a map with its dictionary;

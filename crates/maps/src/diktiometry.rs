@@ -1,15 +1,17 @@
 //! The diktiometry: the map as an adaptive planning resource (Engelson and McDermott).
 //!
-//! "The world is modelled as a set of places with relative positions and known actions that get the robot from place to
-//! place." An [`Observer`] watches the moves of any robot and keeps a [`Diktiometry`]: a *path graph* of places and actions, a
-//! *reference graph* of local frames with bounds on where they lie, and reference links between the two.
+//! "The world is modelled as a set of places with relative positions and known actions that get the
+//! robot from place to place." An [`Observer`] watches the moves of any robot and keeps a
+//! [`Diktiometry`]: a *path graph* of places and actions, a *reference graph* of local frames with
+//! bounds on where they lie, and reference links between the two.
 //!
 //! In the order data flows (the paper's figure 1):
 //!
 //! 1. An [`ObservedMove`] comes in: action, odometry within bounds, percept, how it ended.
 //! 2. The *projector* (`projector`) moves every [`Track`].
 //! 3. The *indexer* (`indexing`) proposes places it may be at: expected, near, or looking alike.
-//! 4. The *matching engine* (`matching`) asks the [`Matcher`]s, in an order that depends on what is known of the area.
+//! 4. The *matching engine* (`matching`) asks the [`Matcher`]s, in an order that depends on what is
+//!    known of the area.
 //! 5. The *updater* (`updater`) narrows boxes and counts links.
 //! 6. The *restructurer* (`restructuring`) merges, splits and elides.
 //! 7. A [`StepReport`] says what was done; [`Observer::opportunities`] what would help.

@@ -1,20 +1,26 @@
 //! What a robot has learned of its surroundings, one module per kind of map.
 //!
 //! - [`wall_map`]: the walls of a grid maze: unknown, open or standing. Fixed size, no allocation.
-//! - [`wall_belief`]: the same walls for a mouse whose sensors and wheels err, and where on them it is.
-//! - [`cpm`]: the path fragments between junctions, as sequences of common patterns, and how junctions join them.
-//! - [`diktiometry`]: places, actions between them and bounds on where they lie, as an observer of any robot's moves.
+//! - [`wall_belief`]: the same walls for a mouse whose sensors and wheels err, and where on them it
+//!   is.
+//! - [`cpm`]: the path fragments between junctions, as sequences of common patterns, and how
+//!   junctions join them.
+//! - [`diktiometry`]: places, actions between them and bounds on where they lie, as an observer of
+//!   any robot's moves.
 //! - [`place_map`]: places as prototypes of what was seen, heard and rolled there.
 //! - [`place_graph`]: places and where they lie, learned while they correct the robot's pose.
 //! - [`pose_graph`]: poses joined by what was measured between them, made to agree.
-//! - [`audit`]: which closures of a pose graph are right, as far as its odometry and its other closures tell.
-//! - [`scan_map`]: places and walls learned from scans, each place once, and where on them a robot may stand.
+//! - [`audit`]: which closures of a pose graph are right, as far as its odometry and its other
+//!   closures tell.
+//! - [`scan_map`]: places and walls learned from scans, each place once, and where on them a robot
+//!   may stand.
 //! - [`scan_matching`]: the robot's way by scans matched to those before, and by places seen again.
-//! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the next.
+//! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the
+//!   next.
 //!
-//! A map takes in what is observed and answers what is known. What to do next is the business of planners,
-//! which see no map type: they ask a trait of their own crate or of the vocabulary below them, such as
-//! [`tolman_maze::Walls`].
+//! A map takes in what is observed and answers what is known. What to do next is the business of
+//! planners, which see no map type: they ask a trait of their own crate or of the vocabulary below
+//! them, such as [`tolman_maze::Walls`].
 #![no_std]
 
 #[cfg(feature = "alloc")]

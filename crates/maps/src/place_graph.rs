@@ -1,14 +1,18 @@
-//! Places and where they lie, learned while the robot moves: its pose is corrected from the map that it makes.
+//! Places and where they lie, learned while the robot moves: its pose is corrected from the map
+//! that it makes.
 //!
-//! The paper's own list of what to do next (section 6): displacement "relative to the previous point", features in place of
-//! pixels, and a map that corrects the odometry. In the order data flows:
+//! The paper's own list of what to do next (section 6): displacement "relative to the previous
+//! point", features in place of pixels, and a map that corrects the odometry. In the order data
+//! flows:
 //!
-//! 1. An [`Outline`] is what a snapshot shows of the things round the robot: points where they stand on the floor, with their
-//!    colours, and the arcs that sonars heard them on.
-//! 2. [`WheelError`] is what the map has found out about the wheels, and predicts where the robot has come to.
+//! 1. An [`Outline`] is what a snapshot shows of the things round the robot: points where they
+//!    stand on the floor, with their colours, and the arcs that sonars heard them on.
+//! 2. [`WheelError`] is what the map has found out about the wheels, and predicts where the robot
+//!    has come to.
 //! 3. The prediction is fitted to the map: the surfaces that all places have seen.
-//! 4. A [`PlaceGraph`] keeps the places, each with its outline, in a [`PoseGraph`](crate::pose_graph::PoseGraph) whose closures are the places that a fit
-//!    has recognized. While it does not know where it is, it follows several hypotheses.
+//! 4. A [`PlaceGraph`] keeps the places, each with its outline, in a
+//!    [`PoseGraph`](crate::pose_graph::PoseGraph) whose closures are the places that a fit has
+//!    recognized. While it does not know where it is, it follows several hypotheses.
 
 mod config;
 mod fit;

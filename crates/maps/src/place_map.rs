@@ -1,17 +1,19 @@
-//! Places as prototypes of what a robot saw, heard and rolled there, learned by a growing neural gas.
+//! Places as prototypes of what a robot saw, heard and rolled there, learned by a growing neural
+//! gas.
 //!
-//! Source: A. Goldhoorn, H. Stadman, E. Eldering: Implementation of a Simultaneous Localization and Mapping system using
-//! Growing Neural Gas, 2006. In the order data flows:
+//! Source: A. Goldhoorn, H. Stadman, E. Eldering: Implementation of a Simultaneous Localization and
+//! Mapping system using Growing Neural Gas, 2006. In the order data flows:
 //!
 //! - a [`PlaceRecord`] is what was recorded at one place (section 3.2);
-//! - a [`FeatureChoice`] says which features it is told by: the image, smaller and in some [`ColourSpace`], the ranges, the
-//!   odometry ("Features");
+//! - a [`FeatureChoice`] says which features it is told by: the image, smaller and in some
+//!   [`ColourSpace`], the ranges, the odometry ("Features");
 //! - a [`FeatureTable`] makes them of many records, scaled by how they vary;
-//! - a [`PlaceMap`] learns from the table, as its [`PlaceMapConfig`] says ("Learning"), and answers which node is nearest to
-//!   a record, where nodes lie, what they look like and by which way one leads to another.
+//! - a [`PlaceMap`] learns from the table, as its [`PlaceMapConfig`] says ("Learning"), and answers
+//!   which node is nearest to a record, where nodes lie, what they look like and by which way one
+//!   leads to another.
 //!
-//! Squared distances are those of equation 3.1, d² = Σ w (a − b)², with one weight a group: see [`FeatureScaling`] for what
-//! a group's size does.
+//! Squared distances are those of equation 3.1, d² = Σ w (a − b)², with one weight a group: see
+//! [`FeatureScaling`] for what a group's size does.
 
 mod colour_space;
 mod config;

@@ -1,12 +1,15 @@
-//! Places learned from scans, a compass and what the wheels rolled, each of them once: a map that stops growing.
+//! Places learned from scans, a compass and what the wheels rolled, each of them once: a map that
+//! stops growing.
 //!
 //! In the order data flows:
 //!
-//! 1. A [`ScanMap`] takes in [how far](Advance) the robot came and what it sees there. It fits the scan to the walls that it knows and so
-//!    corrects the position; then it draws the walls that are new on a [`WallGrid`], and finds the place or adds it.
-//! 2. [`Clearings`] say where the robot can stand and has not been: [where the map has gaps](WayToGap).
-//! 3. A [`ScanChart`] is what is left when nothing more is learned: the [ground](GroundPlan), two bits a cell, the places and the links. A file holds its
-//!    [parts](ChartParts).
+//! 1. A [`ScanMap`] takes in [how far](Advance) the robot came and what it sees there. It fits the
+//!    scan to the walls that it knows and so corrects the position; then it draws the walls that
+//!    are new on a [`WallGrid`], and finds the place or adds it.
+//! 2. [`Clearings`] say where the robot can stand and has not been:
+//!    [where the map has gaps](WayToGap).
+//! 3. A [`ScanChart`] is what is left when nothing more is learned: the [ground](GroundPlan), two
+//!    bits a cell, the places and the links. A file holds its [parts](ChartParts).
 //! 4. [`Standpoints`] are a lattice of positions on it; they say what is seen from each.
 //! 5. A [`StandpointBelief`] is what a robot that was put down somewhere believes of where it is.
 //!

@@ -1,20 +1,26 @@
-//! The way of a robot and a map of points, by scans that are matched to those before: the dense baseline.
+//! The way of a robot and a map of points, by scans that are matched to those before: the dense
+//! baseline.
 //!
 //! In the order data flows:
 //!
-//! 1. A [`ScanStep`] brings a scan and how far the wheels came since the one before. Beams become an outline of surface points.
-//! 2. The outline is matched to the last keyframes: all poses in a window about where the odometry has it, by branch and bound on a
-//!    grid of likelihoods, then Newton's steps from the best.
-//! 3. After some way the scan becomes a keyframe: a pose of a [`PoseGraph`](crate::pose_graph::PoseGraph), joined to the one before
-//!    with the information that the match has.
-//! 4. The last keyframes together are matched to old ones that lie near, in a window that grows with the way since the last closure. Two
-//!    matches that agree become closures, and the graph is optimized.
-//! 5. [`ScanMatching::finish`] looks for all closures again, on the map that they made, until it finds the same ones twice.
+//! 1. A [`ScanStep`] brings a scan and how far the wheels came since the one before. Beams become
+//!    an outline of surface points.
+//! 2. The outline is matched to the last keyframes: all poses in a window about where the odometry
+//!    has it, by branch and bound on a grid of likelihoods, then Newton's steps from the best.
+//! 3. After some way the scan becomes a keyframe: a pose of a
+//!    [`PoseGraph`](crate::pose_graph::PoseGraph), joined to the one before with the information
+//!    that the match has.
+//! 4. The last keyframes together are matched to old ones that lie near, in a window that grows
+//!    with the way since the last closure. Two matches that agree become closures, and the graph is
+//!    optimized.
+//! 5. [`ScanMatching::finish`] looks for all closures again, on the map that they made, until it
+//!    finds the same ones twice.
 //! 6. [`ScanMatching::overlay`] finds where the map of another day lies on this one.
 //!
-//! Sources: E. Olson: Real-Time Correlative Scan Matching, 2009; K. Konolige et al.: Efficient Sparse Pose Adjustment for 2D Mapping,
-//! 2010 (the program Karto). Unlike [`scan_map`](crate::scan_map), which has a compass and corrects positions on a map that never moves,
-//! it finds headings too, and old parts of its map move when a place is seen again.
+//! Sources: E. Olson: Real-Time Correlative Scan Matching, 2009; K. Konolige et al.: Efficient
+//! Sparse Pose Adjustment for 2D Mapping, 2010 (the program Karto). Unlike
+//! [`scan_map`](crate::scan_map), which has a compass and corrects positions on a map that never
+//! moves, it finds headings too, and old parts of its map move when a place is seen again.
 
 mod closures;
 mod config;

@@ -18,7 +18,8 @@ use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
 
 const SIGMA: f64 = 0.02;
 
-/// Poses round a square of 8 m, a metre apart, lap after lap, with measurements that err by `errors` standard deviations.
+/// Poses round a square of 8 m, a metre apart, lap after lap, with measurements that err by
+/// `errors` standard deviations.
 struct Laps {
     truth: Vec<Pose>,
     graph: PoseGraph,
@@ -48,7 +49,8 @@ fn edge(from: u32, to: u32, measured: Pose, kind: PoseEdgeKind) -> PoseEdge {
 }
 
 impl Laps {
-    /// Every fifth pose but those of the first lap sees its place of the lap before again: each is a run of its own.
+    /// Every fifth pose but those of the first lap sees its place of the lap before again: each is
+    /// a run of its own.
     fn new(laps: u32, errors: f64, seed: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut erring = |measured: Pose| {
@@ -147,7 +149,8 @@ fn false_closures_are_refuted_and_never_supported() {
 
 #[test]
 fn a_single_run_is_no_witness_of_itself() {
-    // Twenty false closures in a row that agree with each other, after a way too long for odometry to tell.
+    // Twenty false closures in a row that agree with each other, after a way too long for odometry
+    // to tell.
     let mut laps = Laps::new(12, 1.0, 4);
     let all: Vec<PoseEdge> = laps.graph.edges().to_vec();
     laps.graph = PoseGraph::new();

@@ -1,4 +1,5 @@
-//! The explorer of steps on the wall map: it ends with a run that no completion of the unknown walls undercuts.
+//! The explorer of steps on the wall map: it ends with a run that no completion of the unknown
+//! walls undercuts.
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a failed test")]
 
 use proptest::prelude::*;
@@ -30,7 +31,8 @@ fn braided(width: u16, height: u16, share: f64, seed: u64) -> Maze {
         .unwrap()
 }
 
-/// Fewest steps to each cell, written as plainly as it goes: up to three cells in a row without a wall between.
+/// Fewest steps to each cell, written as plainly as it goes: up to three cells in a row without a
+/// wall between.
 fn fewest_steps(maze: &Maze, start: Cell) -> Vec<Option<u16>> {
     let grid = maze.grid();
     let mut steps = vec![None; grid.cell_count()];
@@ -76,7 +78,8 @@ fn look(map: &mut WallMap<16>, maze: &Maze, at: Cell, heading: Direction) {
     map.observe(at, &rays).unwrap();
 }
 
-/// Explores `maze`; what is known in the end, the steps it took, the steps of the run that is proven.
+/// Explores `maze`; what is known in the end, the steps it took, the steps of the run that is
+/// proven.
 fn explore(maze: &Maze) -> (WallMap<16>, u32, u16) {
     let mut explorer = explorer(maze);
     explore_by(maze, |map, at| {
@@ -232,7 +235,8 @@ fn rollouts_save_steps() {
     );
 }
 
-/// The last looks are forgotten now and then, also on the way to a stop: it goes on with what it knows.
+/// The last looks are forgotten now and then, also on the way to a stop: it goes on with what it
+/// knows.
 #[test]
 fn rollouts_go_on_where_walls_are_forgotten() {
     let maze = braided(9, 9, 0.5, 1);

@@ -1,4 +1,5 @@
-//! Place maps of a made-up pitch: a rectangle whose walls have four colours, seen by a pinhole camera.
+//! Place maps of a made-up pitch: a rectangle whose walls have four colours, seen by a pinhole
+//! camera.
 #![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use rand::{RngExt, SeedableRng};
@@ -116,8 +117,9 @@ fn redness(picture: &Picture) -> f64 {
     picture.pixels.iter().filter(red).count() as f64 / picture.pixels.len() as f64
 }
 
-/// How far to the east of the others the nodes lie that see the windows, once the map is turned so that the side that looks
-/// yellow is straight above the side that looks blue, as the paper draws it; m.
+/// How far to the east of the others the nodes lie that see the windows, once the map is turned so
+/// that the side that looks yellow is straight above the side that looks blue, as the paper draws
+/// it; m.
 fn windows_to_the_right(map: &PlaceMap) -> f64 {
     let mean_where = |see: &dyn Fn(&Picture) -> bool| {
         let seen = map.positions();

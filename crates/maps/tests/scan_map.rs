@@ -1,4 +1,5 @@
-//! The scan map in rooms whose walls are known: what it draws, where it fits a scan, and what it believes.
+//! The scan map in rooms whose walls are known: what it draws, where it fits a scan, and what it
+//! believes.
 
 use proptest::prelude::*;
 use tolman_geom::{Heading, Point, Vector};
@@ -34,8 +35,8 @@ fn scan_of(length: f64, at: Point, heading: Heading) -> Scan {
     scan
 }
 
-/// Walks along a corridor in steps whose odometry is off by `errors`, and back to where it began; returns the map and how far off its last
-/// position is.
+/// Walks along a corridor in steps whose odometry is off by `errors`, and back to where it began;
+/// returns the map and how far off its last position is.
 fn walked(length: f64, errors: &[f64]) -> (ScanMap, f64) {
     let mut map = ScanMap::new(ScanMapConfig::for_robot(DIAMETER));
     let start = Point::new(0.5, 0.475);
@@ -113,8 +114,9 @@ fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     assert!(belief.certainty(&on, DIAMETER) > 0.95);
 }
 
-/// What it believes who knows that it stands in a corridor 5 m long, `from` its western end, and then sees what is seen at `seen` from there
-/// in one of `length`, `looks` times; and what explained that best each time.
+/// What it believes who knows that it stands in a corridor 5 m long, `from` its western end, and
+/// then sees what is seen at `seen` from there in one of `length`, `looks` times; and what
+/// explained that best each time.
 fn surprised(
     from: f64,
     seen: f64,
@@ -206,7 +208,8 @@ fn a_scan_that_fits_nowhere_makes_it_begin_anew() {
     }
 }
 
-/// What is seen from a standpoint is what a robot there would see, as far as walls are known to a cell.
+/// What is seen from a standpoint is what a robot there would see, as far as walls are known to a
+/// cell.
 #[test]
 fn standpoints_see_what_is_there() {
     let (map, _) = walked(5.0, &[0.0]);
@@ -217,7 +220,8 @@ fn standpoints_see_what_is_there() {
         assert_eq!((on.position(number), on.at(at)), (Some(at), Some(number)));
         views.scan(number, Heading::WEST, &mut scan);
         let truly = scan_of(5.0, at + Vector::new(0.5, 0.475), Heading::WEST);
-        // Beams that run along a wall meet it far from where they should; others pass cells that no scan showed.
+        // Beams that run along a wall meet it far from where they should; others pass cells that no
+        // scan showed.
         let seen = scan.ranges.iter().zip(&truly.ranges);
         let seen = seen.filter(|(seen, _)| **seen < 1.2);
         let off = seen.filter(|(seen, truly)| (*seen - *truly).abs() > 0.1);
@@ -312,8 +316,8 @@ proptest! {
     #[test]
     fn errors_do_not_add_up(errors in prop::collection::vec(-0.03..0.03_f64, 3..9), length in 2.0..3.4_f64) {
         let (map, off) = walked(length, &errors);
-        // Unseen, errors of one sign would add up to 0.36 m. In longer corridors these can be more than
-        // the odometry is told to err by, and the walls at its ends are then not known again.
+        // Unseen, errors of one sign would add up to 0.36 m. In longer corridors these can be more
+        // than the odometry is told to err by, and the walls at its ends are then not known again.
         prop_assert!(off < 0.25, "{off}");
         prop_assert!(map.agreement() > 0.5);
     }

@@ -97,7 +97,8 @@ fn a_wrong_belief_is_given_up() {
         belief.observe(pose, reading(0.264), &SENSOR);
     }
     assert_eq!(belief.knowledge(side.0, side.1), Knowledge::Open);
-    // What ends between two lines says nothing of the farther one, what is oblique or no number says nothing at all.
+    // What ends between two lines says nothing of the farther one, what is oblique or no number
+    // says nothing at all.
     belief.observe(pose, reading(0.35), &SENSOR);
     assert_eq!(
         belief.knowledge(Cell::new(1, 0), Direction::East),

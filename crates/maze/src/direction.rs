@@ -49,7 +49,8 @@ impl Direction {
         Self::ALL[(self.index() + side.index()) % 4]
     }
 
-    /// The side on which somebody who looks to `heading` has this direction: the inverse of [`turned`](Self::turned).
+    /// The side on which somebody who looks to `heading` has this direction: the inverse of
+    /// [`turned`](Self::turned).
     #[must_use]
     pub const fn seen_from(self, heading: Self) -> Self {
         Self::ALL[(self.index() + 4 - heading.index()) % 4]

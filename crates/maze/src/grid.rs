@@ -4,14 +4,16 @@ use crate::{Cell, Direction};
 
 /// One edge of the grid: the border between two cells, or between a cell and the outside.
 ///
-/// Ids are dense: first the vertical edges row by row from the south-west, then the horizontal ones.
+/// Ids are dense: first the vertical edges row by row from the south-west, then the horizontal
+/// ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Wall(pub u32);
 
 /// The size of a maze, and with it the numbering of its walls. Needs no memory of its own.
 ///
-/// Up to [`Grid::MAX_SIDE`] a side every wall has its own number; readers and generators refuse more.
+/// Up to [`Grid::MAX_SIDE`] a side every wall has its own number; readers and generators refuse
+/// more.
 ///
 /// ```
 /// use tolman_maze::{Cell, Direction, Grid};
@@ -100,8 +102,8 @@ impl Grid {
         Wall(id as u32)
     }
 
-    /// The cell that `wall` is a side of, and which: the inverse of [`Grid::wall`]. Of two such cells it is
-    /// the one in the west or south. None for a number that no wall of this grid has.
+    /// The cell that `wall` is a side of, and which: the inverse of [`Grid::wall`]. Of two such
+    /// cells it is the one in the west or south. None for a number that no wall of this grid has.
     ///
     /// ```
     /// use tolman_maze::{Cell, Direction, Grid, Wall};

@@ -125,8 +125,8 @@ impl Maze {
         self.neighbours(cell).count()
     }
 
-    /// Whether a cell, those to its north and east and the one between them are open to each other: no wall ends at the post in their
-    /// middle.
+    /// Whether a cell, those to its north and east and the one between them are open to each other:
+    /// no wall ends at the post in their middle.
     #[must_use]
     pub fn is_room(&self, cell: Cell) -> bool {
         let [north, east] =
@@ -217,8 +217,8 @@ impl Maze {
         self.goals = goals;
     }
 
-    /// For every cell, by [`Grid::index`], the number of steps to the nearest goal, or none where no
-    /// way leads there. O(cells).
+    /// For every cell, by [`Grid::index`], the number of steps to the nearest goal, or none where
+    /// no way leads there. O(cells).
     #[must_use]
     pub fn steps_to_goal(&self) -> Vec<Option<u32>> {
         self.steps_to(&self.goals)
@@ -284,7 +284,8 @@ impl Maze {
         }
     }
 
-    /// The part of [`Maze::check`] that every file must hold: cells, closed border, marks on the grid.
+    /// The part of [`Maze::check`] that every file must hold: cells, closed border, marks on the
+    /// grid.
     pub(crate) fn check_structure(&self) -> Result<(), CheckError> {
         if self.grid.cell_count() == 0 {
             return Err(CheckError::NoCells);

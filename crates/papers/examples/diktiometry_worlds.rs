@@ -1,6 +1,8 @@
-//! How the diktiometry learns abstract worlds: the tables of docs/diktiometry.md that need no simulator.
+//! How the diktiometry learns abstract worlds: the tables of docs/diktiometry.md that need no
+//! simulator.
 //!
-//! `cargo run --release -p tolman-papers --example diktiometry_worlds -- TABLE [RUNS]`, TABLE one of those in `TABLES`.
+//! `cargo run --release -p tolman-papers --example diktiometry_worlds -- TABLE [RUNS]`, TABLE one
+//! of those in `TABLES`.
 #![expect(
     clippy::unwrap_used,
     clippy::print_stdout,
@@ -152,7 +154,8 @@ fn growth(runs: u64) {
     }
 }
 
-/// What becomes of the map without each part of the mapper, where everything is as the mapper is told and where it is not.
+/// What becomes of the map without each part of the mapper, where everything is as the mapper is
+/// told and where it is not.
 fn parts(runs: u64) {
     let outliers = |share: f64, factor: f64| MoveNoise {
         outliers: share,
@@ -275,8 +278,8 @@ fn doors(runs: u64) {
     }
 }
 
-/// What merges by looks are worth, and whether they confuse places, where boxes are too wide for geometry: with more and more
-/// colours, and where rooms are furnished alike.
+/// What merges by looks are worth, and whether they confuse places, where boxes are too wide for
+/// geometry: with more and more colours, and where rooms are furnished alike.
 fn looks(runs: u64) {
     println!(
         "| world, walls | places for each true one: without | with merges by looks | least purity: without | with |"
@@ -337,7 +340,8 @@ fn looks(runs: u64) {
     }
 }
 
-/// Whether merges by looks make the map the world in corridors of braided mazes, which are up to six cells long; of fewer and fewer colours.
+/// Whether merges by looks make the map the world in corridors of braided mazes, which are up to
+/// six cells long; of fewer and fewer colours.
 fn braided(runs: u64) {
     println!(
         "| walls | places for each true one | most | maps with each place once | least purity |"
@@ -357,8 +361,8 @@ fn braided(runs: u64) {
     }
 }
 
-/// How soon a robot that was carried off is found again, by each form of perceptual indexing. Carried off after every hundred
-/// moves on a map that is known.
+/// How soon a robot that was carried off is found again, by each form of perceptual indexing.
+/// Carried off after every hundred moves on a map that is known.
 fn kidnapped(runs: u64) {
     const SIDE: u16 = 8;
     const AFTER: [usize; 3] = [2, 4, 8];
@@ -432,7 +436,8 @@ fn plan_works(walk: &Walk, to: u32) -> bool {
     end == Some(to)
 }
 
-/// The share of links that lead where their action leads: of all, and of those that were not seen shut.
+/// The share of links that lead where their action leads: of all, and of those that were not seen
+/// shut.
 fn link_precision(walk: &Walk) -> (f64, f64) {
     let (truths, paths) = (walk.truths(), &walk.observer.map().paths);
     let (mut all, mut open) = ([0, 0], [0, 0]);

@@ -1,5 +1,6 @@
-//! Drives the laser Pioneer three times round the corridors of `mazes/worlds/rooms.json`, and writes the pose graph of it, with false closures, and its
-//! truth: `cargo run -p tolman-papers --example rooms_graph -- mazes/graphs`.
+//! Drives the laser Pioneer three times round the corridors of `mazes/worlds/rooms.json`, and
+//! writes the pose graph of it, with false closures, and its truth:
+//! `cargo run -p tolman-papers --example rooms_graph -- mazes/graphs`.
 
 use core::error::Error;
 use std::path::Path;
@@ -41,7 +42,8 @@ const WAY: &[(f64, f64)] = &[
 /// A pose every so many metres and radians.
 const APART: (f64, f64) = (0.3, 0.6);
 
-/// What a scan matcher errs by, m and rad; places nearer than `SEEN` m and rad that were left at least `AGO` poses ago are seen again.
+/// What a scan matcher errs by, m and rad; places nearer than `SEEN` m and rad that were left at
+/// least `AGO` poses ago are seen again.
 const MATCHED: (f64, f64) = (0.01, 0.005);
 const SEEN: (f64, f64) = (0.25, 0.8);
 const AGO: usize = 12;

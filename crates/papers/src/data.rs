@@ -1,7 +1,8 @@
 //! Mazes and logs of others, which are not part of this project.
 //!
-//! They are read from the folder that the variable `TOLMAN_DATA` names, or else from `../shared/data`
-//! beside the current folder. What needs them is skipped, and says so, where neither is there.
+//! They are read from the folder that the variable `TOLMAN_DATA` names, or else from
+//! `../shared/data` beside the current folder. What needs them is skipped, and says so, where
+//! neither is there.
 
 use std::env;
 use std::path::PathBuf;

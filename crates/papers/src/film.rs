@@ -16,7 +16,8 @@ const STILL: f64 = 0.05;
 /// After each of the first so many actions the map is looked at, then more and more rarely.
 const DENSE: u32 = 200;
 
-/// What was noted of an outing: after every action what the system thinks, where it believes to be, and its map.
+/// What was noted of an outing: after every action what the system thinks, where it believes to be,
+/// and its map.
 #[derive(Debug)]
 pub struct Film {
     actions: u32,
@@ -102,7 +103,8 @@ impl Film {
         let sites = outing.sites();
         for place in &map.places {
             let site = sites.get(&place.id).copied();
-            // Of a map that does not say where its places lie, they are where the robot believed to be there.
+            // Of a map that does not say where its places lie, they are where the robot believed to
+            // be there.
             let met = self.met.get(&place.id).copied();
             let Some(at) = site.or(place.position).or(met) else {
                 continue;

@@ -28,8 +28,8 @@ struct InFile {
     source: BoxError,
 }
 
-/// The name without folder and extension. Control characters of it, which terminals obey, are made visible; a maze's
-/// own name has none.
+/// The name without folder and extension. Control characters of it, which terminals obey, are made
+/// visible; a maze's own name has none.
 pub(super) fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or(path.as_os_str());
     stem.to_string_lossy().replace(char::is_control, "\u{fffd}")

@@ -7,9 +7,9 @@ use tolman_robot::{Body, Guess, Robot};
 use tolman_arena::episode::{Episode, Step, Trial};
 use tolman_replay::{Belief, Floor, Mark, Marks, Notes, Replay, RobotTrack, Scenery};
 
-/// Watches an episode and makes its replay: the robot's way, the action under way and how the last one
-/// ended, whether it is in a corridor, what it thinks and where it believes to be, how much of the maze it has seen, and
-/// where it bumped and failed.
+/// Watches an episode and makes its replay: the robot's way, the action under way and how the last
+/// one ended, whether it is in a corridor, what it thinks and where it believes to be, how much of
+/// the maze it has seen, and where it bumped and failed.
 ///
 /// ```
 /// use tolman_arena::cast::{Agent, Cast};
@@ -68,8 +68,8 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Shows beliefs in nodes of the robot's map where these truly lie, by id. Without this they are told in
-    /// words alone.
+    /// Shows beliefs in nodes of the robot's map where these truly lie, by id. Without this they
+    /// are told in words alone.
     #[must_use]
     pub const fn knowing(mut self, nodes: &'a [Point]) -> Self {
         self.nodes = nodes;

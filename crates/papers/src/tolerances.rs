@@ -1,4 +1,5 @@
-//! How far a quantity may lie from the paper's and still match it: one tolerance each, in all tables, with its reason.
+//! How far a quantity may lie from the paper's and still match it: one tolerance each, in all
+//! tables, with its reason.
 
 use tolman_experiment::Tolerance;
 

@@ -17,12 +17,13 @@ pub struct Found {
     pub expanded: u32,
 }
 
-/// The cheapest path from `source` to a goal, none where no way leads to one: A* (Hart, Nilsson, Raphael 1968).
+/// The cheapest path from `source` to a goal, none where no way leads to one: A* (Hart, Nilsson,
+/// Raphael 1968).
 ///
-/// `heuristic` guesses the cost from a node to the nearest goal. If it never guesses too high, the path is a cheapest
-/// one; the better it guesses, the fewer nodes are expanded. With a heuristic of 0 this is Dijkstra's
-/// algorithm. Ties go to the node that is guessed nearer to a goal, then to the lower id.
-/// O(arcs · log arcs) if the heuristic falls along no arc by more than the arc costs.
+/// `heuristic` guesses the cost from a node to the nearest goal. If it never guesses too high, the
+/// path is a cheapest one; the better it guesses, the fewer nodes are expanded. With a heuristic of
+/// 0 this is Dijkstra's algorithm. Ties go to the node that is guessed nearer to a goal, then to
+/// the lower id. O(arcs · log arcs) if the heuristic falls along no arc by more than the arc costs.
 ///
 /// ```
 /// use tolman_planners::{Arcs, a_star};
@@ -46,8 +47,9 @@ pub fn a_star(
     searched.found(source)
 }
 
-/// Some path from `source` to a goal, none where no way leads to one: greedy best-first search, which always goes on
-/// from the node that `heuristic` guesses nearest to a goal, whatever it has cost to get there. O(arcs · log arcs).
+/// Some path from `source` to a goal, none where no way leads to one: greedy best-first search,
+/// which always goes on from the node that `heuristic` guesses nearest to a goal, whatever it has
+/// cost to get there. O(arcs · log arcs).
 ///
 /// ```
 /// use tolman_planners::{Arcs, best_first};
@@ -70,14 +72,16 @@ pub fn best_first(
 
 /// What a search has found.
 pub(crate) struct Searched {
-    /// By node: the least cost so far, and the node before it on that way. A source comes from itself.
+    /// By node: the least cost so far, and the node before it on that way. A source comes from
+    /// itself.
     pub(crate) reached: Vec<Option<(u32, u32)>>,
     /// The first goal that was expanded, and what it cost.
     goal: Option<(u32, u32)>,
     expanded: u32,
 }
 
-/// Expands the node of least `priority`, which is given a node and the cost of the way to it, until it is a goal.
+/// Expands the node of least `priority`, which is given a node and the cost of the way to it, until
+/// it is a goal.
 pub(crate) fn search(
     graph: &impl Graph,
     sources: impl IntoIterator<Item = u32>,

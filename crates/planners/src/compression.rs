@@ -1,19 +1,19 @@
 use alloc::vec::Vec;
 
-/// Takes detours out of a sequence of actions (MSLST, *Path Compression*). `opposite` must name each
-/// action's opposite, and be its own inverse.
+/// Takes detours out of a sequence of actions (MSLST, *Path Compression*). `opposite` must name
+/// each action's opposite, and be its own inverse.
 ///
 /// Two simplifications are repeated alternately until neither is possible:
 ///
-/// - "If a string of actions is followed by a string of opposite actions, each of length two or more and
-///   with lengths not differing by more than one, we remove all of them instead of just canceling out
-///   pairs": a robot whose actions cover varying distances goes down a corridor and back up it with different
-///   numbers of them.
+/// - "If a string of actions is followed by a string of opposite actions, each of length two or
+///   more and with lengths not differing by more than one, we remove all of them instead of just
+///   canceling out pairs": a robot whose actions cover varying distances goes down a corridor and
+///   back up it with different numbers of them.
 /// - "Remove any pairs of consecutive opposite actions".
 ///
-/// Strings are as long as they can be, and come first: the pairs would leave none of them. For the same
-/// reason each pass removes only those pairs that stand side by side when it begins. The result is a
-/// fixed point. O(n²) for n actions.
+/// Strings are as long as they can be, and come first: the pairs would leave none of them. For the
+/// same reason each pass removes only those pairs that stand side by side when it begins. The
+/// result is a fixed point. O(n²) for n actions.
 ///
 /// ```
 /// use tolman_planners::compressed;

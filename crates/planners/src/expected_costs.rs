@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 
 use crate::{Arcs, costs_from};
 
-/// Decisions whose ends are a matter of chance: from each state some actions, each with what it costs and where it may lead.
+/// Decisions whose ends are a matter of chance: from each state some actions, each with what it
+/// costs and where it may lead.
 #[derive(Clone, Debug, Default)]
 pub struct Decisions {
     actions: usize,
@@ -31,8 +32,9 @@ impl Decisions {
         }
     }
 
-    /// Adds the next action of the state under way, or the first one of the next state: what it costs, and the states that it may
-    /// lead to, each with its probability. What they lack to 1 counts as staying.
+    /// Adds the next action of the state under way, or the first one of the next state: what it
+    /// costs, and the states that it may lead to, each with its probability. What they lack to 1
+    /// counts as staying.
     pub fn add(&mut self, cost: f64, ends: impl IntoIterator<Item = (u32, f64)>) {
         let ends = ends.into_iter();
         self.ends
@@ -61,8 +63,8 @@ impl Decisions {
         self.choices.is_empty()
     }
 
-    /// Returns what it costs on average to reach a goal, by an action of a state and then by the cheapest ones; infinite where
-    /// none leads there. `costs` are those of the states.
+    /// Returns what it costs on average to reach a goal, by an action of a state and then by the
+    /// cheapest ones; infinite where none leads there. `costs` are those of the states.
     #[must_use]
     pub fn cost(&self, costs: &[f32], state: usize, action: usize) -> f32 {
         let index = state * self.actions + action;
@@ -89,11 +91,12 @@ impl Decisions {
     }
 }
 
-/// Returns what it costs on average to reach one of the `goals` from each state by the actions that are cheapest on average;
-/// `hopeless` at most, which is what it costs to give up.
+/// Returns what it costs on average to reach one of the `goals` from each state by the actions that
+/// are cheapest on average; `hopeless` at most, which is what it costs to give up.
 ///
-/// Value iteration, in place, the states nearest to a goal first, until no cost changes by more than `tolerance` or `sweeps`
-/// are made. O(sweeps · ends). R. Bellman: *A Markovian decision process* (1957).
+/// Value iteration, in place, the states nearest to a goal first, until no cost changes by more
+/// than `tolerance` or `sweeps` are made. O(sweeps · ends). R. Bellman: *A Markovian decision
+/// process* (1957).
 ///
 /// ```
 /// use tolman_planners::{Decisions, expected_costs};
@@ -144,7 +147,8 @@ pub fn expected_costs(
 /// Parts of a cost that the first guess counts in.
 const PARTS: f32 = 64.0;
 
-/// The states that can lead to a goal, the nearest first, if every action ended as well as it can; and what that costs.
+/// The states that can lead to a goal, the nearest first, if every action ended as well as it can;
+/// and what that costs.
 fn if_all_goes_well(decisions: &Decisions, goals: &[u32]) -> Vec<(u32, f32)> {
     let mut arcs = Vec::new();
     let mut first = 0;

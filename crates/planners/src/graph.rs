@@ -3,7 +3,7 @@ pub trait Graph {
     /// How many nodes there are.
     fn node_count(&self) -> usize;
 
-    /// Calls `visit(head, cost)` for every arc that leaves `node`. Always in the same order: searches
-    /// break ties by it.
+    /// Calls `visit(head, cost)` for every arc that leaves `node`. Always in the same order:
+    /// searches break ties by it.
     fn for_each_arc(&self, node: u32, visit: impl FnMut(u32, u32));
 }

@@ -1,16 +1,18 @@
 //! Search on graphs, over anything that can list a node's neighbours.
 //!
-//! A [`Graph`] numbers its nodes from 0 and lists the arcs that leave one. The searches know nothing of
-//! maps, mazes or robots: [`steps_from`] counts arcs (breadth-first), [`costs_from`] sums their costs
-//! (Dijkstra), [`path_to`] lists the nodes of a shortest path, [`a_star`] those of a cheapest one
-//! with a guess of what is left, [`expected_costs`] plans where actions may fail, [`best_first`] of any by that guess alone. [`compressed`] takes detours out of the actions
-//! along one. To ask how far every node is *from a goal's point of view*, search the graph turned round:
+//! A [`Graph`] numbers its nodes from 0 and lists the arcs that leave one. The searches know
+//! nothing of maps, mazes or robots: [`steps_from`] counts arcs (breadth-first), [`costs_from`]
+//! sums their costs (Dijkstra), [`path_to`] lists the nodes of a shortest path, [`a_star`] those of
+//! a cheapest one with a guess of what is left, [`expected_costs`] plans where actions may fail,
+//! [`best_first`] of any by that guess alone. [`compressed`] takes detours out of the actions along
+//! one. To ask how far every node is *from a goal's point of view*, search the graph turned round:
 //! [`Arcs::reversed`].
 //!
-//! Grid mazes are searched without a graph, without allocation and some hundred times faster: on [`Passages`], taken
-//! from all that is known of their [`Walls`](tolman_maze::Walls), a [`StepMap`] counts cells,
-//! [`speed_run`] finds the fastest run of a micromouse, and [`moves`] the one of fewest steps under the simpler rules of
-//! a paper. A [`PoseSet`] finds a mouse that has lost its way.
+//! Grid mazes are searched without a graph, without allocation and some hundred times faster: on
+//! [`Passages`], taken from all that is known of their [`Walls`](tolman_maze::Walls), a [`StepMap`]
+//! counts cells, [`speed_run`] finds the fastest run of a micromouse, and [`moves`] the one of
+//! fewest steps under the simpler rules of a paper. A [`PoseSet`] finds a mouse that has lost its
+//! way.
 //!
 //! ```
 //! use tolman_planners::{Arcs, costs_from, steps_from};

@@ -2,7 +2,8 @@ use tolman_maze::{Cell, Direction, Knowledge, Walls};
 
 use crate::TooLarge;
 
-/// Which edges of a maze of up to `N` × `N` cells a plan may cross: what planners search on. One byte a cell.
+/// Which edges of a maze of up to `N` × `N` cells a plan may cross: what planners search on. One
+/// byte a cell.
 ///
 /// ```
 /// use tolman_maze::{Cell, Direction, Grid, Maze};

@@ -2,11 +2,12 @@ use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 
 use crate::TooLarge;
 
-/// Everywhere a mouse can be that has lost its way in a maze it knows in part, of up to `N` × `N` cells, `N` ≤ 32.
+/// Everywhere a mouse can be that has lost its way in a maze it knows in part, of up to `N` × `N`
+/// cells, `N` ≤ 32.
 ///
-/// Every cell and heading is possible at first. What the mouse sees and does then rules poses out: those
-/// with a wall known where it sees none, or the other way round. Directions are the mouse's own: north is
-/// straight ahead, east to the right.
+/// Every cell and heading is possible at first. What the mouse sees and does then rules poses out:
+/// those with a wall known where it sees none, or the other way round. Directions are the mouse's
+/// own: north is straight ahead, east to the right.
 ///
 /// ```
 /// use tolman_maze::{Cell, Direction, Grid, Maze};
@@ -39,8 +40,8 @@ pub struct PoseSet<const N: usize> {
     grid: Grid,
     /// By heading, then y; bit x.
     cells: [[u32; N]; 4],
-    /// The pose from whose point of view the next drive is planned, as long as it is one of the set. Sticking
-    /// to it keeps the mouse from driving to and fro.
+    /// The pose from whose point of view the next drive is planned, as long as it is one of the
+    /// set. Sticking to it keeps the mouse from driving to and fro.
     guess: Option<(Cell, Direction)>,
 }
 
@@ -90,8 +91,8 @@ impl<const N: usize> PoseSet<N> {
         Self { grid, cells, guess }
     }
 
-    /// Takes in that the mouse sees its cell open, or a wall there, to `side`. Where the map does not know,
-    /// both can be. O(N²).
+    /// Takes in that the mouse sees its cell open, or a wall there, to `side`. Where the map does
+    /// not know, both can be. O(N²).
     pub fn see(&mut self, walls: &impl Walls, side: Direction, is_open: bool) {
         let contrary = Knowledge::of_standing(is_open);
         let fits = |(cell, heading): &(Cell, Direction)| {
@@ -131,9 +132,10 @@ impl<const N: usize> PoseSet<N> {
         }
     }
 
-    /// Where to drive to find out more: to the next place that looks different from what it would be for another
-    /// pose, on ways known to be open, from the point of view of one pose of the set. None if the walls known
-    /// tell no pose from another. O(poses · N²), and for each pose that cannot be told from any other as much again.
+    /// Where to drive to find out more: to the next place that looks different from what it would
+    /// be for another pose, on ways known to be open, from the point of view of one pose of the
+    /// set. None if the walls known tell no pose from another. O(poses · N²), and for each pose
+    /// that cannot be told from any other as much again.
     #[must_use]
     pub fn next_drive(&mut self, walls: &impl Walls) -> Option<Direction> {
         let guess = self
@@ -149,7 +151,8 @@ impl<const N: usize> PoseSet<N> {
         Some(side)
     }
 
-    /// Breadth-first search, in the frame of the first pose, for a cell with a wall that the other one has not.
+    /// Breadth-first search, in the frame of the first pose, for a cell with a wall that the other
+    /// one has not.
     fn tell_apart(
         &self,
         walls: &impl Walls,
@@ -229,7 +232,8 @@ struct Way {
     side: Direction,
 }
 
-/// Where a mouse is that began at `other`, when one that began at `first` and drove the same way is in `cell`.
+/// Where a mouse is that began at `other`, when one that began at `first` and drove the same way is
+/// in `cell`.
 fn twin(cell: Cell, first: (Cell, Direction), other: (Cell, Direction)) -> Option<Cell> {
     let east = i32::from(cell.x) - i32::from(first.0.x);
     let north = i32::from(cell.y) - i32::from(first.0.y);

@@ -82,8 +82,8 @@ impl<const N: usize> StepMap<N> {
         (steps != NEVER).then_some(steps)
     }
 
-    /// The way to go from `cell`: the first of `directions` that is open and than which none of them leads
-    /// nearer to a target. None if none leads to any.
+    /// The way to go from `cell`: the first of `directions` that is open and than which none of
+    /// them leads nearer to a target. None if none leads to any.
     #[must_use]
     pub fn descend(
         &self,

@@ -1,4 +1,5 @@
-//! Speed runs: the search against plain Dijkstra on an explicit graph, explorations against the checker.
+//! Speed runs: the search against plain Dijkstra on an explicit graph, explorations against the
+//! checker.
 #![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use std::path::PathBuf;
@@ -249,7 +250,8 @@ fn explore<const N: usize>(
     }
 }
 
-/// Every twentieth maze of a folder of other people's mazes, or none and a message where they are not at hand.
+/// Every twentieth maze of a folder of other people's mazes, or none and a message where they are
+/// not at hand.
 fn mazes_of_others(folder: &str) -> Vec<Maze> {
     let data = std::env::var_os("TOLMAN_DATA").map_or_else(
         || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),

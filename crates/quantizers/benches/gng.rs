@@ -1,7 +1,9 @@
-//! Inputs a second that a growing neural gas learns from once it has all its units, and searches a second.
+//! Inputs a second that a growing neural gas learns from once it has all its units, and searches a
+//! second.
 //!
-//! One iteration is one input. The table at the end gives the median in million per second of this thread's processor
-//! time, by scan with plain and with the widest lanes, and by the index where there is one.
+//! One iteration is one input. The table at the end gives the median in million per second of this
+//! thread's processor time, by scan with plain and with the widest lanes, and by the index where
+//! there is one.
 
 #![expect(
     clippy::unwrap_used,
@@ -98,8 +100,8 @@ fn grown(dimension: usize, units: usize, growth_period: u32, inputs: &[Vec<f32>]
     gng
 }
 
-/// Points on a smooth surface of three dimensions (of two where there are only two features), bent into the space of all
-/// features, with noise: what sensors of a robot give, shuffled.
+/// Points on a smooth surface of three dimensions (of two where there are only two features), bent
+/// into the space of all features, with noise: what sensors of a robot give, shuffled.
 fn inputs(dimension: usize) -> Vec<Vec<f32>> {
     let mut rng = ChaCha8Rng::seed_from_u64(dimension as u64);
     let bends: Vec<[f64; 4]> = (0..dimension)

@@ -1,7 +1,9 @@
-//! Inputs a second that a SOINN learns from once it has grown, beside a GNG of as many units and the bare search.
+//! Inputs a second that a SOINN learns from once it has grown, beside a GNG of as many units and
+//! the bare search.
 //!
-//! One iteration is one input. The table at the end gives the median in million inputs per second of this thread's
-//! processor time; the search alone, which looks at all units, is the floor of both.
+//! One iteration is one input. The table at the end gives the median in million inputs per second
+//! of this thread's processor time; the search alone, which looks at all units, is the floor of
+//! both.
 
 #![expect(
     clippy::unwrap_used,

@@ -9,12 +9,13 @@ use crate::{
     SoinnConfig, UnitId,
 };
 
-/// An associative memory: a one-layer SOINN that learns each key and its response as one vector, and recalls by searching on the features of
-/// one of them only ("Associative memory for online learning in noisy environments using self-organizing incremental
-/// neural network", Sudo, Sato, Hasegawa 2009).
+/// An associative memory: a one-layer SOINN that learns each key and its response as one vector,
+/// and recalls by searching on the features of one of them only ("Associative memory for online
+/// learning in noisy environments using self-organizing incremental neural network", Sudo, Sato,
+/// Hasegawa 2009).
 ///
-/// A key may have many responses and a response many keys. Where responses are keys themselves, associations can be
-/// followed as a [chain](Self::chain).
+/// A key may have many responses and a response many keys. Where responses are keys themselves,
+/// associations can be followed as a [chain](Self::chain).
 ///
 /// ```
 /// use tolman_quantizers::{AssociativeMemory, SoinnConfig};
@@ -104,7 +105,8 @@ impl<S: Scalar> AssociativeMemory<S> {
         self.recall(Part::Response, response)
     }
 
-    /// All responses to keys not farther than `reach`, one for each cluster of associations, the nearest key first.
+    /// All responses to keys not farther than `reach`, one for each cluster of associations, the
+    /// nearest key first.
     ///
     /// # Errors
     /// If `key` is invalid or nothing was learnt yet.
@@ -115,7 +117,8 @@ impl<S: Scalar> AssociativeMemory<S> {
         self.recall_all(Part::Key, key, reach)
     }
 
-    /// All keys of responses not farther than `reach`, one for each cluster of associations, the nearest response first.
+    /// All keys of responses not farther than `reach`, one for each cluster of associations, the
+    /// nearest response first.
     ///
     /// # Errors
     /// If `response` is invalid or nothing was learnt yet.
@@ -123,11 +126,12 @@ impl<S: Scalar> AssociativeMemory<S> {
         self.recall_all(Part::Response, response, reach)
     }
 
-    /// The response to `start`, the response to that, and so on, until no key lies within `reach` of a response.
-    /// A memory of a ring goes round for ever.
+    /// The response to `start`, the response to that, and so on, until no key lies within `reach`
+    /// of a response. A memory of a ring goes round for ever.
     ///
     /// # Errors
-    /// If `start` is invalid, responses have another number of features than keys, or nothing was learnt yet.
+    /// If `start` is invalid, responses have another number of features than keys, or nothing was
+    /// learnt yet.
     pub fn chain(&self, start: &[S], reach: S) -> Result<Chain<'_, S>, InputError> {
         InputError::check_size(self.key_dimension, self.features(Part::Response).len())?;
         self.response(start)?;

@@ -173,7 +173,8 @@ pub enum SnapshotError {
         /// The version of the text.
         found: u32,
     },
-    /// A field of the configuration is outside its range, or a weight is, or a number that an algorithm keeps.
+    /// A field of the configuration is outside its range, or a weight is, or a number that an
+    /// algorithm keeps.
     #[error(transparent)]
     Config(#[from] QuantizerConfigError),
     /// A prototype is no valid input.

@@ -19,8 +19,8 @@ use crate::{
 
 /// A growing neural gas.
 ///
-/// It begins empty. The first input and the first one that differs from it become the first two units, joined by an
-/// edge; inputs until then are not counted as steps.
+/// It begins empty. The first input and the first one that differs from it become the first two
+/// units, joined by an edge; inputs until then are not counted as steps.
 ///
 /// ```
 /// use tolman_quantizers::{Gng, GngConfig, Quantizer};
@@ -68,8 +68,8 @@ impl<S: Scalar> Gng<S> {
     /// An empty network whose squared distance is Σ w (x − p)², with one weight w a feature.
     ///
     /// # Errors
-    /// If there are no weights, one is negative or not finite, none is above zero, or a field of `config` is outside
-    /// its range.
+    /// If there are no weights, one is negative or not finite, none is above zero, or a field of
+    /// `config` is outside its range.
     pub fn weighted(weights: &[S], config: GngConfig) -> Result<Self, QuantizerConfigError> {
         Self::around(Network::weighted(weights)?, config)
     }
@@ -85,7 +85,8 @@ impl<S: Scalar> Gng<S> {
         })
     }
 
-    /// Puts units where the caller wants them before the first input, each joined to the one before it.
+    /// Puts units where the caller wants them before the first input, each joined to the one before
+    /// it.
     ///
     /// # Errors
     /// If there are fewer than two units, one is no valid input, or the network is not empty.
@@ -126,9 +127,10 @@ impl<S: Scalar> Gng<S> {
         self.steps
     }
 
-    /// Makes one unit part of another, for a caller who found out that both mean the same. The unit that stays
-    /// keeps its prototype, takes over the edges with their ages, and adds the other's error and utility to its own.
-    /// If they had only each other, it is joined to the unit nearest to it. To merge a unit with itself does nothing.
+    /// Makes one unit part of another, for a caller who found out that both mean the same. The unit
+    /// that stays keeps its prototype, takes over the edges with their ages, and adds the other's
+    /// error and utility to its own. If they had only each other, it is joined to the unit nearest
+    /// to it. To merge a unit with itself does nothing.
     ///
     /// # Errors
     /// If one of the units is not there.
@@ -159,7 +161,8 @@ impl<S: Scalar> Gng<S> {
         Ok(self.decay.value(self.sums[slot].error))
     }
 
-    /// The utility a unit has gathered, decayed as errors are; 0 unless [`GngConfig::utility`] is chosen.
+    /// The utility a unit has gathered, decayed as errors are; 0 unless [`GngConfig::utility`] is
+    /// chosen.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -329,7 +332,8 @@ impl<S: Scalar> Gng<S> {
         }
     }
 
-    /// Takes a unit away, with the neighbours it leaves alone, unless fewer than two units would be left.
+    /// Takes a unit away, with the neighbours it leaves alone, unless fewer than two units would be
+    /// left.
     fn remove_slot(&mut self, slot: usize) {
         let links = self.network.links();
         let alone = links

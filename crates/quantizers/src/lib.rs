@@ -1,11 +1,12 @@
 //! Streaming vectors in, a growing graph of prototypes out.
 //!
-//! A quantizer watches one input after the other, each a slice of `f32` or `f64`, and grows a graph: its *units* each hold
-//! a *prototype* near the inputs it stands for, its *edges* join units whose inputs are neighbours. In the order data flows:
+//! A quantizer watches one input after the other, each a slice of `f32` or `f64`, and grows a
+//! graph: its *units* each hold a *prototype* near the inputs it stands for, its *edges* join units
+//! whose inputs are neighbours. In the order data flows:
 //!
 //! - [`Scalar`]: what an input is made of;
-//! - [`Quantizer::observe`] takes an input and learns: [`Gng`], as its [`GngConfig`] says, or [`Soinn`], which chooses the number of
-//!   its units and clusters itself;
+//! - [`Quantizer::observe`] takes an input and learns: [`Gng`], as its [`GngConfig`] says, or
+//!   [`Soinn`], which chooses the number of its units and clusters itself;
 //! - it names the [`NearestTwo`] units that it met;
 //! - the [`Network`] has the units, their edges and [`Clusters`], answers which unit is nearest to
 //!   something, and measures the [`QuantizationError`];
@@ -32,8 +33,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Everything is deterministic: ties go to the smaller id, and nothing here draws random numbers unasked. What is
-//! invalid (NaN, infinities, the wrong size, values whose squares overflow) is refused with a typed error and not learnt.
+//! Everything is deterministic: ties go to the smaller id, and nothing here draws random numbers
+//! unasked. What is invalid (NaN, infinities, the wrong size, values whose squares overflow) is
+//! refused with a typed error and not learnt.
 #![no_std]
 
 extern crate alloc;

@@ -32,12 +32,12 @@ pub use snapshot::{NetworkSnapshot, SnapshotUnit};
 
 /// The units of a quantizer, their prototypes and the edges between them.
 ///
-/// Between calls that learn, the graph has no unit twice, no edge from a unit to itself, and each edge
-/// both ways. Ids are ascending in the order in which units came.
+/// Between calls that learn, the graph has no unit twice, no edge from a unit to itself, and each
+/// edge both ways. Ids are ascending in the order in which units came.
 ///
 /// # For those who write a quantizer
-/// Inside this crate units are addressed by *slots*. Slots ascend with ids and stay what they are until
-/// `tidy`, which closes the gaps that removed units leave.
+/// Inside this crate units are addressed by *slots*. Slots ascend with ids and stay what they are
+/// until `tidy`, which closes the gaps that removed units leave.
 #[derive(Clone, Debug)]
 pub struct Network<S> {
     metric: Metric<S>,
@@ -169,11 +169,12 @@ impl<S: Scalar> Network<S> {
         self.named(self.search(input))
     }
 
-    /// The two units nearest to `input` in the features whose `mask` is true. The others of `input` are not
-    /// read, and may be anything. Weights hold as ever.
+    /// The two units nearest to `input` in the features whose `mask` is true. The others of `input`
+    /// are not read, and may be anything. Weights hold as ever.
     ///
     /// # Errors
-    /// As [`nearest`](Self::nearest), or if the mask has the wrong size or leaves nothing to compare.
+    /// As [`nearest`](Self::nearest), or if the mask has the wrong size or leaves nothing to
+    /// compare.
     pub fn nearest_two_masked(
         &self,
         input: &[S],
@@ -312,8 +313,8 @@ impl<S: Scalar> Network<S> {
         squares.sum()
     }
 
-    /// The edge on which a unit is needed most: from the unit of largest error, the first of equals, to its neighbour of
-    /// largest error.
+    /// The edge on which a unit is needed most: from the unit of largest error, the first of
+    /// equals, to its neighbour of largest error.
     pub(crate) fn worst_edge(&self, error: impl Fn(usize) -> f64) -> Option<(usize, usize)> {
         let worse = |worst, slot| {
             if error(slot) > error(worst) {
@@ -357,7 +358,8 @@ impl<S: Scalar> Network<S> {
         self.enter(None)
     }
 
-    /// Puts a new unit half-way between two, joined to both in place of their edge; its slot is the last.
+    /// Puts a new unit half-way between two, joined to both in place of their edge; its slot is the
+    /// last.
     pub(crate) fn split_edge(&mut self, a: usize, b: usize) {
         let half = S::from_f64(0.5);
         let slot = self.prototypes.push();
@@ -444,7 +446,8 @@ impl<S: Scalar> Network<S> {
         self.links.age(slot);
     }
 
-    /// Takes away the edges of a unit whose age is too much, then its former neighbours that have no edge left.
+    /// Takes away the edges of a unit whose age is too much, then its former neighbours that have
+    /// no edge left.
     #[inline]
     pub(crate) fn drop_edges(&mut self, slot: usize, is_old: impl Fn(u32) -> bool) {
         for place in (0..self.links.degree(slot)).rev() {
@@ -494,9 +497,9 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// To be called when a quantizer is done with an input. Builds the index once it pays, and closes the gaps that
-    /// removed units left if it is worthwhile, in `per_unit` as well, which has one item
-    /// a slot. Slots known from before are void.
+    /// To be called when a quantizer is done with an input. Builds the index once it pays, and
+    /// closes the gaps that removed units left if it is worthwhile, in `per_unit` as well, which
+    /// has one item a slot. Slots known from before are void.
     #[inline]
     pub(crate) fn tidy<T: Copy>(&mut self, per_unit: &mut Vec<T>) {
         let blocks = |units: usize| units.div_ceil(prototypes::LANES);

@@ -4,12 +4,13 @@ use crate::{Events, InputError, Nearest, NearestTwo, Network, NetworkSnapshot, S
 
 /// Learns a graph of prototypes from one input after the other.
 ///
-/// Maps that are built on states need no more than this: feed it, ask which unit is nearest, look at its
-/// [`Network`].
+/// Maps that are built on states need no more than this: feed it, ask which unit is nearest, look
+/// at its [`Network`].
 pub trait Quantizer<S: Scalar> {
-    /// Learns from one input, and returns what it met: first the unit that stands for the input now, and its distance when
-    /// the input came (the nearest unit, or the one that was made of the input, at distance 0), then the nearest unit but
-    /// that one when the input came, if there was one.
+    /// Learns from one input, and returns what it met: first the unit that stands for the input
+    /// now, and its distance when the input came (the nearest unit, or the one that was made of the
+    /// input, at distance 0), then the nearest unit but that one when the input came, if there was
+    /// one.
     ///
     /// # Errors
     /// If the input has another number of features than the network, or one that is NaN, infinite

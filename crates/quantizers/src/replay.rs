@@ -13,10 +13,10 @@ use crate::{
 
 /// A quantizer that remembers some of its inputs and learns from them again and again.
 ///
-/// A robot's inputs come in the order of its way: one place for a while, then another. A quantizer that learns from them as
-/// they come spends its units on where the robot has been last. This one keeps a sample of the past, and for every input it is
-/// shown it lets the quantizer learn from `per_input` remembered ones, drawn at random. The input itself is learnt
-/// when it is drawn.
+/// A robot's inputs come in the order of its way: one place for a while, then another. A quantizer
+/// that learns from them as they come spends its units on where the robot has been last. This one
+/// keeps a sample of the past, and for every input it is shown it lets the quantizer learn from
+/// `per_input` remembered ones, drawn at random. The input itself is learnt when it is drawn.
 ///
 /// ```
 /// use tolman_quantizers::{Gng, GngConfig, Quantizer, ReplayConfig, ReplayQuantizer};
@@ -80,8 +80,8 @@ pub struct ReplayConfig {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ReplayMemory {
-    /// Each of all inputs so far with the same probability (reservoir sampling, algorithm R of Vitter 1985): for worlds that stay
-    /// as they are.
+    /// Each of all inputs so far with the same probability (reservoir sampling, algorithm R of
+    /// Vitter 1985): for worlds that stay as they are.
     #[default]
     Reservoir,
     /// The last ones: for worlds that change.
@@ -89,8 +89,8 @@ pub enum ReplayMemory {
 }
 
 impl ReplayConfig {
-    /// A reservoir of 10,000 inputs, of which 8 are learnt for each new one: good for streams of every kind that we tried
-    /// (`docs/quantizers.md`). No paper stands behind it.
+    /// A reservoir of 10,000 inputs, of which 8 are learnt for each new one: good for streams of
+    /// every kind that we tried (`docs/quantizers.md`). No paper stands behind it.
     pub fn measured(seed: u64) -> Self {
         Self {
             capacity: 10_000,
@@ -167,7 +167,8 @@ impl<S: Scalar, Q: Quantizer<S>> ReplayQuantizer<S, Q> {
 
 /// All there is to know of a [`ReplayQuantizer`], to be saved and resumed.
 ///
-/// With the feature `serde`, `ReplayQuantizer` itself is serialized as this, and refuses to be made of what is invalid.
+/// With the feature `serde`, `ReplayQuantizer` itself is serialized as this, and refuses to be made
+/// of what is invalid.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SavedReplay<S, Q> {

@@ -16,12 +16,13 @@ use crate::{
     UnitId, UnitSearch, UnknownUnit,
 };
 
-/// One layer of a SOINN: "An incremental network for on-line unsupervised classification and topology learning" (Shen and
-/// Hasegawa 2006), algorithm 3.1.
+/// One layer of a SOINN: "An incremental network for on-line unsupervised classification and
+/// topology learning" (Shen and Hasegawa 2006), algorithm 3.1.
 ///
-/// An input far from what is known becomes a unit of its own; any other one joins its two nearest units and moves them, the less
-/// the more they have won. There is no number of units to choose. Clusters are what hangs together; a
-/// [second layer](Self::second_layer) tells them apart where noise has joined them.
+/// An input far from what is known becomes a unit of its own; any other one joins its two nearest
+/// units and moves them, the less the more they have won. There is no number of units to choose.
+/// Clusters are what hangs together; a [second layer](Self::second_layer) tells them apart where
+/// noise has joined them.
 ///
 /// ```
 /// use tolman_quantizers::{Quantizer, Soinn, SoinnConfig};
@@ -38,8 +39,8 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Where the paper is silent: a new unit counts the input it was made of as a win. The first input and the first one that differs from
-/// it are the first two units, and not counted in periods of λ.
+/// Where the paper is silent: a new unit counts the input it was made of as a win. The first input
+/// and the first one that differs from it are the first two units, and not counted in periods of λ.
 ///
 /// # Complexity
 /// A search of the two nearest units an input, and units once a period.
@@ -67,7 +68,8 @@ pub struct Tally {
     pub error: f64,
     /// M: how many those are.
     pub wins: f64,
-    /// The step at which it came, or the older of the two it was put between, from which it has wins.
+    /// The step at which it came, or the older of the two it was put between, from which it has
+    /// wins.
     pub since: u64,
     /// R: E / M after the last insertion it had part in; none if there was none.
     pub radius: Option<f64>,
@@ -132,8 +134,8 @@ impl<S: Scalar> Soinn<S> {
     /// An empty network whose squared distance is Σ w (x − p)², with one weight w a feature.
     ///
     /// # Errors
-    /// If there are no weights, one is negative or not finite, none is above zero, or a field of `config` is outside
-    /// its range.
+    /// If there are no weights, one is negative or not finite, none is above zero, or a field of
+    /// `config` is outside its range.
     pub fn weighted(weights: &[S], config: SoinnConfig) -> Result<Self, QuantizerConfigError> {
         Self::around(Network::weighted(weights)?, config)
     }
@@ -172,7 +174,8 @@ impl<S: Scalar> Soinn<S> {
         Ok(self.tallies[self.network.slot(id)?].wins)
     }
 
-    /// E: the sum of the distances, not squared, of the inputs a unit has won, less what it has left to units that were put beside it.
+    /// E: the sum of the distances, not squared, of the inputs a unit has won, less what it has
+    /// left to units that were put beside it.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -265,7 +268,8 @@ impl<S: Scalar> Soinn<S> {
         self.network.cut_old_edges(first, self.config.max_age);
     }
 
-    /// Step 10, its first half. What would be undone is not begun, so the network stays as it was to the bit.
+    /// Step 10, its first half. What would be undone is not begun, so the network stays as it was
+    /// to the bit.
     fn insert_where_error_is_large(&mut self) {
         if self.config.insertion == ErrorInsertion::Off || !self.network.has_ids_left() {
             return;
@@ -295,8 +299,9 @@ impl<S: Scalar> Soinn<S> {
         self.tallies.push(r_tally);
     }
 
-    /// Takes away what [`Denoising`] takes for noise. It comes by itself at the end of every period of λ inputs (step 10, its
-    /// second half); to be called before clusters are counted in the midst of one, when there are units too new to have a neighbour.
+    /// Takes away what [`Denoising`] takes for noise. It comes by itself at the end of every period
+    /// of λ inputs (step 10, its second half); to be called before clusters are counted in the
+    /// midst of one, when there are units too new to have a neighbour.
     ///
     /// # Complexity
     /// Units.

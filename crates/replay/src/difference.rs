@@ -109,7 +109,8 @@ fn of_robot<M: Portrait>(
     }
 }
 
-/// The shortest text that reads back as a number differs wherever its bits do, as in the trace itself.
+/// The shortest text that reads back as a number differs wherever its bits do, as in the trace
+/// itself.
 fn same<T: Serialize>(one: &T, other: &T) -> bool {
     match (serde_json::to_string(one), serde_json::to_string(other)) {
         (Ok(one), Ok(other)) => one == other,

@@ -86,13 +86,15 @@ pub enum EncodeError {
     },
 }
 
-/// The replay as JSON that may stand between `<script type="application/json">` and `</script>`: no `<` is
-/// in it. At most 9 characters a pose that lies near the one before it, and a few hundred for each robot.
+/// The replay as JSON that may stand between `<script type="application/json">` and `</script>`: no
+/// `<` is in it. At most 9 characters a pose that lies near the one before it, and a few hundred
+/// for each robot.
 ///
 /// Linear in the size of the replay.
 ///
 /// # Errors
-/// [`EncodeError`] if there is nothing to play, or a number, an order or a name in it makes no sense.
+/// [`EncodeError`] if there is nothing to play, or a number, an order or a name in it makes no
+/// sense.
 pub fn json(replay: &Replay) -> Result<String, EncodeError> {
     Ok(value(replay)?.to_string().replace('<', "\\u003c"))
 }
@@ -195,7 +197,8 @@ fn ring(ring: &Ring) -> Value {
 const FINE: f64 = 65535.0;
 const COARSE: f64 = 255.0;
 
-/// Ranges as shares of the ring's reach, in whole parts of `most`. What was not met, or read as NaN, lies at the reach.
+/// Ranges as shares of the ring's reach, in whole parts of `most`. What was not met, or read as
+/// NaN, lies at the reach.
 fn shares<'a>(
     (what, index): (&str, usize),
     ring: &'a Ring,

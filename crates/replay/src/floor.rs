@@ -18,8 +18,8 @@ pub struct Floor<'a> {
 }
 
 impl<'a> Floor<'a> {
-    /// What can be reached from `start`; nothing in a world that was not made from a maze, or from outside
-    /// of it. Doors do not count as walls. O(cells) rays.
+    /// What can be reached from `start`; nothing in a world that was not made from a maze, or from
+    /// outside of it. Doors do not count as walls. O(cells) rays.
     pub fn from(world: &'a World, start: Point) -> Option<Self> {
         let (grid, first) = (world.grid()?, world.cell_at(start)?);
         let mut floor = Self {

@@ -64,8 +64,8 @@ impl MapNode {
         last.map_or(self.position, |last| last.position)
     }
 
-    /// Draws it elsewhere from `step` on, if that is farther off than `still`, m. Of several places at one step the last
-    /// counts.
+    /// Draws it elsewhere from `step` on, if that is farther off than `still`, m. Of several places
+    /// at one step the last counts.
     pub fn move_to(&mut self, step: u32, position: Point, still: f64) {
         if (self.latest() - position).norm() > still {
             self.moves.pop_if(|moved| moved.step >= step);
@@ -154,8 +154,8 @@ impl Belief {
         }
     }
 
-    /// Notes what a system believes from `step` on, if it is something else than before: the likeliest few of its guesses, with
-    /// places where `site` says that they lie.
+    /// Notes what a system believes from `step` on, if it is something else than before: the
+    /// likeliest few of its guesses, with places where `site` says that they lie.
     pub fn note(&mut self, step: u32, guesses: &[Guess], site: impl Fn(u32) -> Option<Point>) {
         let likely = guesses.iter().filter(|guess| guess.weight >= LEAST_WEIGHT);
         let shapes = likely.take(SHOWN_GUESSES).filter_map(|guess| {
@@ -175,7 +175,8 @@ impl Belief {
     }
 }
 
-/// How many of the places where a robot may be are shown. More would be a blot, and make the file large.
+/// How many of the places where a robot may be are shown. More would be a blot, and make the file
+/// large.
 const SHOWN_GUESSES: usize = 8;
 
 /// What is believed less is not shown.
@@ -236,8 +237,8 @@ pub enum Shape {
     },
 }
 
-/// Numbers over the cells of a grid that change now and then, drawn as colours and, where there is room, in
-/// digits.
+/// Numbers over the cells of a grid that change now and then, drawn as colours and, where there is
+/// room, in digits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// What the layer is called: `distance to the goal`.
@@ -246,7 +247,8 @@ pub struct Field {
     pub origin: Point,
     /// The side of a cell, m.
     pub pitch: f64,
-    /// Cells from west to east; cell i lies in column i mod columns, row i / columns, from the south-west.
+    /// Cells from west to east; cell i lies in column i mod columns, row i / columns, from the
+    /// south-west.
     pub columns: u32,
     /// The values drawn in the palest and the strongest colour.
     pub range: [f64; 2],

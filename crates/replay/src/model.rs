@@ -10,7 +10,8 @@ use super::{Belief, Field, MapGrowth, Marks, Notes, Scenery, TimeSeries};
 pub struct Replay {
     /// What it shows, in a few words.
     pub title: String,
-    /// What is to be known of it as a whole: maze, brain, seed, outcome, the command that makes it again.
+    /// What is to be known of it as a whole: maze, brain, seed, outcome, the command that makes it
+    /// again.
     pub facts: Vec<Fact>,
     /// The length of a time step, s; the speed 1× plays as many steps a second as there are in one.
     pub step_s: f64,
@@ -84,7 +85,8 @@ pub struct RobotTrack {
     pub body: Body,
     /// Its range sensor, whose beams the player casts on the walls; none for a robot without.
     pub ring: Option<Ring>,
-    /// What the range sensor really read, for runs whose walls are not known; then no beams are cast.
+    /// What the range sensor really read, for runs whose walls are not known; then no beams are
+    /// cast.
     pub scans: Option<Scans>,
     /// Where it was, from step 0 on.
     pub poses: Vec<Pose>,

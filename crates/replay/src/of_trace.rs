@@ -230,8 +230,8 @@ impl<M: Portrait> Trace<M> {
         scenery
     }
 
-    /// When a door changed by its schedule and from outside. That a door waits for a body in its way is not
-    /// in the trace, so it may be shown shut a little too soon.
+    /// When a door changed by its schedule and from outside. That a door waits for a body in its
+    /// way is not in the trace, so it may be shown shut a little too soon.
     fn open_and_shut(&self, door: &mut SceneryDoor, schedule: &[DoorEvent]) {
         let scheduled = schedule.iter().map(|event| DoorChange {
             step: (event.time_us / self.step_us.max(1)) as u32,
@@ -305,13 +305,14 @@ fn arrival(poses: &[Pose], there: impl Fn(&Pose) -> bool) -> Marks {
 }
 
 impl Replay {
-    /// The replay of one trace, or of several in the same world on one slider, with how each compares to
-    /// the first. The first step at which one differs is marked.
+    /// The replay of one trace, or of several in the same world on one slider, with how each
+    /// compares to the first. The first step at which one differs is marked.
     ///
     /// Linear in the length of the traces; nothing is simulated.
     ///
     /// # Errors
-    /// [`CompareError`] if there is no trace, their worlds or time steps differ, or a robot cannot be built.
+    /// [`CompareError`] if there is no trace, their worlds or time steps differ, or a robot cannot
+    /// be built.
     pub fn of_traces<M: Portrait>(
         traces: &[Trace<M>],
     ) -> Result<(Self, Vec<TraceComparison>), CompareError> {

@@ -7,8 +7,8 @@ use super::{EncodeError, Replay, json};
 /// What the page says of itself, so that a command knows its own files again.
 const GENERATOR: &str = "tolman replay";
 
-/// The player, for a page that opens replays itself: it defines `TolmanReplay`. What is there for readers of
-/// the source is left out.
+/// The player, for a page that opens replays itself: it defines `TolmanReplay`. What is there for
+/// readers of the source is left out.
 #[must_use]
 pub fn script() -> String {
     compact(include_str!("player.js"))
@@ -62,8 +62,8 @@ pub fn is_replay(beginning: &[u8]) -> bool {
         .any(|window| window == mark.as_bytes())
 }
 
-/// Leaves out comments on lines of their own, indentation, and spaces and line ends that separate nothing.
-/// Texts must be in double quotes and on one line.
+/// Leaves out comments on lines of their own, indentation, and spaces and line ends that separate
+/// nothing. Texts must be in double quotes and on one line.
 fn compact(source: &str) -> String {
     let lines = source.lines().map(str::trim);
     let code: Vec<&str> = lines
@@ -96,7 +96,8 @@ fn compact(source: &str) -> String {
     out
 }
 
-/// Whether no space is needed beside this. Plus and minus are not among them: two of them are something else.
+/// Whether no space is needed beside this. Plus and minus are not among them: two of them are
+/// something else.
 fn separates(c: char) -> bool {
     ",;:{}()[]?=<>*&|!".contains(c)
 }

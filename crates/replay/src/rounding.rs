@@ -13,8 +13,8 @@ const TURN: f64 = 65536.0;
 
 /// A pose inside a rectangle as x, y and heading, rounded to 16 bits each.
 ///
-/// A coordinate is off by at most half of 1/65535 of the rectangle's side (0.13 mm in a maze of 17 m), a
-/// heading by at most π/65536 (0.003°).
+/// A coordinate is off by at most half of 1/65535 of the rectangle's side (0.13 mm in a maze of 17
+/// m), a heading by at most π/65536 (0.003°).
 pub(super) fn rounded(&Bounds { min, max }: &Bounds, pose: Pose) -> [u16; 3] {
     let share = |value: f64, min: f64, max: f64| {
         let extent = max - min;
@@ -32,7 +32,8 @@ pub(super) fn rounded(&Bounds { min, max }: &Bounds, pose: Pose) -> [u16; 3] {
     ]
 }
 
-/// The smallest rectangle that holds all of these, one metre wide and high if it is a point or nothing.
+/// The smallest rectangle that holds all of these, one metre wide and high if it is a point or
+/// nothing.
 pub(super) fn bounds_of(points: impl IntoIterator<Item = Point>) -> Bounds {
     let bounds = Bounds::of(points);
     if bounds.width() > 0.0 || bounds.height() > 0.0 {

@@ -4,8 +4,8 @@ use serde::Serialize;
 use tolman_geom::{Point, Vector};
 use tolman_sim::{Area, Bounds, World};
 
-/// What stands still: walls, zones of the floor, and doors in their frames. Metres, x to the right and y
-/// upwards.
+/// What stands still: walls, zones of the floor, and doors in their frames. Metres, x to the right
+/// and y upwards.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scenery {
     /// The ends of each wall.

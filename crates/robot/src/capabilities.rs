@@ -1,5 +1,5 @@
-//! What a sensing can tell. A layer or a system names in its bounds what it needs, and so runs on every
-//! robot that senses it.
+//! What a sensing can tell. A layer or a system names in its bounds what it needs, and so runs on
+//! every robot that senses it.
 
 use tolman_geom::Heading;
 

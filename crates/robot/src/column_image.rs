@@ -5,11 +5,12 @@ use crate::LaserSensing;
 
 /// What a camera that looks all round sees, measured column by column: an image signature.
 ///
-/// Column `i` of `n` looks to bearing `i` · 2π / `n`, counter-clockwise from ahead, so that a turn of the robot
-/// moves the columns round.
+/// Column `i` of `n` looks to bearing `i` · 2π / `n`, counter-clockwise from ahead, so that a turn
+/// of the robot moves the columns round.
 ///
-/// Source: S. Engelson, D. McDermott, "Maps Considered as Adaptive Planning Resources", perceptual indexing ("an
-/// array of values, each computed by a measurement function from a subset of the image").
+/// Source: S. Engelson, D. McDermott, "Maps Considered as Adaptive Planning Resources", perceptual
+/// indexing ("an array of values, each computed by a measurement function from a subset of the
+/// image").
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ColumnImage {
@@ -27,7 +28,8 @@ impl ColumnImage {
     }
 }
 
-/// What a robot with a camera beside a laser ring, compass, wheel encoders and a bumper senses in one time step.
+/// What a robot with a camera beside a laser ring, compass, wheel encoders and a bumper senses in
+/// one time step.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CameraSensing {

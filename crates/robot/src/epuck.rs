@@ -17,14 +17,15 @@ pub const TRACK: f64 = 0.053;
 #[expect(clippy::approx_constant, reason = "the data sheet says 6.28, not 2π")]
 pub const MOST_WHEEL_SPEED: f64 = 6.28;
 
-/// What the encoders count, rad: thousandths of a turn, as the motor has 20 steps behind a gear of 50 to 1.
+/// What the encoders count, rad: thousandths of a turn, as the motor has 20 steps behind a gear of
+/// 50 to 1.
 pub const ENCODER_STEP: f64 = TAU / 1000.0;
 
 /// How many proximity sensors look round.
 pub const PROXIMITY_SENSORS: usize = 8;
 
-/// Where each proximity sensor sits and looks, degrees and m. Number 0 looks ahead, a little to the right; the others
-/// follow clockwise.
+/// Where each proximity sensor sits and looks, degrees and m. Number 0 looks ahead, a little to the
+/// right; the others follow clockwise.
 const MOUNTS: [(f64, f64, f64); PROXIMITY_SENSORS] = [
     (-17.2, 0.030, -0.010),
     (-45.9, 0.022, -0.025),
@@ -72,8 +73,8 @@ impl WheelSpeeds {
         right: 0.0,
     };
 
-    /// The speeds at which the robot moves like this (m/s, rad/s); where a wheel would turn faster than `most`, rad/s, both are slowed alike, so
-    /// that the path is the same.
+    /// The speeds at which the robot moves like this (m/s, rad/s); where a wheel would turn faster
+    /// than `most`, rad/s, both are slowed alike, so that the path is the same.
     ///
     /// ```
     /// use tolman_geom::Twist;
@@ -117,11 +118,13 @@ pub struct WheelTurns {
 pub struct EpuckSensing {
     /// Microseconds since the robot was switched on.
     pub time_us: u64,
-    /// The proximity sensors' raw values, in the order of [`proximity_mounts`]: the larger the nearer.
+    /// The proximity sensors' raw values, in the order of [`proximity_mounts`]: the larger the
+    /// nearer.
     pub proximity: Option<[f64; PROXIMITY_SENSORS]>,
     /// What the wheels turned since the step before.
     pub encoders: Option<WheelTurns>,
-    /// Whether the body touched something in this step. The real robot has no bumper and says nothing.
+    /// Whether the body touched something in this step. The real robot has no bumper and says
+    /// nothing.
     pub bump: Option<bool>,
 }
 

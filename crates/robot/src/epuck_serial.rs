@@ -1,14 +1,18 @@
-//! A driver for the real e-puck, over its serial ASCII protocol, which its standard firmware speaks over Bluetooth.
+//! A driver for the real e-puck, over its serial ASCII protocol, which its standard firmware speaks
+//! over Bluetooth.
 //!
-//! Each command is a letter with its arguments, each answer the same letter in lower case: `D,l,r` sets the speeds of the wheels (answer `d`), `E` asks
-//! what speeds are set (`e,l,r`), `N` for the proximity sensors (`n,` and eight numbers), `Q` for the encoders (`q,l,r`). Speeds and encoders count
-//! thousandths of a turn. Any port that reads and writes bytes will do; give it a time-out.
+//! Each command is a letter with its arguments, each answer the same letter in lower case: `D,l,r`
+//! sets the speeds of the wheels (answer `d`), `E` asks what speeds are set (`e,l,r`), `N` for the
+//! proximity sensors (`n,` and eight numbers), `Q` for the encoders (`q,l,r`). Speeds and encoders
+//! count thousandths of a turn. Any port that reads and writes bytes will do; give it a time-out.
 //!
-//! `E` is not what the wheels do, which `Q` tells, but what the firmware goes by: a command that lost a byte on its way is answered with `d` all
-//! the same, and a remote control sets other speeds behind the driver's back. So every `D` is followed by an `E`.
+//! `E` is not what the wheels do, which `Q` tells, but what the firmware goes by: a command that
+//! lost a byte on its way is answered with `d` all the same, and a remote control sets other speeds
+//! behind the driver's back. So every `D` is followed by an `E`.
 //!
-//! A step is `D`, `E`, the time step, `N`, `Q`. The robot drives on while these lines go to and fro, so let `wait` return when a step has passed since it
-//! returned last, as below, rather than sleep for a whole one, and choose a step in which they have room.
+//! A step is `D`, `E`, the time step, `N`, `Q`. The robot drives on while these lines go to and
+//! fro, so let `wait` return when a step has passed since it returned last, as below, rather than
+//! sleep for a whole one, and choose a step in which they have room.
 //!
 //! ```
 //! use std::thread::sleep;
@@ -53,7 +57,8 @@ use crate::epuck::{
 /// No answer is longer, bytes.
 const LONGEST: usize = 256;
 
-/// So many lines that are no answer may come while a connection is opened: the firmware's greeting, or answers to what was asked before.
+/// So many lines that are no answer may come while a connection is opened: the firmware's greeting,
+/// or answers to what was asked before.
 const FOREIGN_LINES: usize = 8;
 
 /// A real e-puck behind a port.
@@ -70,8 +75,9 @@ pub struct SerialEpuck<P, W> {
 }
 
 impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
-    /// Stops the robot, sees that it is told to stand still, and asks what it senses. Lines of before are passed over, so that opening the port of a
-    /// robot that failed is how to go on. Each step lasts `step_us` microseconds, for which `wait` is called.
+    /// Stops the robot, sees that it is told to stand still, and asks what it senses. Lines of
+    /// before are passed over, so that opening the port of a robot that failed is how to go on.
+    /// Each step lasts `step_us` microseconds, for which `wait` is called.
     ///
     /// # Errors
     /// [`SerialError`] if it does not answer as it should.

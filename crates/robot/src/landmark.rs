@@ -12,15 +12,15 @@ pub enum Landmark {
     Numbered(u32),
 }
 
-/// A robot that recognizes the landmark it stands at. A goal is a landmark, so every system that can
-/// sense it can be sent to it.
+/// A robot that recognizes the landmark it stands at. A goal is a landmark, so every system that
+/// can sense it can be sent to it.
 pub trait SensesLandmarks: Robot {
     /// Returns the landmark the robot stands at now, or `None` if there is none.
     fn landmark(&self) -> Option<Landmark>;
 }
 
-/// Any robot, and who tells whether it stands at a landmark. A robot without a sensor for that needs a
-/// camera above the maze, a mark on the floor, or whoever watches.
+/// Any robot, and who tells whether it stands at a landmark. A robot without a sensor for that
+/// needs a camera above the maze, a mark on the floor, or whoever watches.
 ///
 /// ```
 /// use tolman_robot::{Landmark, Landmarked, Robot, SensesLandmarks};

@@ -4,13 +4,13 @@ use tolman_geom::Point;
 
 use crate::Landmark;
 
-/// Learns a map from what a robot sensed and did. It watches and never drives, so it works on a log as
-/// on a robot.
+/// Learns a map from what a robot sensed and did. It watches and never drives, so it works on a log
+/// as on a robot.
 ///
-/// Each mapper says in [`Observation`](Self::Observation) what it takes in at a time: MSLST a time step with
-/// its scan and the action under way, CPM a fragment walked from place to place, the diktiometry a move with
-/// bounds on its odometry. Whoever has a log makes these of it; what a mapper needs and a log does not
-/// have is a field that cannot be filled.
+/// Each mapper says in [`Observation`](Self::Observation) what it takes in at a time: MSLST a time
+/// step with its scan and the action under way, CPM a fragment walked from place to place, the
+/// diktiometry a move with bounds on its odometry. Whoever has a log makes these of it; what a
+/// mapper needs and a log does not have is a field that cannot be filled.
 pub trait Mapper {
     /// What it takes in at a time.
     type Observation;
@@ -20,11 +20,12 @@ pub trait Mapper {
     /// Takes in one observation.
     ///
     /// # Errors
-    /// If the observation is no number, or cannot follow what was seen before. The map is then as before.
+    /// If the observation is no number, or cannot follow what was seen before. The map is then as
+    /// before.
     fn observe(&mut self, seen: &Self::Observation) -> Result<(), Self::Error>;
 
-    /// Returns what it has learned, as places and links that any scorer and any drawing can read; empty if it learns
-    /// no map. O(map).
+    /// Returns what it has learned, as places and links that any scorer and any drawing can read;
+    /// empty if it learns no map. O(map).
     fn map(&self) -> MapView {
         MapView::default()
     }
@@ -34,19 +35,22 @@ pub trait Mapper {
         Vec::new()
     }
 
-    /// Returns the places that it came to, in order, as it understands them by all that it has seen since; `None` of one that
-    /// is not on its map. Empty if its places keep their names, so that its beliefs of old still hold. O(visits · log map).
+    /// Returns the places that it came to, in order, as it understands them by all that it has seen
+    /// since; `None` of one that is not on its map. Empty if its places keep their names, so that
+    /// its beliefs of old still hold. O(visits · log map).
     fn visits(&self) -> Vec<Option<u32>> {
         Vec::new()
     }
 
-    /// Returns how likely it takes its map to be that of what it has seen, 0 … 1; `None` if it does not weigh that.
+    /// Returns how likely it takes its map to be that of what it has seen, 0 … 1; `None` if it does
+    /// not weigh that.
     fn certainty(&self) -> Option<f64> {
         None
     }
 
-    /// Returns how many bytes its map takes: places, links and all that they hold, by their number and size. What it was learned
-    /// from (journals, records), what follows from it, and memory kept free do not count. `None` if it does not say. O(map).
+    /// Returns how many bytes its map takes: places, links and all that they hold, by their number
+    /// and size. What it was learned from (journals, records), what follows from it, and memory
+    /// kept free do not count. `None` if it does not say. O(map).
     fn map_bytes(&self) -> Option<usize> {
         None
     }

@@ -5,8 +5,8 @@ use tolman_geom::Point;
 
 /// A colour picture of what lies ahead.
 ///
-/// Straight lines stay straight: the camera is a pinhole. The left of the picture is on the robot's left; a map that is
-/// made from a mirrored picture is a mirror image of the world.
+/// Straight lines stay straight: the camera is a pinhole. The left of the picture is on the robot's
+/// left; a map that is made from a mirrored picture is a mirror image of the world.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Picture {
@@ -16,7 +16,8 @@ pub struct Picture {
     pub height: u32,
     /// The camera that took it.
     pub camera: PinholeCamera,
-    /// Red, green and blue of each pixel, row by row from the top, each from the left; `width` × `height` of them.
+    /// Red, green and blue of each pixel, row by row from the top, each from the left; `width` ×
+    /// `height` of them.
     pub pixels: Vec<[u8; 3]>,
 }
 
@@ -46,8 +47,8 @@ impl Picture {
         }
     }
 
-    /// Returns the colour of the pixel in a column, counted from the left, and a row, counted from the top; `None` beyond
-    /// the picture.
+    /// Returns the colour of the pixel in a column, counted from the left, and a row, counted from
+    /// the top; `None` beyond the picture.
     #[must_use]
     pub fn pixel(&self, column: u32, row: u32) -> Option<[u8; 3]> {
         if column >= self.width {
@@ -57,7 +58,8 @@ impl Picture {
         self.pixels.get(index).copied()
     }
 
-    /// Returns how far to the left of the picture's middle the middle of a column looks, as the tangent of the angle.
+    /// Returns how far to the left of the picture's middle the middle of a column looks, as the
+    /// tangent of the angle.
     ///
     /// ```
     /// use tolman_robot::{Picture, pioneer_2dx};
@@ -72,7 +74,8 @@ impl Picture {
         share_before_middle(column, self.width) * 2.0 * libm::tan(0.5 * self.camera.field_across)
     }
 
-    /// Returns how far above the picture's middle the middle of a row looks, as the tangent of the angle.
+    /// Returns how far above the picture's middle the middle of a row looks, as the tangent of the
+    /// angle.
     #[must_use]
     pub fn upward(&self, row: u32) -> f64 {
         share_before_middle(row, self.height) * 2.0 * libm::tan(0.5 * self.camera.field_down)

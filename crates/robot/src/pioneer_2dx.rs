@@ -1,4 +1,5 @@
-//! The Pioneer 2-DX: its measures and what it senses. It is told by [`TurnTranslate`](crate::TurnTranslate).
+//! The Pioneer 2-DX: its measures and what it senses. It is told by
+//! [`TurnTranslate`](crate::TurnTranslate).
 
 use alloc::vec::Vec;
 use core::f64::consts::PI;
@@ -16,7 +17,8 @@ pub const LENGTH: f64 = 0.44;
 /// Width of the body, m.
 pub const WIDTH: f64 = 0.33;
 
-/// How far the body reaches ahead of the wheels' axle, m. The sonars at the back then sit within it.
+/// How far the body reaches ahead of the wheels' axle, m. The sonars at the back then sit within
+/// it.
 pub const FRONT: f64 = 0.18;
 
 /// Radius of a wheel, m.
@@ -45,8 +47,8 @@ pub const CAMERA: PinholeCamera = PinholeCamera {
     field_down: 37.0 * PI / 180.0,
 };
 
-/// Where each sonar sits and looks, m and degrees. Number 0 looks left, 3 and 4 ahead, 7 right; 8 to 15 go on clockwise round
-/// the back.
+/// Where each sonar sits and looks, m and degrees. Number 0 looks left, 3 and 4 ahead, 7 right; 8
+/// to 15 go on clockwise round the back.
 const MOUNTS: [(f64, f64, f64); SONARS] = [
     (0.069, 0.136, 90.0),
     (0.114, 0.119, 50.0),
@@ -95,7 +97,8 @@ pub fn body() -> Body {
     }
 }
 
-/// What it senses in one time step. A sensor that gave nothing this time is `None`; the other readings still hold.
+/// What it senses in one time step. A sensor that gave nothing this time is `None`; the other
+/// readings still hold.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pioneer2dxSensing {

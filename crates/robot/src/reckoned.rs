@@ -46,8 +46,8 @@ where
     R: Robot<Sensing: Rolls>,
     F: FnMut(Odometry),
 {
-    /// Hands what the wheels of `robot`, which may be a mutable reference, rolled in each step to `take`. A step whose odometry
-    /// dropped out is left out.
+    /// Hands what the wheels of `robot`, which may be a mutable reference, rolled in each step to
+    /// `take`. A step whose odometry dropped out is left out.
     pub const fn new(robot: R, take: F) -> Self {
         Self { robot, take }
     }

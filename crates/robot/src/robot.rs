@@ -1,4 +1,5 @@
-/// A robot that acts and senses in fixed time steps: the simulator's, a replayed one, or a driver's.
+/// A robot that acts and senses in fixed time steps: the simulator's, a replayed one, or a
+/// driver's.
 ///
 /// ```
 /// use tolman_robot::Robot;

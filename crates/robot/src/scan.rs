@@ -38,8 +38,8 @@ impl Ring {
         }
     }
 
-    /// `beams` beams over a field of view of `field` rad centred ahead, both ends included; a single
-    /// beam looks ahead.
+    /// `beams` beams over a field of view of `field` rad centred ahead, both ends included; a
+    /// single beam looks ahead.
     ///
     /// ```
     /// use core::f64::consts::{FRAC_PI_2, PI};
@@ -91,8 +91,8 @@ impl Scan {
         }
     }
 
-    /// Returns the ranges of a full ring as from a robot that faces north: turned by the compass, to the nearest beam. Beam 0
-    /// looks north, the others follow counter-clockwise. O(beams).
+    /// Returns the ranges of a full ring as from a robot that faces north: turned by the compass,
+    /// to the nearest beam. Beam 0 looks north, the others follow counter-clockwise. O(beams).
     #[must_use]
     pub fn northward(&self, heading: Heading) -> Vec<f64> {
         let mut turned = self.ranges.clone();

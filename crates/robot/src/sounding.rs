@@ -2,7 +2,8 @@ use tolman_geom::{Heading, Point, Pose};
 
 use crate::LaserSensing;
 
-/// One reading of a range sensor, wherever it sits and however wide it hears: a sonar's cone or a laser's beam.
+/// One reading of a range sensor, wherever it sits and however wide it hears: a sonar's cone or a
+/// laser's beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sounding {

@@ -4,27 +4,29 @@ use crate::{Landmark, Mapper, Robot};
 
 /// A mapper that also drives.
 ///
-/// It is made with its seed and derives one random stream for each of its parts. What it needs of a robot
-/// stands in the bounds of its implementation, as [capabilities](crate::Ranges) and never as the name of a robot.
+/// It is made with its seed and derives one random stream for each of its parts. What it needs of a
+/// robot stands in the bounds of its implementation, as [capabilities](crate::Ranges) and never as
+/// the name of a robot.
 pub trait System<R: Robot>: Mapper {
     /// Why it cannot go on: the robot's error, or what its parts refuse.
     type Failure;
 
-    /// Makes the next action of `task` with `robot`, a few time steps, and returns how the task stands. The
-    /// number of its time steps is bounded.
+    /// Makes the next action of `task` with `robot`, a few time steps, and returns how the task
+    /// stands. The number of its time steps is bounded.
     ///
     /// # Errors
     /// If the robot fails or the system cannot go on with it.
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure>;
 
-    /// Tells it that its robot was lifted and put down, perhaps elsewhere, and returns whether it goes on: if nothing is said, it
-    /// gives up, since it follows its robot and cannot find it again.
+    /// Tells it that its robot was lifted and put down, perhaps elsewhere, and returns whether it
+    /// goes on: if nothing is said, it gives up, since it follows its robot and cannot find it
+    /// again.
     fn put_down(&mut self) -> Standing {
         Standing::gave_up("it follows its robot, and cannot find out where it is put down")
     }
 
-    /// Returns in a few words what it makes of its situation, such as `lost`; empty if there is nothing to
-    /// say. For whoever watches.
+    /// Returns in a few words what it makes of its situation, such as `lost`; empty if there is
+    /// nothing to say. For whoever watches.
     fn words(&self) -> String {
         String::new()
     }

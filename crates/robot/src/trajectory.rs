@@ -29,8 +29,8 @@ pub struct TimedPose {
 }
 
 impl Trajectory {
-    /// Returns the way through these poses, in the order of time; of equal times in the order given. Poses and times that are not finite
-    /// are left out. O(n log n).
+    /// Returns the way through these poses, in the order of time; of equal times in the order
+    /// given. Poses and times that are not finite are left out. O(n log n).
     #[must_use]
     pub fn new(poses: impl IntoIterator<Item = TimedPose>) -> Self {
         let is_finite = |timed: &TimedPose| timed.time.is_finite() && timed.pose.is_finite();
@@ -45,8 +45,8 @@ impl Trajectory {
         &self.poses
     }
 
-    /// Returns where it was at `time`, s, between the poses before and after in proportion; `None` before the first and after the
-    /// last. O(log n).
+    /// Returns where it was at `time`, s, between the poses before and after in proportion; `None`
+    /// before the first and after the last. O(log n).
     #[must_use]
     pub fn at(&self, time: f64) -> Option<Pose> {
         let after = self.poses.partition_point(|timed| timed.time < time);

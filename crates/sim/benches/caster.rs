@@ -1,7 +1,8 @@
 //! Rays per second of every caster, in mazes and among free walls of 36 to 40,000 unit walls.
 //!
-//! One iteration is one scan: 72 beams of 2.5 units from a random pose, aimed and cast. The table at the
-//! end gives the median in million rays a second and the ratio to parry2d's polyline in this run.
+//! One iteration is one scan: 72 beams of 2.5 units from a random pose, aimed and cast. The table
+//! at the end gives the median in million rays a second and the ratio to parry2d's polyline in this
+//! run.
 
 #![expect(
     clippy::unwrap_used,

@@ -1,8 +1,8 @@
 //! World steps per second: one robot alone, and many that see each other.
 //!
-//! One iteration is one step of the whole world: commands, contact, scans of 72 beams of 2.5 units for
-//! every robot. Robots of 0.5 units diameter drive and turn at random, in mazes of 400 and 40,000 unit
-//! walls. The e-pucks have eight infrared rays each and drive in corridors of 0.25 m.
+//! One iteration is one step of the whole world: commands, contact, scans of 72 beams of 2.5 units
+//! for every robot. Robots of 0.5 units diameter drive and turn at random, in mazes of 400 and
+//! 40,000 unit walls. The e-pucks have eight infrared rays each and drive in corridors of 0.25 m.
 
 #![expect(
     clippy::unwrap_used,

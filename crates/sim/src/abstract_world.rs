@@ -1,7 +1,8 @@
 //! A world without bodies and time: places, and moves that lead from one to the next.
 //!
-//! What a mapper of places sees of a robot, some thousand times faster than the raycast world: each move ends at the next
-//! place, and its odometry is wrong within known bounds. The truth stands beside what is told, for scoring.
+//! What a mapper of places sees of a robot, some thousand times faster than the raycast world: each
+//! move ends at the next place, and its odometry is wrong within known bounds. The truth stands
+//! beside what is told, for scoring.
 
 use alloc::sync::Arc;
 
@@ -34,8 +35,8 @@ pub struct AbstractWorld {
 }
 
 impl AbstractWorld {
-    /// One place a cell, `spacing` metres apart, numbered as the grid numbers its cells; a move leads to the next cell
-    /// where no wall stands. All places look alike.
+    /// One place a cell, `spacing` metres apart, numbered as the grid numbers its cells; a move
+    /// leads to the next cell where no wall stands. All places look alike.
     #[must_use]
     pub fn from_maze(maze: &Maze, spacing: f64) -> Self {
         let cells: Vec<_> = maze.grid().cells().collect();
@@ -45,8 +46,9 @@ impl AbstractWorld {
         })
     }
 
-    /// The corridors of a maze whose cells are `spacing` metres apart: a place at every bend, junction and dead end, numbered
-    /// in the order of their cells; a move leads straight on to the next. All places look alike.
+    /// The corridors of a maze whose cells are `spacing` metres apart: a place at every bend,
+    /// junction and dead end, numbered in the order of their cells; a move leads straight on to the
+    /// next. All places look alike.
     #[must_use]
     pub fn from_corridors(maze: &Maze, spacing: f64) -> Self {
         let ways = |cell| Direction::ALL.map(|direction| maze.is_open(cell, direction));
@@ -83,8 +85,9 @@ impl AbstractWorld {
         }
     }
 
-    /// Any places, m, and where the ways north, east, south and west lead from each, by number. None if there is not one entry of
-    /// ways a place, or a way leads to a place that there is not. All places look alike.
+    /// Any places, m, and where the ways north, east, south and west lead from each, by number.
+    /// None if there is not one entry of ways a place, or a way leads to a place that there is not.
+    /// All places look alike.
     #[must_use]
     pub fn of_places(places: Vec<Point>, neighbours: Vec<[Option<u32>; 4]>) -> Option<Self> {
         let known = |place: &u32| (*place as usize) < places.len();
@@ -96,7 +99,8 @@ impl AbstractWorld {
         })
     }
 
-    /// Paints every wall around a place in one of `colours` colours, drawn evenly from `seed`: 0, 1, …
+    /// Paints every wall around a place in one of `colours` colours, drawn evenly from `seed`: 0,
+    /// 1, …
     #[must_use]
     pub fn painted(mut self, colours: u32, seed: u64) -> Self {
         let mut draws = Chance::of_run(seed).draws(Channel::named("abstract paint"));
@@ -106,8 +110,8 @@ impl AbstractWorld {
         self
     }
 
-    /// Gives every place the look of the place with the number that `of` says: rooms that are furnished alike. Numbers of no place
-    /// change nothing.
+    /// Gives every place the look of the place with the number that `of` says: rooms that are
+    /// furnished alike. Numbers of no place change nothing.
     #[must_use]
     pub fn looking_like(mut self, of: impl Fn(u32) -> u32) -> Self {
         let looks = self.looks.clone();
@@ -119,7 +123,8 @@ impl AbstractWorld {
         self
     }
 
-    /// Paints the walls around one place anew, each in a colour it did not have, if there are two or more.
+    /// Paints the walls around one place anew, each in a colour it did not have, if there are two
+    /// or more.
     #[must_use]
     pub fn repainted(mut self, place: u32, colours: u32) -> Self {
         if let Some(look) = self.looks.get_mut(place as usize) {
@@ -128,8 +133,8 @@ impl AbstractWorld {
         self
     }
 
-    /// Opens, leads elsewhere or shuts the way from a place in a direction and, if it leads to a place, the way back from there: a
-    /// door. Places that do not exist change nothing.
+    /// Opens, leads elsewhere or shuts the way from a place in a direction and, if it leads to a
+    /// place, the way back from there: a door. Places that do not exist change nothing.
     #[must_use]
     pub fn with_way(mut self, place: u32, direction: Direction, to: Option<u32>) -> Self {
         let back = direction.opposite() as usize;
@@ -137,7 +142,8 @@ impl AbstractWorld {
         if (place as usize) >= count || to.is_some_and(|to| (to as usize) >= count) {
             return self;
         }
-        // What led here from where the way led before, and what led to `to` from elsewhere, leads nowhere now.
+        // What led here from where the way led before, and what led to `to` from elsewhere, leads
+        // nowhere now.
         let before = self.neighbour(place, direction);
         let origin = to.and_then(|to| self.neighbour(to, direction.opposite()));
         let ends = [
@@ -185,8 +191,8 @@ pub struct MoveNoise {
     pub distance: f64,
     /// Bound of the error of each heading of the compass, rad.
     pub compass: f64,
-    /// Bound of an error of scale, as a share of the distance, that is drawn once and shared by all moves. It is not in the
-    /// bounds that are told.
+    /// Bound of an error of scale, as a share of the distance, that is drawn once and shared by all
+    /// moves. It is not in the bounds that are told.
     pub shared_scale: f64,
     /// How far from the place's point the robot stops at most, m, along each axis.
     pub stop: f64,
@@ -237,7 +243,8 @@ pub struct AbstractMove {
     pub truth: Vector,
     /// How its odometry says that it moved, m, along the axes of its compass.
     pub measured: Vector,
-    /// What follows for how it moved, but for the shared scale and outliers: the displacement along the true axes, m, and the heading.
+    /// What follows for how it moved, but for the shared scale and outliers: the displacement along
+    /// the true axes, m, and the heading.
     pub odometry: PoseBox,
     /// What it sees to each direction, in the order of [`Direction::ALL`].
     pub look: [f64; 4],
@@ -290,8 +297,8 @@ impl AbstractRobot {
         }
     }
 
-    /// Lets the world change round the robot, which stays where it is: doors shut and open. One without its place changes
-    /// nothing.
+    /// Lets the world change round the robot, which stays where it is: doors shut and open. One
+    /// without its place changes nothing.
     pub fn find_itself_in(&mut self, world: Arc<AbstractWorld>) {
         if (self.at as usize) < world.places.len() {
             self.world = world;
@@ -319,7 +326,8 @@ impl AbstractRobot {
             .map(|value| value + self.errors.look * (2.0 * draws.uniform() - 1.0))
     }
 
-    /// One of the directions that lead somewhere, each as likely as the others; none if there are none.
+    /// One of the directions that lead somewhere, each as likely as the others; none if there are
+    /// none.
     #[must_use]
     pub fn wander(&self) -> Option<Direction> {
         let mut draws = self.draws("abstract walk");

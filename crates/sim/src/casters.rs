@@ -6,14 +6,15 @@
 //! | [`WallIndex`] | any | draws the walls near by into a one-dimensional depth buffer |
 //! | `ParryPolyline` (feature `parry2d`) | any | parry2d's bounding volume hierarchy, ray by ray: the reference |
 //!
-//! A world chooses one of the first two itself. `ParryPolyline` is there to judge them: it shares no line with them, so
-//! whoever writes a caster, or doubts a range in a world of their own, can hold one to the other. That is why the
-//! feature `parry2d` is on by default. Without it the simulator computes the same bits, builds 14 crates fewer, and
-//! `ParryPolyline` is no name the compiler knows.
+//! A world chooses one of the first two itself. `ParryPolyline` is there to judge them: it shares
+//! no line with them, so whoever writes a caster, or doubts a range in a world of their own, can
+//! hold one to the other. That is why the feature `parry2d` is on by default. Without it the
+//! simulator computes the same bits, builds 14 crates fewer, and `ParryPolyline` is no name the
+//! compiler knows.
 //!
 //! **What touching means.** A wall is a closed segment, so a ray into the joint of two walls never
-//! leaks. Whether a ray that passes the free end of a wall within rounding (10⁻⁹ m) reads the end or what
-//! lies behind it is left open; everywhere else the three agree to 10⁻⁹ m.
+//! leaks. Whether a ray that passes the free end of a wall within rounding (10⁻⁹ m) reads the end
+//! or what lies behind it is left open; everywhere else the three agree to 10⁻⁹ m.
 
 use core::fmt;
 

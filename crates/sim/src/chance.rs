@@ -4,13 +4,13 @@ use rand::TryRng;
 
 /// All chance of one run, for one robot at one tick.
 ///
-/// Counter-based: what a channel draws is a pure function of (run, robot, tick, channel, how many it
-/// drew before in this tick). Nothing is shared, so a further consumer never shifts another one's
-/// numbers, and a tick can be drawn again without drawing those before it.
+/// Counter-based: what a channel draws is a pure function of (run, robot, tick, channel, how many
+/// it drew before in this tick). Nothing is shared, so a further consumer never shifts another
+/// one's numbers, and a tick can be drawn again without drawing those before it.
 ///
 /// The function is Philox4x32-10 (Salmon, Moraes, Dror, Shaw: *Parallel random numbers: as easy as
-/// 1, 2, 3*, SC 2011), which passes BigCrush and, unlike a repositioned stream cipher, costs nothing
-/// to position.
+/// 1, 2, 3*, SC 2011), which passes BigCrush and, unlike a repositioned stream cipher, costs
+/// nothing to position.
 ///
 /// ```
 /// use tolman_sim::{Chance, Channel};

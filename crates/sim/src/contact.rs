@@ -167,7 +167,8 @@ pub(crate) fn advance(
     })
 }
 
-/// Moves a body along an arc as far as the obstacles let it; gives how much of the motion was cut, m.
+/// Moves a body along an arc as far as the obstacles let it; gives how much of the motion was cut,
+/// m.
 fn follow(body: &mut Placed, obstacles: &Obstacles, motion: Motion, contact: Contact) -> f64 {
     let start = body.pose();
     let chords = (motion.turn.abs() / CHORD_TURN)

@@ -22,8 +22,8 @@ impl tolman_robot::Standstill for Motion {
 
 /// A kind of robot: its body, its motors, its sensors.
 ///
-/// The simulation calls [`motion`](Self::motion) and then [`sense`](Self::sense) once a step, each with
-/// the [`Chance`] of this robot and tick.
+/// The simulation calls [`motion`](Self::motion) and then [`sense`](Self::sense) once a step, each
+/// with the [`Chance`] of this robot and tick.
 pub trait Model {
     /// What it is told in one time step.
     type Command: Clone + core::fmt::Debug + tolman_robot::Standstill;

@@ -4,9 +4,9 @@
 //! [`Faults`] are several of one value, one after the other. Every fault draws from a
 //! [`Channel`](crate::Channel) of its own, so none shifts another one's numbers.
 //!
-//! To add one to a configuration: give [`Fault`] a variant. To add one from another crate: implement
-//! [`Disturbance`], and give it to the robot after it was built. [`Noise`] makes one of any distribution of
-//! `rand` or `rand_distr`.
+//! To add one to a configuration: give [`Fault`] a variant. To add one from another crate:
+//! implement [`Disturbance`], and give it to the robot after it was built. [`Noise`] makes one of
+//! any distribution of `rand` or `rand_distr`.
 //!
 //! Kidnapping is no fault of the robot: see
 //! [`Simulation::place`](crate::Simulation::place).
@@ -29,8 +29,8 @@ pub trait Values: Clone {
     /// Replaces every number by what `change` makes of it.
     fn change(&mut self, change: impl FnMut(f64) -> f64);
 
-    /// Whether the value is one that a sensor or a motor can give: all its numbers are finite, and as many and as
-    /// large as its type promises.
+    /// Whether the value is one that a sensor or a motor can give: all its numbers are finite, and
+    /// as many and as large as its type promises.
     fn is_sound(&self) -> bool {
         let mut is_sound = true;
         self.clone().change(|number| {
@@ -63,7 +63,8 @@ impl<const N: usize> Values for [f64; N] {
 }
 
 impl Values for Scan {
-    /// Beams that met nothing have no echo to disturb; the others stay within the range of the ring.
+    /// Beams that met nothing have no echo to disturb; the others stay within the range of the
+    /// ring.
     fn change(&mut self, mut change: impl FnMut(f64) -> f64) {
         let max_range = self.ring.max_range;
         for range in self.ranges.iter_mut().filter(|range| **range < max_range) {

@@ -116,8 +116,8 @@ impl<M: Model> Simulation<M> {
     /// Takes one command per robot, in the order of adding, and lets one time step pass.
     ///
     /// # Errors
-    /// If there is not one command per robot, or a command is not made of numbers. Nothing has moved
-    /// then.
+    /// If there is not one command per robot, or a command is not made of numbers. Nothing has
+    /// moved then.
     pub fn step(&mut self, commands: &[M::Command]) -> Result<(), StepError> {
         if commands.len() != self.robots.len() {
             let (commands, robots) = (commands.len(), self.robots.len());
@@ -307,7 +307,8 @@ impl<M: Model> Simulation<M> {
         })
     }
 
-    /// Opens or shuts a door, whatever its schedule; one with a body in it shuts when the body is out.
+    /// Opens or shuts a door, whatever its schedule; one with a body in it shuts when the body is
+    /// out.
     ///
     /// # Errors
     /// If there is no such door.

@@ -4,7 +4,8 @@ use crate::casters::BeamSweep;
 use crate::scene::Scene;
 use crate::{Material, Truth, WallSegment, World};
 
-/// What a sensor can be sensitive to: the true state of things round one robot at the end of a step.
+/// What a sensor can be sensitive to: the true state of things round one robot at the end of a
+/// step.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
     pub(crate) scene: Scene<'a>,
@@ -50,8 +51,8 @@ impl<'a> Surroundings<'a> {
         self.scene.world
     }
 
-    /// How far a ray goes before it meets a wall, a shut door or another robot, m; `max_range` if it
-    /// meets nothing before. `direction` is a unit vector in the world.
+    /// How far a ray goes before it meets a wall, a shut door or another robot, m; `max_range` if
+    /// it meets nothing before. `direction` is a unit vector in the world.
     #[must_use]
     pub fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64 {
         let range = self.world().caster().cast(origin, direction, max_range);
@@ -91,9 +92,9 @@ impl<'a> Surroundings<'a> {
         echoes
     }
 
-    /// Collects in `found`, which is emptied first, what comes within `reach` m of a point, and some of what does not: walls,
-    /// shut doors and the outlines of other robots. A disc counts as the regular polygon of 24 sides round it, which is
-    /// less than 1 % of its radius larger.
+    /// Collects in `found`, which is emptied first, what comes within `reach` m of a point, and
+    /// some of what does not: walls, shut doors and the outlines of other robots. A disc counts as
+    /// the regular polygon of 24 sides round it, which is less than 1 % of its radius larger.
     pub fn standing_near(&self, centre: Point, reach: f64, found: &mut Vec<WallSegment>) {
         found.clear();
         self.world()

@@ -1,12 +1,13 @@
 //! Traces: what happened in a run, written as JSON lines and replayed to the bit.
 //!
-//! The first line holds the world, the seed and the robots. Then follows one line per tick and robot
-//! with its command, pose, bump and, if chosen, what it sensed; and one for every robot that was
-//! lifted and every door that was moved from outside. [`replay`] simulates the commands again and
-//! compares every number; a [`Reader`] only reads.
+//! The first line holds the world, the seed and the robots. Then follows one line per tick and
+//! robot with its command, pose, bump and, if chosen, what it sensed; and one for every robot that
+//! was lifted and every door that was moved from outside. [`replay`] simulates the commands again
+//! and compares every number; a [`Reader`] only reads.
 //!
-//! A [`Disturbance`](crate::noise::Disturbance) is code, which no file can hold. The trace of a robot that has one
-//! names it in the first line; [`replay`] then refuses, and [`replay_with`] asks for the robot.
+//! A [`Disturbance`](crate::noise::Disturbance) is code, which no file can hold. The trace of a
+//! robot that has one names it in the first line; [`replay`] then refuses, and [`replay_with`] asks
+//! for the robot.
 //!
 //! ```
 //! use tolman_geom::{Heading, Point, Pose};
@@ -70,8 +71,9 @@ pub trait Recordable:
     where
         Self: Sized;
 
-    /// What disturbs this one from outside its configuration, each as a text that tells it from others; see
-    /// [`Disturbance`](crate::noise::Disturbance). A trace keeps the texts, since it cannot keep the code.
+    /// What disturbs this one from outside its configuration, each as a text that tells it from
+    /// others; see [`Disturbance`](crate::noise::Disturbance). A trace keeps the texts, since it
+    /// cannot keep the code.
     fn disturbances(&self) -> Vec<String> {
         Vec::new()
     }

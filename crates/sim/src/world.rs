@@ -88,8 +88,8 @@ impl World {
     /// A maze drawn to scale. Its goal cells become the zone `destination`, its start cell the zone
     /// `start`, as far as the maze marks them.
     ///
-    /// Walls that continue each other in a straight line become one [`WallSegment`]. Thick walls have an
-    /// outline, and a post of their thickness wherever one ends.
+    /// Walls that continue each other in a straight line become one [`WallSegment`]. Thick walls
+    /// have an outline, and a post of their thickness wherever one ends.
     ///
     /// # Errors
     /// If the corridor has no width, or a wall a negative thickness.
@@ -192,8 +192,8 @@ impl World {
     /// This world with a further door.
     ///
     /// # Errors
-    /// If there is a door of that name, it has no length, a number of it is not one, or its schedule
-    /// is not in order of time.
+    /// If there is a door of that name, it has no length, a number of it is not one, or its
+    /// schedule is not in order of time.
     pub fn with_door(mut self, door: Door) -> Result<Self, WorldError> {
         if self.doors.iter().any(|other| other.name == door.name) {
             return Err(WorldError::DoorTwice { name: door.name });
@@ -216,8 +216,8 @@ impl World {
         Ok(self)
     }
 
-    /// This world seen through another ray caster, which must be one of its walls. The built-in choice
-    /// is [`LatticeWalk`] for mazes and occupancy grids, [`WallIndex`] for free walls.
+    /// This world seen through another ray caster, which must be one of its walls. The built-in
+    /// choice is [`LatticeWalk`] for mazes and occupancy grids, [`WallIndex`] for free walls.
     #[must_use]
     pub fn with_caster(mut self, caster: Arc<dyn Caster>) -> Self {
         self.caster = caster;

@@ -2,7 +2,8 @@
 
 /// Iₓ(a, b), the cumulative beta distribution, for positive `a` and `b` and `x` from 0 to 1.
 ///
-/// The continued fraction of DLMF 8.17.22 by Lentz's algorithm, on the side where it converges fast.
+/// The continued fraction of DLMF 8.17.22 by Lentz's algorithm, on the side where it converges
+/// fast.
 pub(super) fn regularized_incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;

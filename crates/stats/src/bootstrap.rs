@@ -7,7 +7,8 @@ use super::moments::{self, count};
 use super::quantile::{of_sorted, sorted};
 use super::{ConfidenceInterval, SampleError, normal};
 
-/// The BCa bootstrap interval of a statistic (Efron, "Better bootstrap confidence intervals", 1987).
+/// The BCa bootstrap interval of a statistic (Efron, "Better bootstrap confidence intervals",
+/// 1987).
 ///
 /// `statistic` is called with samples of the size of `sample` and, for the acceleration, with
 /// samples that lack one value. Draws `resamples` × n random indices from `rng`; the same generator
@@ -114,11 +115,11 @@ pub(super) fn from_replicates(
     Ok(ConfidenceInterval::new(end(tail), end(1.0 - tail)))
 }
 
-/// The means of `points` values drawn from a sample with replacement, `resamples` times: a bootstrap in which the number drawn
-/// need not be the size of the sample.
+/// The means of `points` values drawn from a sample with replacement, `resamples` times: a
+/// bootstrap in which the number drawn need not be the size of the sample.
 ///
-/// The spread of the means is σ / √points, so with more points than the sample has values it tells less than
-/// what is unknown of the mean: [`bca_interval`] tells that.
+/// The spread of the means is σ / √points, so with more points than the sample has values it tells
+/// less than what is unknown of the mean: [`bca_interval`] tells that.
 ///
 /// O(resamples × points).
 ///
@@ -156,8 +157,8 @@ pub fn bootstrap_means(
     Ok((0..resamples).map(|_| one()).collect())
 }
 
-/// The interval that holds the middle share `level` of replicates: their R-7 quantiles, as in Efron's percentile method.
-/// O(n log n).
+/// The interval that holds the middle share `level` of replicates: their R-7 quantiles, as in
+/// Efron's percentile method. O(n log n).
 ///
 /// # Errors
 /// If there are no replicates, one is not finite, or the level is no probability.

@@ -1,4 +1,5 @@
-//! Confidence intervals of the difference of two samples, of which one may be known by its summary alone.
+//! Confidence intervals of the difference of two samples, of which one may be known by its summary
+//! alone.
 
 use super::beta::regularized_incomplete_beta;
 use super::error::check_probability;
@@ -15,10 +16,11 @@ pub struct SampleSummary {
     pub sd: f64,
 }
 
-/// Returns the interval of the difference of the rates of `a` and `b`, each successes of trials, −1 … 1.
+/// Returns the interval of the difference of the rates of `a` and `b`, each successes of trials, −1
+/// … 1.
 ///
-/// R. Newcombe's hybrid of two score intervals ("Interval estimation for the difference between independent
-/// proportions", 1998, method 10).
+/// R. Newcombe's hybrid of two score intervals ("Interval estimation for the difference between
+/// independent proportions", 1998, method 10).
 ///
 /// ```
 /// use tolman_stats::rate_difference_interval;
@@ -51,8 +53,8 @@ pub fn rate_difference_interval(
 
 /// Returns the interval of the difference of the means of `a` and `b`, whose spreads may differ.
 ///
-/// B. Welch ("The generalization of 'Student's' problem when several different population variances are
-/// involved", 1947), with his degrees of freedom. It takes the means for normal.
+/// B. Welch ("The generalization of 'Student's' problem when several different population variances
+/// are involved", 1947), with his degrees of freedom. It takes the means for normal.
 ///
 /// ```
 /// use tolman_stats::{SampleSummary, mean_difference_interval};
@@ -66,7 +68,8 @@ pub fn rate_difference_interval(
 /// ```
 ///
 /// # Errors
-/// If a sample has fewer than two values or a spread that is no number ≥ 0, or the level is no probability.
+/// If a sample has fewer than two values or a spread that is no number ≥ 0, or the level is no
+/// probability.
 pub fn mean_difference_interval(
     a: SampleSummary,
     b: SampleSummary,
@@ -103,8 +106,8 @@ fn error_variance(sample: SampleSummary) -> Result<(f64, f64), SampleError> {
     Ok((sd * sd / count as f64, count as f64 - 1.0))
 }
 
-/// Returns what Student's t stays within, on both sides of 0, with this probability. By bisection over
-/// the incomplete beta function.
+/// Returns what Student's t stays within, on both sides of 0, with this probability. By bisection
+/// over the incomplete beta function.
 fn student_quantile(level: f64, df: f64) -> f64 {
     let within = |t: f64| 1.0 - regularized_incomplete_beta(0.5 * df, 0.5, df / (df + t * t));
     let (mut low, mut high) = (0.0, 1.0);

@@ -10,8 +10,8 @@ use super::{ConfidenceInterval, SampleError};
 /// probability `level`, draws nothing, and is what a median of ties needs, where a bootstrap sees
 /// only a few values.
 ///
-/// The ends are the kth least and the kth greatest value, with the greatest k for which fewer than k
-/// of n fair coins show heads with a probability of at most (1 − level) / 2.
+/// The ends are the kth least and the kth greatest value, with the greatest k for which fewer than
+/// k of n fair coins show heads with a probability of at most (1 − level) / 2.
 ///
 /// O(n log n).
 ///
@@ -26,8 +26,8 @@ use super::{ConfidenceInterval, SampleError};
 /// ```
 ///
 /// # Errors
-/// If the sample is not finite or `level` is no probability, and if the sample is too small: even its
-/// least and greatest value hold the median less often than `level`. 0.95 needs 6 values.
+/// If the sample is not finite or `level` is no probability, and if the sample is too small: even
+/// its least and greatest value hold the median less often than `level`. 0.95 needs 6 values.
 pub fn median_interval(sample: &[f64], level: f64) -> Result<ConfidenceInterval, SampleError> {
     check(sample, 1)?;
     check_probability(level)?;
@@ -52,8 +52,8 @@ pub fn median_interval(sample: &[f64], level: f64) -> Result<ConfidenceInterval,
     ))
 }
 
-/// The probability that `flips` fair coins show at most `heads` heads, of which there are fewer than
-/// flips.
+/// The probability that `flips` fair coins show at most `heads` heads, of which there are fewer
+/// than flips.
 fn at_most_heads(heads: usize, flips: usize) -> f64 {
     regularized_incomplete_beta((flips - heads) as f64, heads as f64 + 1.0, 0.5)
 }

@@ -10,11 +10,11 @@ use tolman_robot::{
 
 use crate::{Brain, Doing, OfStep, stream};
 
-/// A [`Brain`] with the layers of a body: it drives any robot that turns and translates, and senses ranges, its
-/// heading and landmarks.
+/// A [`Brain`] with the layers of a body: it drives any robot that turns and translates, and senses
+/// ranges, its heading and landmarks.
 ///
-/// An action of the [`System`] is one of the brain's. It ends early where the robot senses the landmark it was
-/// sent to.
+/// An action of the [`System`] is one of the brain's. It ends early where the robot senses the
+/// landmark it was sent to.
 #[derive(Debug)]
 pub struct Actor<B> {
     brain: B,
@@ -66,8 +66,8 @@ impl<B: Brain> Actor<B> {
         Self::new(brain, drive, stream(seed, BRAIN_STREAM))
     }
 
-    /// Returns `brain`, whose actions `drive` carries out, its layers seeing [what the brain says](Brain::sees_straight). The
-    /// brain draws from `rng`.
+    /// Returns `brain`, whose actions `drive` carries out, its layers seeing
+    /// [what the brain says](Brain::sees_straight). The brain draws from `rng`.
     #[must_use]
     pub fn new(brain: B, drive: Drive<ChaCha8Rng>, rng: ChaCha8Rng) -> Self {
         let drive = if brain.sees_straight() {
@@ -100,8 +100,8 @@ impl<B: Brain> Actor<B> {
         self.before = Before::PutDown;
     }
 
-    /// Makes the next action as [`System::act`] does. `see` is shown the brain and every time step once it is made,
-    /// before the brain observes it.
+    /// Makes the next action as [`System::act`] does. `see` is shown the brain and every time step
+    /// once it is made, before the brain observes it.
     ///
     /// # Errors
     /// If the robot fails, or the brain cannot use what it sensed.

@@ -4,15 +4,16 @@ use rand::Rng;
 use tolman_maze::Direction;
 use tolman_robot::{Goal, Mapper, Standing, Task};
 
-/// Chooses high-level actions from what it observed, such as [time steps](crate::TimeStep). It knows no robot: an
-/// [`Actor`](crate::Actor) lets it drive one that senses what it [observes](crate::OfStep).
+/// Chooses high-level actions from what it observed, such as [time steps](crate::TimeStep). It
+/// knows no robot: an [`Actor`](crate::Actor) lets it drive one that senses what it
+/// [observes](crate::OfStep).
 pub trait Brain: Mapper + Debug {
-    /// Returns the next action. It is asked whenever an action has ended or the robot was put down, once it
-    /// has observed that.
+    /// Returns the next action. It is asked whenever an action has ended or the robot was put down,
+    /// once it has observed that.
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction;
 
-    /// Returns how `task` stands, as far as the brain can tell: a goal is reached when the robot senses its
-    /// landmark, which is not for the brain to say.
+    /// Returns how `task` stands, as far as the brain can tell: a goal is reached when the robot
+    /// senses its landmark, which is not for the brain to say.
     ///
     /// A brain without a map can be sent to a landmark and to nothing else.
     fn standing(&self, task: Task) -> Standing {
@@ -24,14 +25,14 @@ pub trait Brain: Mapper + Debug {
         }
     }
 
-    /// Returns whether its layers see scans [straightened](tolman_control::straightened), for lasers that err. If nothing is said,
-    /// they see them as they were sensed.
+    /// Returns whether its layers see scans [straightened](tolman_control::straightened), for
+    /// lasers that err. If nothing is said, they see them as they were sensed.
     fn sees_straight(&self) -> bool {
         false
     }
 
-    /// Returns in a few words what it made of its situation when it last chose, such as `lost`; empty if there is
-    /// nothing to say.
+    /// Returns in a few words what it made of its situation when it last chose, such as `lost`;
+    /// empty if there is nothing to say.
     fn words(&self) -> String {
         String::new()
     }

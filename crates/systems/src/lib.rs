@@ -3,11 +3,12 @@
 //! Each system drives any robot that senses what it needs, simulated or real, through the traits of
 //! `tolman-robot`. Nothing here knows a simulator, a terminal or the truth.
 //!
-//! MSLST and its [`baselines`] share a body: a [`Brain`] observes a [`TimeStep`] at a time and chooses compass
-//! directions, and an [`Actor`] lets it drive a robot through the layers of `tolman-control`.
+//! MSLST and its [`baselines`] share a body: a [`Brain`] observes a [`TimeStep`] at a time and
+//! chooses compass directions, and an [`Actor`] lets it drive a robot through the layers of
+//! `tolman-control`.
 //!
-//! With `tolman-robot` this crate suffices for a system on a robot: what its signatures need of other crates is
-//! re-exported.
+//! With `tolman-robot` this crate suffices for a system on a robot: what its signatures need of
+//! other crates is re-exported.
 //!
 //! ```
 //! use tolman_systems::control::{RingError, Stack};

@@ -1,8 +1,9 @@
 //! The one form of files that hold a learned map: JSON with a header that every system shares.
 //!
-//! A file begins `{"format":"tolman-map","version":2,"system":"mslst","world":"J","drawing":"5f1…","robot":"laser
-//! Pioneer","seed":1,` and goes on with what the system keeps. Files of other versions are refused
-//! by name, and so are those of the formats that were there before.
+//! A file begins
+//! `{"format":"tolman-map","version":2,"system":"mslst","world":"J","drawing":"5f1…","robot":"laser Pioneer","seed":1,`
+//! and goes on with what the system keeps. Files of other versions are refused by name, and so are
+//! those of the formats that were there before.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -190,8 +191,8 @@ impl MapFiles {
     /// Returns where the map of a file was learned, and what the file keeps besides.
     ///
     /// # Errors
-    /// [`FileError`] if the text has no header, or one of another format or version, or if the map is another system's or
-    /// not sound.
+    /// [`FileError`] if the text has no header, or one of another format or version, or if the map
+    /// is another system's or not sound.
     pub fn read<B: DeserializeOwned>(self, text: &str) -> Result<(Origin, B), FileError> {
         let Header { system, origin } = header(text)?;
         if system != self.system {

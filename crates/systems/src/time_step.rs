@@ -5,10 +5,11 @@ use tolman_robot::{
     Bumps, Compass, Landmark, Odometry, Ranges, Robot, Rolls, Scan, SensesLandmarks,
 };
 
-/// One time step as a [`Brain`](crate::Brain) observes it: what the robot sensed at its end, and the high-level
-/// action it belongs to.
+/// One time step as a [`Brain`](crate::Brain) observes it: what the robot sensed at its end, and
+/// the high-level action it belongs to.
 ///
-/// A log that does not name the actions cannot fill [`doing`](Self::doing), and a brain learns nothing of it.
+/// A log that does not name the actions cannot fill [`doing`](Self::doing), and a brain learns
+/// nothing of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeStep {
     /// The ranges in the robot's frame, m; `None` for a drop-out.

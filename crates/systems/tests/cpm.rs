@@ -1,4 +1,5 @@
-//! CPM on a robot that is no simulator's: proximity by ray casting in a few lines, wheels by plane geometry.
+//! CPM on a robot that is no simulator's: proximity by ray casting in a few lines, wheels by plane
+//! geometry.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use core::convert::Infallible;
@@ -274,8 +275,8 @@ fn patterns() -> CommonPatterns {
     CommonPatterns::learn(&seen, soinn()).unwrap()
 }
 
-/// The same walk to the bit, whether the robot is owned or lent for a fragment at a time; and the same map, of whoever
-/// only watches.
+/// The same walk to the bit, whether the robot is owned or lent for a fragment at a time; and the
+/// same map, of whoever only watches.
 #[test]
 fn it_walks_as_with_a_body_of_its_own_and_whoever_watches_learns_the_same() {
     let patterns = patterns();

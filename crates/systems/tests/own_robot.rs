@@ -1,4 +1,5 @@
-//! MSLST and its baselines drive a robot that no simulator made: a few lines of kinematics in a few corridors.
+//! MSLST and its baselines drive a robot that no simulator made: a few lines of kinematics in a few
+//! corridors.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
@@ -308,7 +309,8 @@ fn a_map_that_nobody_watched_survives_its_file() {
     assert_eq!(read.learned.survey, GrowthRecord::default());
 }
 
-/// The paper's history localization ends with one node, or with a memory full of what several nodes fit.
+/// The paper's history localization ends with one node, or with a memory full of what several nodes
+/// fit.
 #[test]
 fn localization_ends_with_one_place_or_a_reason() {
     let (mut mslst, mut robot) = apprentice();

@@ -21,8 +21,8 @@ use crate::start::Start;
 
 /// A system by its name, with the robots that it can drive.
 ///
-/// An implementation makes the system and its robot ready; the command lets it act, watches it, and keeps its map. To
-/// add one, put it into the [`Catalogue`](crate::Catalogue).
+/// An implementation makes the system and its robot ready; the command lets it act, watches it, and
+/// keeps its map. To add one, put it into the [`Catalogue`](crate::Catalogue).
 pub trait SystemEntry: Sync {
     /// Returns its name, as in `--system NAME` and in the files of its maps.
     fn name(&self) -> &'static str;
@@ -32,12 +32,14 @@ pub trait SystemEntry: Sync {
         "A system of one's own"
     }
 
-    /// Returns the names of its presets, the first of which is taken where nothing is said, each with what it is.
+    /// Returns the names of its presets, the first of which is taken where nothing is said, each
+    /// with what it is.
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
         &[]
     }
 
-    /// Returns the names of the robots that it can drive, the first of which is taken where nothing is said.
+    /// Returns the names of the robots that it can drive, the first of which is taken where nothing
+    /// is said.
     fn robots(&self) -> &'static [&'static str] {
         &[]
     }
@@ -48,8 +50,8 @@ pub trait SystemEntry: Sync {
     /// If maze, start or settings do not serve.
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error>;
 
-    /// Makes it ready to go to the goal by a map, or by whichever of several maps is that of the maze. If nothing is said, it
-    /// cannot.
+    /// Makes it ready to go to the goal by a map, or by whichever of several maps is that of the
+    /// maze. If nothing is said, it cannot.
     ///
     /// # Errors
     /// If maps, maze, start or settings do not serve.
@@ -57,7 +59,8 @@ pub trait SystemEntry: Sync {
         Err(anyhow!("{} does not drive by a map", self.name()))
     }
 
-    /// Reads a map. If nothing is said, it is one of which no more is known than where it was learned.
+    /// Reads a map. If nothing is said, it is one of which no more is known than where it was
+    /// learned.
     ///
     /// # Errors
     /// If it is not sound.
@@ -97,8 +100,8 @@ pub trait LearnedMap {
         ))
     }
 
-    /// Returns the way from one place to another, a line a step: from where it believes to be or where the maze begins, if
-    /// nothing is said, to the goal. `None` if it knows no way.
+    /// Returns the way from one place to another, a line a step: from where it believes to be or
+    /// where the maze begins, if nothing is said, to the goal. `None` if it knows no way.
     ///
     /// # Errors
     /// If there is no such place.
@@ -176,7 +179,8 @@ impl Setup<'_> {
         )
     }
 
-    /// Returns where the robot starts on `course`: what was said, else `usual`. A random start is what `random` makes.
+    /// Returns where the robot starts on `course`: what was said, else `usual`. A random start is
+    /// what `random` makes.
     ///
     /// # Errors
     /// If the maze marks no start, or no way leads on from there.
@@ -289,8 +293,8 @@ fn choose<T>(
     ))
 }
 
-/// Puts the calibrated laser Pioneer on the course of the maze, by chance if nothing is said, and returns the layers that drive
-/// it there.
+/// Puts the calibrated laser Pioneer on the course of the maze, by chance if nothing is said, and
+/// returns the layers that drive it there.
 ///
 /// # Errors
 /// If maze, robot or start do not serve.

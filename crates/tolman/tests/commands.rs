@@ -1,7 +1,9 @@
-//! Every command that README, the pages and the help texts show is one that works: it is run as it stands, in a folder
-//! that holds nothing but `mazes` and `logs`, and ends with the exit code that a comment behind it names, else 0.
+//! Every command that README, the pages and the help texts show is one that works: it is run as it
+//! stands, in a folder that holds nothing but `mazes` and `logs`, and ends with the exit code that
+//! a comment behind it names, else 0.
 //!
-//! A debug build takes many minutes. `TOLMAN` may name another one: `cargo build --release -p tolman`, then
+//! A debug build takes many minutes. `TOLMAN` may name another one:
+//! `cargo build --release -p tolman`, then
 //! `TOLMAN=target/debug/tolman cargo test -p tolman --test commands -- --ignored`.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![cfg(unix)]
@@ -124,7 +126,8 @@ fn verbs(verb: &[String]) -> Vec<Vec<String>> {
     found
 }
 
-/// Runs all pages, each in a folder of its own, as many at a time as there are cores, and returns what went wrong.
+/// Runs all pages, each in a folder of its own, as many at a time as there are cores, and returns
+/// what went wrong.
 fn run_all(pages: Vec<(String, Vec<String>)>) -> Vec<String> {
     let left = Mutex::new(pages.into_iter());
     let work = || {

@@ -1,4 +1,5 @@
-//! A family of worlds: a spine along the south with teeth of any length, the goal at the end of the last.
+//! A family of worlds: a spine along the south with teeth of any length, the goal at the end of the
+//! last.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

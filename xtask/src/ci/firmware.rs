@@ -21,8 +21,8 @@ const BANNED: [&str; 6] = [
     "__rust_alloc",
 ];
 
-/// Builds the firmware for this machine, optimized, and looks through the names that it and the project's
-/// crates below it leave for others to define.
+/// Builds the firmware for this machine, optimized, and looks through the names that it and the
+/// project's crates below it leave for others to define.
 pub(super) fn check() -> Result<Outcome> {
     if !installed("nm") {
         return Ok(Outcome::Skipped("nm is missing: install binutils".into()));

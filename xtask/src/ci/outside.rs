@@ -1,4 +1,5 @@
-//! The program of somebody else in `tests/outside`: that it builds against the workspace, and does what it says.
+//! The program of somebody else in `tests/outside`: that it builds against the workspace, and does
+//! what it says.
 
 use std::fs;
 use std::path::Path;
@@ -14,7 +15,8 @@ const COMMIT: &str = "0123abcd";
 /// Builds the program, and lets it draw a world, learn it and run an experiment.
 ///
 /// # Errors
-/// If it does not build, a command of it fails, or its report names another program or commit than its own.
+/// If it does not build, a command of it fails, or its report names another program or commit than
+/// its own.
 pub(crate) fn check() -> Result<()> {
     let folder = workspace::root().join("tests/outside");
     let target = workspace::target_folder()?;

@@ -1,4 +1,5 @@
-//! One public name means one thing: no type of a crate is called like another, but for those of the glossary's table.
+//! One public name means one thing: no type of a crate is called like another, but for those of the
+//! glossary's table.
 
 use alloc::collections::BTreeMap;
 use std::path::Path;

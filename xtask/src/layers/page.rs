@@ -9,7 +9,8 @@ pub(crate) struct Page {
     pub(crate) crates: Vec<CrateRow>,
     /// The table `outside crate | seen by | why`.
     pub(super) outside: Vec<OutsideRow>,
-    /// The crates to which semantic versioning applies, without `tolman-`; empty if the page has no such sentence.
+    /// The crates to which semantic versioning applies, without `tolman-`; empty if the page has no
+    /// such sentence.
     pub(super) stable: Vec<String>,
 }
 

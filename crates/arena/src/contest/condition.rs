@@ -28,8 +28,8 @@ pub enum Condition {
     Kidnapping,
     /// Readings of all sensors that do not come.
     DropOuts,
-    /// Motors, wheels, compass and odometry that do not err, as no robot is: a map that was learned so can serve as the true one. Not among
-    /// [`ALL`](Self::ALL).
+    /// Motors, wheels, compass and odometry that do not err, as no robot is: a map that was learned
+    /// so can serve as the true one. Not among [`ALL`](Self::ALL).
     Flawless,
 }
 
@@ -76,7 +76,8 @@ impl Condition {
         }
     }
 
-    /// Returns the one of a name, as it stands in tables or is typed: `compass-offset` is compass offset.
+    /// Returns the one of a name, as it stands in tables or is typed: `compass-offset` is compass
+    /// offset.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         let slug = |name: &str| name.to_lowercase().replace(' ', "-");
@@ -161,7 +162,8 @@ impl Condition {
         robot
     }
 
-    /// Returns the diktiometry's robot under it, whose odometry as made errs by as much for some time steps at a time.
+    /// Returns the diktiometry's robot under it, whose odometry as made errs by as much for some
+    /// time steps at a time.
     pub(super) fn surveyor(self, robot: SurveyorConfig, seed: u64) -> SurveyorConfig {
         let hold_steps = match self {
             Self::ConstantOdometry => u32::MAX,
@@ -187,8 +189,8 @@ impl Condition {
         }
     }
 
-    /// Returns the opening, as a cell and the way out of it, that is a door: one whose loss cuts nothing off, by chance. `None` where there is
-    /// none, and where doors do not change.
+    /// Returns the opening, as a cell and the way out of it, that is a door: one whose loss cuts
+    /// nothing off, by chance. `None` where there is none, and where doors do not change.
     pub(super) fn door(self, maze: &Maze, seed: u64) -> Option<(Cell, Direction)> {
         if self != Self::Doors {
             return None;

@@ -45,9 +45,11 @@ pub enum Contestant {
     CpmBetter,
     /// [`Diktiometer`] with the paper's rules.
     Diktiometry,
-    /// [`Diktiometer`] with a journal of all its moves that also merges places by what they look like.
+    /// [`Diktiometer`] with a journal of all its moves that also merges places by what they look
+    /// like.
     DiktiometryBetter,
-    /// [`OfflineSlam`], which gathers records for as long as it may drive, and then learns a map of all of them.
+    /// [`OfflineSlam`], which gathers records for as long as it may drive, and then learns a map of
+    /// all of them.
     GngSlam,
     /// [`OnlineSlam`], whose places are points of the floor.
     GngSlamBetter,
@@ -99,8 +101,8 @@ const NO_STEPS: u32 = 0;
 /// From wall to wall where a robot keeps away from what is near, as GNG-SLAM's does, m.
 const WIDE: f64 = 1.5;
 
-/// MSLST records scans for so many time steps for each cell, and maps so many actions: both together take the most of what it
-/// may drive.
+/// MSLST records scans for so many time steps for each cell, and maps so many actions: both
+/// together take the most of what it may drive.
 const SCANS_A_CELL: u32 = 10;
 const ACTIONS_A_CELL: u32 = 6;
 
@@ -199,7 +201,8 @@ impl Contestant {
         )
     }
 
-    /// Returns which cells are its places. What it takes for a place beside, with two ways, is a part of a way.
+    /// Returns which cells are its places. What it takes for a place beside, with two ways, is a
+    /// part of a way.
     #[must_use]
     pub const fn places(self) -> PlaceRule {
         match self {
@@ -208,9 +211,10 @@ impl Contestant {
         }
     }
 
-    /// Returns whether it says, when it is done, that its map is that of the whole world. MSLST has then used up its actions, MSLST Better
-    /// has been everywhere, GNG-SLAM has its records and the micromouse has proven a shortest run: none of them says that its places are
-    /// those of the drawing.
+    /// Returns whether it says, when it is done, that its map is that of the whole world. MSLST has
+    /// then used up its actions, MSLST Better has been everywhere, GNG-SLAM has its records and the
+    /// micromouse has proven a shortest run: none of them says that its places are those of the
+    /// drawing.
     #[must_use]
     pub const fn claims(self) -> bool {
         matches!(
@@ -219,8 +223,9 @@ impl Contestant {
         )
     }
 
-    /// Returns why it cannot work in a drawing, in a sentence without a full stop, as its features and the robot's sensors alone say;
-    /// `None` where it can. Who knows that abstains, and is not sent. O(cells).
+    /// Returns why it cannot work in a drawing, in a sentence without a full stop, as its features
+    /// and the robot's sensors alone say; `None` where it can. Who knows that abstains, and is not
+    /// sent. O(cells).
     #[must_use]
     pub fn abstains(self, maze: &Maze, robot: ContestRobot) -> Option<String> {
         let room = maze.reachable().find(|cell| maze.is_room(*cell));
@@ -499,7 +504,8 @@ fn ring_as_epuck(
 }
 
 impl Schooling {
-    /// The common patterns that the e-puck learns in the learning maze (section 4.1 of CPM's paper).
+    /// The common patterns that the e-puck learns in the learning maze (section 4.1 of CPM's
+    /// paper).
     fn of_epuck(&self) -> Result<CommonPatterns, BoxError> {
         let learned = self.epuck.get().cloned();
         if let Some(learned) = learned {

@@ -9,10 +9,12 @@ use super::paint::Paint;
 use super::whereabouts::Squares;
 use crate::cpm::landmark_at;
 
-/// An observer that has the drawing and mistakes nothing of what it sees: the ceiling of who watches the same drive.
+/// An observer that has the drawing and mistakes nothing of what it sees: the ceiling of who
+/// watches the same drive.
 ///
-/// In each cell it sees the walls and the landmark, and through each opening the walls of so many cells straight on: more than any robot. Where
-/// the robot sees colours, it sees those of all walls around.
+/// In each cell it sees the walls and the landmark, and through each opening the walls of so many
+/// cells straight on: more than any robot. Where the robot sees colours, it sees those of all walls
+/// around.
 #[derive(Clone, Debug)]
 pub(super) struct IdealObserver<'a> {
     pub(super) maze: Cow<'a, Maze>,
@@ -41,7 +43,8 @@ struct Candidate {
 }
 
 impl IdealObserver<'_> {
-    /// Returns that chance after a drive along `path` of a robot that was put down amid a cell, looking out of it.
+    /// Returns that chance after a drive along `path` of a robot that was put down amid a cell,
+    /// looking out of it.
     pub(super) fn after(&self, squares: Squares, start: (Cell, Direction), path: &[Pose]) -> f64 {
         let mut cells = vec![start.0];
         cells.extend(path.iter().map(|pose| squares.cell_at(pose.position)));
@@ -49,8 +52,9 @@ impl IdealObserver<'_> {
         self.chance(start.1, &cells)
     }
 
-    /// Returns how likely its best guess of the last of these cells is right, 0 … 1, after a drive over all of them that began looking along
-    /// `way`. It holds all cells but goals, and all ways out of them, for equally likely starts. O(starts · cells).
+    /// Returns how likely its best guess of the last of these cells is right, 0 … 1, after a drive
+    /// over all of them that began looking along `way`. It holds all cells but goals, and all ways
+    /// out of them, for equally likely starts. O(starts · cells).
     pub(super) fn chance(&self, way: Direction, cells: &[Cell]) -> f64 {
         let (Some(first), Some(last)) = (cells.first(), cells.last()) else {
             return 0.0;
@@ -125,7 +129,8 @@ impl IdealObserver<'_> {
         }
     }
 
-    /// The shortest way from a cell to another one that was seen next: a robot may pass a cell between two looks.
+    /// The shortest way from a cell to another one that was seen next: a robot may pass a cell
+    /// between two looks.
     fn between(&self, from: Cell, to: Cell) -> Vec<Direction> {
         let steps = self.maze.steps_to(&[to]);
         let left = |cell: Cell| steps[self.maze.grid().index(cell)];

@@ -10,14 +10,17 @@ use super::whereabouts::{PlaceVisit, Squares, offset};
 /// How good a learned map is, by the truth. Shares are from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapJudgement {
-    /// Whether it is the map of what was visited, and at least [`ENOUGH`](Self::ENOUGH) of all places and ways are on it.
+    /// Whether it is the map of what was visited, and at least [`ENOUGH`](Self::ENOUGH) of all
+    /// places and ways are on it.
     pub is_right: bool,
-    /// Whether each of its places is another true one and each of its links another true way, and all ways that were gone are
-    /// on it.
+    /// Whether each of its places is another true one and each of its links another true way, and
+    /// all ways that were gone are on it.
     pub is_right_of_visited: bool,
-    /// Share of the visits that were to the cell which their place was most often; `None` if there were no visits.
+    /// Share of the visits that were to the cell which their place was most often; `None` if there
+    /// were no visits.
     pub purity: Option<f64>,
-    /// Places of the map over true places; what has two ways and no landmark counts as a part of a way in both.
+    /// Places of the map over true places; what has two ways and no landmark counts as a part of a
+    /// way in both.
     pub places: f64,
     /// Share of the links that are true ways, each once; `None` of a map without links.
     pub link_precision: Option<f64>,
@@ -30,12 +33,14 @@ impl MapJudgement {
     pub const ENOUGH: f64 = 0.95;
 }
 
-/// Judges a map. `visits` are where the robot truly was when it took itself to be at places; `gone` are the numbers of the
-/// ways that it has truly gone; `pitch` is from the middle of a cell of the drawing to the next, m.
+/// Judges a map. `visits` are where the robot truly was when it took itself to be at places; `gone`
+/// are the numbers of the ways that it has truly gone; `pitch` is from the middle of a cell of the
+/// drawing to the next, m.
 ///
-/// A place of the map stands for the cell where the robot most often was when it took itself to be there; one that was never
-/// visited for the cell where the map has it, if it says so. Places that stand for cells amid a way, as bends are, belong to
-/// the link between the places at its ends. O(visits + links · ways).
+/// A place of the map stands for the cell where the robot most often was when it took itself to be
+/// there; one that was never visited for the cell where the map has it, if it says so. Places that
+/// stand for cells amid a way, as bends are, belong to the link between the places at its ends.
+/// O(visits + links · ways).
 #[must_use]
 pub fn judge(
     map: &MapView,
@@ -148,7 +153,8 @@ struct Chain {
 struct Chart<'a> {
     stands_for: &'a BTreeMap<u32, Cell>,
     truth: &'a TrueGraph,
-    /// By place: the links there and where they lead; a link from a place to itself stands there twice.
+    /// By place: the links there and where they lead; a link from a place to itself stands there
+    /// twice.
     links: BTreeMap<u32, Vec<(usize, u32)>>,
 }
 
@@ -301,7 +307,8 @@ mod tests {
         (family.draw)(family.sizes[0], &mut ChaCha8Rng::seed_from_u64(seed)).unwrap()
     }
 
-    /// The map that has each of these cells as a place, by its index, with the openings between neighbours as links.
+    /// The map that has each of these cells as a place, by its index, with the openings between
+    /// neighbours as links.
     fn of_cells(maze: &Maze) -> (MapView, Vec<PlaceVisit>) {
         let id = |cell: Cell| maze.grid().index(cell) as u32;
         let mut map = MapView::default();

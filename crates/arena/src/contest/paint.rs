@@ -22,7 +22,8 @@ impl Paint {
         Self(cells.map(seen).collect())
     }
 
-    /// Returns the colours around a cell, clockwise from so many quarters of a turn east of north on; none if nobody sees them.
+    /// Returns the colours around a cell, clockwise from so many quarters of a turn east of north
+    /// on; none if nobody sees them.
     pub(super) fn seen(&self, cell: Cell, quarters: usize) -> impl Iterator<Item = [u8; 3]> + '_ {
         let colours = self.0.get(&cell).map_or(&[][..], Vec::as_slice);
         let turned = colours.iter().cycle().skip(quarters * A_QUARTER);

@@ -9,7 +9,8 @@ use tolman_systems::diktiometry::{Diktiometer, Eye, Wayfinder};
 
 use crate::BoxError;
 
-/// The diktiometry as a whole: it learns a map, and once it is put down anywhere it finds its way on that.
+/// The diktiometry as a whole: it learns a map, and once it is put down anywhere it finds its way
+/// on that.
 #[derive(Debug)]
 pub(super) struct Pathfinder<E> {
     learner: Diktiometer<E>,

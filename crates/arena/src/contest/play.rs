@@ -41,7 +41,8 @@ pub struct Contest<'a> {
     pub starts: u32,
     /// The seed of all chance.
     pub seed: u64,
-    /// What measures how long the contestant thinks; `None` if nobody asks. Nothing else depends on it.
+    /// What measures how long the contestant thinks; `None` if nobody asks. Nothing else depends on
+    /// it.
     pub stopwatch: Option<Stopwatch>,
 }
 
@@ -127,7 +128,8 @@ pub struct LearnRecord {
 pub enum Claim {
     /// It is right and whole: the system says that it is done.
     Right,
-    /// It is wrong or unfinished: the system gave up, or held its map for rather wrong than right when its time was up.
+    /// It is wrong or unfinished: the system gave up, or held its map for rather wrong than right
+    /// when its time was up.
     Wrong,
     /// The system does not say: its time was up, or being done says nothing of its map.
     Undecided,
@@ -145,8 +147,8 @@ impl Claim {
 }
 
 impl LearnRecord {
-    /// Returns how likely the map is right by the system's own verdict, 0 … 1: as likely as it takes it to be where it claims that; a half where
-    /// it does not say.
+    /// Returns how likely the map is right by the system's own verdict, 0 … 1: as likely as it
+    /// takes it to be where it claims that; a half where it does not say.
     #[must_use]
     pub fn likelihood(&self) -> f64 {
         match self.claim {
@@ -156,14 +158,16 @@ impl LearnRecord {
         }
     }
 
-    /// Returns the bytes of its map for each place; `None` of a map without places, and where it does not say.
+    /// Returns the bytes of its map for each place; `None` of a map without places, and where it
+    /// does not say.
     #[must_use]
     pub fn bytes_per_place(&self) -> Option<f64> {
         let bytes = self.map_bytes.filter(|_| self.places > 0)?;
         Some(bytes as f64 / self.places as f64)
     }
 
-    /// Returns how long it thought for each time step, µs, the simulator aside; `None` where nobody measured it.
+    /// Returns how long it thought for each time step, µs, the simulator aside; `None` where nobody
+    /// measured it.
     #[must_use]
     pub fn us_per_step(&self) -> Option<f64> {
         let thinking = self.thinking.filter(|_| self.steps > 0)?;
@@ -190,11 +194,12 @@ pub enum LocateOutcome {
 pub struct Located {
     /// What it says.
     pub outcome: LocateOutcome,
-    /// How likely an observer that has the true drawing and mistakes nothing would be right about the cell after the same drive, 0 … 1: the
-    /// passive ceiling. `None` if it did not drive.
+    /// How likely an observer that has the true drawing and mistakes nothing would be right about
+    /// the cell after the same drive, 0 … 1: the passive ceiling. `None` if it did not drive.
     pub ceiling: Option<f64>,
-    /// Whether the same system is right that is put down there on the same robot with the true map: the active ceiling. That map is one that it
-    /// learned without errors. `None` if it learned a wrong one even so, and where its own map is wrong.
+    /// Whether the same system is right that is put down there on the same robot with the true map:
+    /// the active ceiling. That map is one that it learned without errors. `None` if it learned a
+    /// wrong one even so, and where its own map is wrong.
     pub with_true_map: Option<bool>,
 }
 
@@ -211,7 +216,8 @@ impl Located {
 /// How a robot went to the goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Home {
-    /// Metres driven over those of the shortest way; `None` if it did not arrive within [`Contest::LIMIT`] times that.
+    /// Metres driven over those of the shortest way; `None` if it did not arrive within
+    /// [`Contest::LIMIT`] times that.
     pub over_shortest: Option<f64>,
     /// Time steps in which it touched something.
     pub bumps: u32,
@@ -229,7 +235,8 @@ const DOOR: &str = "door";
 const KIDNAPPED_AT: f64 = 0.5;
 
 impl<'a> Contest<'a> {
-    /// A task ends when so many times the length of all corridors was driven, or of the shortest way to the goal.
+    /// A task ends when so many times the length of all corridors was driven, or of the shortest
+    /// way to the goal.
     pub const LIMIT: f64 = 10.0;
 
     /// Holds it. `watch` is shown the contestant at every [`Moment`]; nothing depends on it.
@@ -303,7 +310,8 @@ impl<'a> Contest<'a> {
         })
     }
 
-    /// Returns the contestant with the true map, to be put down: one that it learned on a robot that does not err. `None` if that map is wrong.
+    /// Returns the contestant with the true map, to be put down: one that it learned on a robot
+    /// that does not err. `None` if that map is wrong.
     fn informed(&self, schooling: &Schooling) -> Result<Option<Bout<'a>>, ContestError> {
         let sent = |contest: &Self| {
             let entered = contest.contestant.enter(contest, schooling);
@@ -327,8 +335,8 @@ impl<'a> Contest<'a> {
         Ok(Some(informed))
     }
 
-    /// Returns where the robot is put down, to find out where it is and to go to the goal: cells and ways out of them, by
-    /// chance, never at the goal.
+    /// Returns where the robot is put down, to find out where it is and to go to the goal: cells
+    /// and ways out of them, by chance, never at the goal.
     #[must_use]
     pub fn put_downs(&self) -> Vec<[(Cell, Direction); 2]> {
         let mut rng = stream(self.seed, START_STREAM);
@@ -482,8 +490,9 @@ impl<'a> Bout<'a> {
         last.map_or_else(Point::origin, |pose| pose.position)
     }
 
-    /// Lets it pursue a task until it is done, gives up, or has driven `most` metres. After as many metres as `kidnapping` says it is put
-    /// elsewhere, and not told. `see` is shown what it was before and after each action.
+    /// Lets it pursue a task until it is done, gives up, or has driven `most` metres. After as many
+    /// metres as `kidnapping` says it is put elsewhere, and not told. `see` is shown what it was
+    /// before and after each action.
     fn pursue(
         &mut self,
         task: Task,
@@ -705,11 +714,12 @@ impl<'a> Bout<'a> {
     }
 }
 
-/// A system that has not got on by a cell in so many actions is stuck, and turns on the spot for ever.
+/// A system that has not got on by a cell in so many actions is stuck, and turns on the spot for
+/// ever.
 const IDLE: u32 = 500;
 
-/// A task takes so many time steps at most for each cell, however little is driven in them: an e-puck, the slowest, makes some 1200 in a cell,
-/// and may drive ten times through all.
+/// A task takes so many time steps at most for each cell, however little is driven in them: an
+/// e-puck, the slowest, makes some 1200 in a cell, and may drive ten times through all.
 const STEPS_A_CELL: u32 = 20_000;
 
 /// A robot is at a place when it is nearer to it than this, in cells.

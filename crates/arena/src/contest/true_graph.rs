@@ -8,13 +8,15 @@ use tolman_robot::Landmark;
 pub enum PlaceRule {
     /// Junctions, dead ends, the start and the goals; a bend is a part of a way.
     Landmarks,
-    /// Junctions, dead ends and bends: all but where a corridor leads straight on, also where a landmark stands there.
+    /// Junctions, dead ends and bends: all but where a corridor leads straight on, also where a
+    /// landmark stands there.
     Corners,
 }
 
 /// The places of a drawing and the ways between them, as they truly are.
 ///
-/// A place is a cell that is reached and that the [`PlaceRule`] names; every cell of an open square is a junction or a bend.
+/// A place is a cell that is reached and that the [`PlaceRule`] names; every cell of an open square
+/// is a junction or a bend.
 #[derive(Clone, Debug)]
 pub struct TrueGraph {
     places: BTreeSet<Cell>,
@@ -91,8 +93,8 @@ impl TrueGraph {
         landmarks.find(|(at, _)| *at == cell).map(|(_, mark)| *mark)
     }
 
-    /// Returns the numbers of the ways that a robot has gone from end to end which was in these cells one after the other.
-    /// O(cells · ways).
+    /// Returns the numbers of the ways that a robot has gone from end to end which was in these
+    /// cells one after the other. O(cells · ways).
     #[must_use]
     pub fn gone(&self, cells: impl IntoIterator<Item = Cell>) -> BTreeSet<usize> {
         let mut gone = BTreeSet::new();

@@ -12,7 +12,8 @@ use crate::episode::{self, Episode, Trial};
 use crate::mind::Mind;
 use crate::pioneer::calibrated;
 
-/// Time steps of a run at most for each metre that may be driven: whoever turns on the spot drives nowhere.
+/// Time steps of a run at most for each metre that may be driven: whoever turns on the spot drives
+/// nowhere.
 const STEPS_A_METRE: f64 = 20.0;
 
 /// It knows where it is when so much of its belief lies about one cell.
@@ -81,7 +82,8 @@ impl<'a> Sender<'a> {
         })
     }
 
-    /// Lets the one that has the true map, and no idea where it is, find that out on its way to the goal; the others do not say.
+    /// Lets the one that has the true map, and no idea where it is, find that out on its way to the
+    /// goal; the others do not say.
     ///
     /// It is as sure as the systems have to be: when it has most of its belief about one cell.
     pub(super) fn found(&self) -> Result<Vec<Located>, BoxError> {

@@ -53,8 +53,8 @@ fn nearest(map: &MapView, point: Point) -> Option<u32> {
     nearest.map(|(id, _)| id)
 }
 
-/// How far the frame of a map lies from that of the world, m, by the places that were visited; `None` if none of them knows
-/// where it lies. The axes are taken to be the same.
+/// How far the frame of a map lies from that of the world, m, by the places that were visited;
+/// `None` if none of them knows where it lies. The axes are taken to be the same.
 pub(super) fn offset<'a>(
     places: impl Iterator<Item = (&'a MapPlace, Cell)>,
     squares: Squares,

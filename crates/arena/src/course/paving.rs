@@ -7,8 +7,8 @@ use tolman_sim::{Area, Material, WallSegment, World, Zone};
 
 use super::CourseError;
 
-/// Where the squares lie of which a free world is paved: as cells of a maze whose walls stand where the body cannot pass
-/// from the middle of one to that of the next.
+/// Where the squares lie of which a free world is paved: as cells of a maze whose walls stand where
+/// the body cannot pass from the middle of one to that of the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Paving {
     /// The south-west corner of cell (0, 0), m.
@@ -20,7 +20,8 @@ pub(super) struct Paving {
     radius: f64,
 }
 
-/// Of a radius: so a passage that is wider than the body by half a radius has squares in it, wherever it stands.
+/// Of a radius: so a passage that is wider than the body by half a radius has squares in it,
+/// wherever it stands.
 const PITCH: f64 = 0.5;
 
 /// More would take a gigabyte and a minute.
@@ -57,8 +58,8 @@ impl Paving {
         })
     }
 
-    /// Returns the squares as a maze, with those of the destination as its goals. Doors do not count. O(squares), and
-    /// O(squares near it) for each wall.
+    /// Returns the squares as a maze, with those of the destination as its goals. Doors do not
+    /// count. O(squares), and O(squares near it) for each wall.
     pub(super) fn maze(&self, world: &World) -> Maze {
         let mut maze = Maze::open(self.grid);
         for cell in self.grid.cells() {
@@ -92,8 +93,8 @@ impl Paving {
         }
     }
 
-    /// Whether an end of a wall stops the body between two middles that are clear of it. The wall itself does not pass
-    /// between them, since they lie closer together than the body is wide.
+    /// Whether an end of a wall stops the body between two middles that are clear of it. The wall
+    /// itself does not pass between them, since they lie closer together than the body is wide.
     fn stops(&self, wall: &WallSegment, start: Point, end: Point) -> bool {
         let way = WallSegment {
             start,
@@ -145,14 +146,16 @@ impl Paving {
         Some(Cell::new(x, along(offset.y, self.grid.height())?))
     }
 
-    /// The square in which `point` lies, and those around it: a body that stands there touches no wall between them.
+    /// The square in which `point` lies, and those around it: a body that stands there touches no
+    /// wall between them.
     pub(super) fn around(&self, point: Point) -> impl Iterator<Item = Cell> + '_ {
         let steps =
             (-1..=1).flat_map(|x| (-1..=1).map(move |y| Vector::new(f64::from(x), f64::from(y))));
         steps.filter_map(move |step| self.cell_at(point + self.pitch * step))
     }
 
-    /// How much of a corridor's length a square stands for, m: the body's centre has but the width that the body leaves.
+    /// How much of a corridor's length a square stands for, m: the body's centre has but the width
+    /// that the body leaves.
     pub(super) fn metres_per_cell(&self, corridor_width: f64) -> f64 {
         let left = (corridor_width - 2.0 * self.radius).max(self.pitch);
         self.pitch * self.pitch / left
@@ -167,7 +170,8 @@ impl Paving {
         Some(Pose::new(position, tolman_control::heading_of(direction)))
     }
 
-    /// The middle between what bounds the body to the left and to the right of a square as it looks along `direction`.
+    /// The middle between what bounds the body to the left and to the right of a square as it looks
+    /// along `direction`.
     pub(super) fn amid(&self, maze: &Maze, cell: Cell, direction: Direction) -> Point {
         let to = |side| f64::from(run(maze, cell, side));
         let (left, right) = (direction.left(), direction.right());

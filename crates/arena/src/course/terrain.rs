@@ -19,7 +19,8 @@ pub enum Terrain {
 pub struct FreeWorld {
     /// Its walls and doors, with the zones `destination` and, maybe, `start`.
     pub world: World,
-    /// How wide control layers and detectors take its corridors to be, m; `None` for what the robot's mazes have.
+    /// How wide control layers and detectors take its corridors to be, m; `None` for what the
+    /// robot's mazes have.
     pub corridor_width: Option<f64>,
 }
 
@@ -35,8 +36,9 @@ impl Terrain {
         }
     }
 
-    /// Returns it as a course to its destination for a robot of this `body`, in corridors as wide as it says, or else
-    /// MSLST's 1.9 robot units. See [`Course::for_body`] and [`Course::in_free_world`].
+    /// Returns it as a course to its destination for a robot of this `body`, in corridors as wide
+    /// as it says, or else MSLST's 1.9 robot units. See [`Course::for_body`] and
+    /// [`Course::in_free_world`].
     ///
     /// # Errors
     /// As those.

@@ -1,5 +1,5 @@
-//! What becomes of the robot where a world or its own sensors are not what it was made for: an error that says what is wrong, or an end
-//! without the goal that says so, and always an end.
+//! What becomes of the robot where a world or its own sensors are not what it was made for: an
+//! error that says what is wrong, or an end without the goal that says so, and always an end.
 
 use alloc::sync::Arc;
 use core::f64::consts::{PI, TAU};
@@ -127,13 +127,14 @@ fn one_sensor_that_fails_ends_in_an_error_or_as_it_is_said() {
             "{error}"
         );
     }
-    // Most of them can be done without; with none can the robot drive through a wall that it always sees.
+    // Most of them can be done without; with none can the robot drive through a wall that it always
+    // sees.
     assert!(blind_reached >= 5, "{blind_reached} reached");
     assert!(stuck_told >= 3, "{stuck_told} told");
 }
 
-/// A world of so many corridors that meet in its middle, each 0.8 m long; the robot is put into the end of the first, the goal is
-/// at the end of the one across.
+/// A world of so many corridors that meet in its middle, each 0.8 m long; the robot is put into the
+/// end of the first, the goal is at the end of the one across.
 fn star(branches: u32, width: f64) -> (World, Pose) {
     let (length, half) = (0.8, width / 2.0);
     let spacing = TAU / f64::from(branches);
@@ -167,8 +168,9 @@ fn star(branches: u32, width: f64) -> (World, Pose) {
     (world, Pose::new(end(0), Heading::from_radians(PI)))
 }
 
-/// The robot comes to a junction of more branches than a feature has room for ("the vector's size might be more than ten if the junction size
-/// is larger than five ways"). In corridors of its width the middle is a room whose walls it does not see.
+/// The robot comes to a junction of more branches than a feature has room for ("the vector's size
+/// might be more than ten if the junction size is larger than five ways"). In corridors of its
+/// width the middle is a room whose walls it does not see.
 #[test]
 fn junctions_of_many_branches_end_in_an_error_or_as_it_is_said() {
     for (branches, width) in [(5, 0.25), (8, 0.15), (10, 0.12), (10, 0.25)] {

@@ -4,8 +4,9 @@ use super::fragments::{Quarters, TrueFragments, along, bends, headings};
 
 /// How many fragments of a maze look like others, by how they bend.
 ///
-/// Along a corridor of one width there is nothing to observe but its bends: two fragments that bend alike, cell by cell, are not *distinctive*,
-/// and one that bends the same from both ends is not *asymmetrical* (section 4.3).
+/// Along a corridor of one width there is nothing to observe but its bends: two fragments that bend
+/// alike, cell by cell, are not *distinctive*, and one that bends the same from both ends is not
+/// *asymmetrical* (section 4.3).
 ///
 /// ```
 /// use tolman_arena::cpm::BendLikeness;
@@ -34,8 +35,8 @@ pub struct BendLikeness {
 }
 
 impl BendLikeness {
-    /// Counts the fragments that can be reached and have a cell between the places at their ends; of others nothing is observed.
-    /// O(fragments² · cells).
+    /// Counts the fragments that can be reached and have a cell between the places at their ends;
+    /// of others nothing is observed. O(fragments² · cells).
     #[must_use]
     pub fn of(maze: &Maze) -> Self {
         let fragments = TrueFragments::of(maze);

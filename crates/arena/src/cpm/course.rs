@@ -8,8 +8,8 @@ use crate::course::{Course, CourseError, Terrain};
 /// From wall to wall where nothing else is said, m.
 pub const CORRIDOR_WIDTH: f64 = 0.25;
 
-/// The narrowest and the widest corridors, m, in which Mazes 1 to 3 are learned rightly: in others the robot takes bends for junctions and
-/// overlooks others.
+/// The narrowest and the widest corridors, m, in which Mazes 1 to 3 are learned rightly: in others
+/// the robot takes bends for junctions and overlooks others.
 const WIDTHS: (f64, f64) = (0.20, 0.30);
 
 /// Returns a maze file as a course from its start for the e-puck; `name` is for one that has none.
@@ -23,7 +23,8 @@ pub fn epuck_course(name: &str, file: MazeFile) -> Result<Course, CourseError> {
     Ok(course)
 }
 
-/// Returns a maze or a free world as a course from its start for the e-puck; `name` is for one that has none.
+/// Returns a maze or a free world as a course from its start for the e-puck; `name` is for one that
+/// has none.
 ///
 /// # Errors
 /// As [`epuck_course`], and as [`Course::in_free_world`].

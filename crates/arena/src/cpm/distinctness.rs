@@ -7,12 +7,14 @@ use super::survey::survey;
 use super::trial::CpmTrialError;
 use crate::course::Course;
 
-/// Whether the fragments of a maze can be told apart by what the robot observes along them: the constraints of section 4.3, "every path-fragment
-/// in the environment is *distinctive*" and *asymmetrical*, measured by f_S.
+/// Whether the fragments of a maze can be told apart by what the robot observes along them: the
+/// constraints of section 4.3, "every path-fragment in the environment is *distinctive*" and
+/// *asymmetrical*, measured by f_S.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distinctness {
-    /// The two walks that are most alike of those that must not be: along different fragments, in both directions, and along one
-    /// fragment from both its ends, as if it were symmetrical. None where there is but one walk.
+    /// The two walks that are most alike of those that must not be: along different fragments, in
+    /// both directions, and along one fragment from both its ends, as if it were symmetrical. None
+    /// where there is but one walk.
     pub most_alike: Option<WalkPair>,
     /// The two walks along one fragment that are least alike.
     pub least_alike: Option<WalkPair>,
@@ -39,13 +41,14 @@ struct Walked {
     patterns: Vec<PatternId>,
 }
 
-/// Lets the paper's robot walk every fragment both ways once with each seed, and compares all walks with all, both ways, as online
-/// CPM does.
+/// Lets the paper's robot walk every fragment both ways once with each seed, and compares all walks
+/// with all, both ways, as online CPM does.
 ///
 /// O(walks² · length) comparisons of patterns.
 ///
 /// # Errors
-/// [`CpmTrialError`] if the robot cannot walk a fragment, comes to another place than its end, or sees nothing on the way.
+/// [`CpmTrialError`] if the robot cannot walk a fragment, comes to another place than its end, or
+/// sees nothing on the way.
 pub fn distinctness(
     course: &Course,
     patterns: &CommonPatterns,

@@ -16,13 +16,15 @@ use super::world::shortest_covering_walk;
 pub struct Exploration {
     /// Why it ended; none if it broke off.
     pub done: Option<Done>,
-    /// Whether each place and fragment of the maze is on the map once, and all are joined as they truly are.
+    /// Whether each place and fragment of the maze is on the map once, and all are joined as they
+    /// truly are.
     pub is_map_right: bool,
     /// Fragments walked, each as often as it was, until the robot knew that it had walked all.
     pub traversals: u32,
     /// Fragments of the maze that can be reached.
     pub fragments: u32,
-    /// Fragments of the shortest walk from the start through all of them, for who knows the maze; none where that takes too long to find.
+    /// Fragments of the shortest walk from the start through all of them, for who knows the maze;
+    /// none where that takes too long to find.
     pub best: Option<u32>,
     /// When the last fragment was walked, s; none if one was not.
     pub seconds: Option<f64>,
@@ -35,7 +37,8 @@ pub struct Exploration {
 }
 
 impl CpmTrial<'_> {
-    /// Explores the maze from the start until nothing is left to be walked. What goes wrong on the way is a result.
+    /// Explores the maze from the start until nothing is left to be walked. What goes wrong on the
+    /// way is a result.
     ///
     /// # Errors
     /// [`CpmTrialError`] if it cannot be begun.

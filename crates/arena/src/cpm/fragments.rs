@@ -38,7 +38,8 @@ fn ends_fragments(maze: &Maze, cell: Cell) -> bool {
     maze.degree(cell) != 2 || landmark_at(maze, cell).is_some()
 }
 
-/// The cells of a way that leads `out` of a place to `next` and on to the next place, and the direction in which one comes there.
+/// The cells of a way that leads `out` of a place to `next` and on to the next place, and the
+/// direction in which one comes there.
 fn follow(
     maze: &Maze,
     out: Direction,
@@ -57,8 +58,8 @@ fn follow(
     (cells, came)
 }
 
-/// The cells of the fragment that leads `out` of a place, that one first, and the direction in which one comes to its end; none if a wall
-/// stands there.
+/// The cells of the fragment that leads `out` of a place, that one first, and the direction in
+/// which one comes to its end; none if a wall stands there.
 pub(super) fn along(maze: &Maze, from: Cell, out: Direction) -> Option<(Vec<Cell>, Direction)> {
     let (_, next) = maze.neighbours(from).find(|(way, _)| *way == out)?;
     let (mut cells, came) = follow(maze, out, next, |cell| ends_fragments(maze, cell));
@@ -153,8 +154,9 @@ impl TrueFragments {
         self.ways.values().find(is_back).copied()
     }
 
-    /// The ways that a drive over these cells was along, one after another; none where it left a place by no way. A drive that turns back amid a
-    /// fragment was along it. One that looks into the next cell and comes back was not.
+    /// The ways that a drive over these cells was along, one after another; none where it left a
+    /// place by no way. A drive that turns back amid a fragment was along it. One that looks into
+    /// the next cell and comes back was not.
     pub(super) fn driven(&self, cells: impl IntoIterator<Item = Cell>) -> Option<Vec<WayOut>> {
         let mut cells = cells.into_iter();
         let (Some(mut at), mut driven) = (cells.next(), Vec::new()) else {
@@ -189,7 +191,8 @@ impl TrueFragments {
         Some(driven)
     }
 
-    /// The graph of the maze's cells in which an arc stands for each way, from place to place, that has a length.
+    /// The graph of the maze's cells in which an arc stands for each way, from place to place, that
+    /// has a length.
     pub(super) fn graph(&self, maze: &Maze, length: impl Fn(WayOut) -> Option<u32>) -> Arcs {
         let node = |cell: Cell| maze.grid().index(cell) as u32;
         let arc = |(from, _, way): (Cell, Direction, WayOut)| {
@@ -199,7 +202,8 @@ impl TrueFragments {
         Arcs::new(maze.grid().cell_count(), &arcs)
     }
 
-    /// The length of the shortest way from start to goal over the ways that have a length; none if none leads there.
+    /// The length of the shortest way from start to goal over the ways that have a length; none if
+    /// none leads there.
     pub fn shortest(&self, maze: &Maze, length: impl Fn(WayOut) -> Option<u32>) -> Option<u32> {
         let (start, _) = maze.start()?;
         let start = maze.grid().index(start) as u32;
@@ -240,7 +244,8 @@ o---o   o---o   o---o
 o---o---o---o---o---o
 ";
 
-    /// One crossing: the start to its west, the goal to its east, and a loop from its north to its south.
+    /// One crossing: the start to its west, the goal to its east, and a loop from its north to its
+    /// south.
     pub(crate) const LOOP: &str = "\
 start = 0 1 east
 

@@ -5,14 +5,17 @@ use tolman_planners::{Arcs, costs_from};
 
 use super::fragments::{WayOut, landmark_at};
 
-/// What a perfect reasoner of the paper's kind would know of where a robot has walked: the yardstick of a trial.
+/// What a perfect reasoner of the paper's kind would know of where a robot has walked: the
+/// yardstick of a trial.
 ///
-/// Nothing that the paper's robot perceives tells one junction from another. Two visits are known to be of one place only because a fragment
-/// was walked twice, either way, which makes both its ends one ("junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", section 4.3), or
-/// because start or goal were seen there. A junction that was met by different fragments alone stays several. Fragments are
-/// told by ground truth, so that this map depends on no mapper.
+/// Nothing that the paper's robot perceives tells one junction from another. Two visits are known
+/// to be of one place only because a fragment was walked twice, either way, which makes both its
+/// ends one ("junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", section 4.3), or because start or
+/// goal were seen there. A junction that was met by different fragments alone stays several.
+/// Fragments are told by ground truth, so that this map depends on no mapper.
 ///
-/// What follows is closed: where visits of one place were left by one port, that is one fragment walked twice.
+/// What follows is closed: where visits of one place were left by one port, that is one fragment
+/// walked twice.
 #[derive(Clone, Debug)]
 pub(super) struct KnownMap<'a> {
     maze: &'a Maze,
@@ -53,7 +56,8 @@ impl<'a> KnownMap<'a> {
         known
     }
 
-    /// The robot has walked a true fragment, none if it was lost, and come to a cell. `length` is that of the walk, in any unit.
+    /// The robot has walked a true fragment, none if it was lost, and come to a cell. `length` is
+    /// that of the walk, in any unit.
     pub(super) fn walk(&mut self, way: Option<WayOut>, to: Cell, length: u32) {
         let from = self.visits.len().saturating_sub(1) as u32;
         let to = self.visit(to);
@@ -131,7 +135,8 @@ mod tests {
     use tolman_control::heading_of;
     use tolman_maze::Direction;
 
-    /// The shortest known way after walks by the directions in which each place is left, all cells as long as one.
+    /// The shortest known way after walks by the directions in which each place is left, all cells
+    /// as long as one.
     fn shortest(text: &str, directions: &[Direction]) -> Option<u32> {
         let maze = tolman_maze::read(text).unwrap().maze;
         let fragments = TrueFragments::of(&maze);
@@ -147,7 +152,8 @@ mod tests {
 
     #[test]
     fn a_junction_is_known_to_be_one_by_a_fragment_that_was_walked_twice() {
-        // Over the top, back through the middle, over the bottom: as it lies, the middle is the shortest way, but no fragment was walked twice.
+        // Over the top, back through the middle, over the bottom: as it lies, the middle is the
+        // shortest way, but no fragment was walked twice.
         let by_different_ones = [East, North, West, South, East];
         assert_eq!(shortest(THREE_WAYS, &by_different_ones), Some(12));
         // Over the top again: both crossings are those of before.

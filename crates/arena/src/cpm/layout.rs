@@ -6,8 +6,8 @@ use tolman_robot::Landmark;
 
 use super::fragments::{DIRECTIONS, along};
 
-/// Where the parts of a map lie in the maze, for pictures; the map itself knows no coordinates. Both are walked together from the start, port
-/// by port, as far as they agree.
+/// Where the parts of a map lie in the maze, for pictures; the map itself knows no coordinates.
+/// Both are walked together from the start, port by port, as far as they agree.
 ///
 /// ```
 /// use tolman_arena::cpm::{epuck, epuck_course, learn, CpmTrial, Layout};
@@ -64,8 +64,8 @@ pub enum Fit {
 }
 
 impl Layout {
-    /// Lays a map over the maze it was learned in. Nothing is laid of a map without a start, or where the maze has none.
-    /// O(fragments · cells).
+    /// Lays a map over the maze it was learned in. Nothing is laid of a map without a start, or
+    /// where the maze has none. O(fragments · cells).
     #[must_use]
     pub fn of(map: &CpMap, maze: &Maze) -> Self {
         let mut layout = Self::default();
@@ -109,8 +109,8 @@ impl Layout {
         layout
     }
 
-    /// Lays a fragment that leads from one of its ends out of a cell. Gives the place at its other end, its cell and the direction of its port 0,
-    /// if that is new.
+    /// Lays a fragment that leads from one of its ends out of a cell. Gives the place at its other
+    /// end, its cell and the direction of its port 0, if that is new.
     fn lay(
         &mut self,
         map: &CpMap,

@@ -6,10 +6,11 @@ use tolman_maze::{Cell, Maze};
 use super::fragments::{TrueFragments, landmark_at};
 use super::layout::{Fit, Layout};
 
-/// Whether a map is that of a maze, as far as the robot has been. Laid over the maze from the start on, port by port, each of its places has
-/// to be another true place, of as many ways and with the same landmark, and each of its fragments another true one that joins the same
-/// ports; and together they have to be the fragments that were walked. So nothing is on it twice, nothing was taken for another, and
-/// nothing hangs in the air.
+/// Whether a map is that of a maze, as far as the robot has been. Laid over the maze from the start
+/// on, port by port, each of its places has to be another true place, of as many ways and with the
+/// same landmark, and each of its fragments another true one that joins the same ports; and
+/// together they have to be the fragments that were walked. So nothing is on it twice, nothing was
+/// taken for another, and nothing hangs in the air.
 ///
 /// O(fragments · cells).
 pub(super) fn is_map_right(
@@ -33,8 +34,8 @@ pub(super) fn is_map_right(
     are_places && are_fragments && laid == *walked
 }
 
-/// Returns whether a map is that of the whole maze: each place and fragment that can be reached from the start is on it
-/// once, and all are joined as they truly are. O(fragments · cells).
+/// Returns whether a map is that of the whole maze: each place and fragment that can be reached
+/// from the start is on it once, and all are joined as they truly are. O(fragments · cells).
 #[must_use]
 pub fn is_whole_map_right(map: &CpMap, maze: &Maze) -> bool {
     let fragments = TrueFragments::of(maze);
@@ -64,7 +65,8 @@ mod tests {
         (Some(Landmark::Goal), 1),
     ];
 
-    /// The fragments by the ports of both ends; those of the crossings lead west, south, east and north.
+    /// The fragments by the ports of both ends; those of the crossings lead west, south, east and
+    /// north.
     const FRAGMENTS: [[(usize, usize); 2]; 5] = [
         [(0, 0), (1, 0)],
         [(1, 2), (2, 0)],
@@ -122,7 +124,8 @@ mod tests {
     #[test]
     fn the_map_of_what_was_walked_is_right() {
         assert!(is_right(&map(&PLACES, &FRAGMENTS), &[]));
-        // It does not matter from which end a fragment was walked, nor which port of a junction is the first.
+        // It does not matter from which end a fragment was walked, nor which port of a junction is
+        // the first.
         let mut turned = FRAGMENTS;
         turned[2].reverse();
         for fragment in &mut turned {

@@ -1,10 +1,10 @@
-//! CPM's e-puck in mazes: [`SimulatedEpuck`], the trials that are played with it, and what it should have
-//! learned there. The system is `tolman_systems::cpm`.
+//! CPM's e-puck in mazes: [`SimulatedEpuck`], the trials that are played with it, and what it
+//! should have learned there. The system is `tolman_systems::cpm`.
 //!
 //! A [`CpmTrial`] plays both episodes on a [course](epuck_course) and scores them by its
-//! [`TrueFragments`]. A [`Layout`] says where the parts of a map lie.
-//! An [`Exploration`] is a maze walked to its end. A [`PutDown`] is a trial of a robot that has to find out where
-//! it is. A [`RoundTrip`] is the way to the goal, back by untried fragments, and there again. [`world`] has
+//! [`TrueFragments`]. A [`Layout`] says where the parts of a map lie. An [`Exploration`] is a maze
+//! walked to its end. A [`PutDown`] is a trial of a robot that has to find out where it is. A
+//! [`RoundTrip`] is the way to the goal, back by untried fragments, and there again. [`world`] has
 //! mazes without a robot.
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
-//! CPM on the laser Pioneer: mazes learned by a robot nearly four times an e-puck's size, without its sensors.
+//! CPM on the laser Pioneer: mazes learned by a robot nearly four times an e-puck's size, without
+//! its sensors.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

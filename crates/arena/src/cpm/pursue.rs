@@ -9,7 +9,8 @@ use tolman_systems::cpm::{
 
 use crate::run::{self, InRun};
 
-/// Time steps after which a robot on CPM has failed, whatever it still hopes for: 36 hours of the paper's.
+/// Time steps after which a robot on CPM has failed, whatever it still hopes for: 36 hours of the
+/// paper's.
 const STEP_LIMIT: u32 = 10_000_000;
 
 impl<B: CpmRobot> InRun for Walker<B> {
@@ -22,7 +23,8 @@ impl<B: CpmRobot> InRun for Walker<B> {
     }
 }
 
-/// Lets a robot walk until the aim is reached: the first episode, or the way back. `see` is told of every fragment.
+/// Lets a robot walk until the aim is reached: the first episode, or the way back. `see` is told of
+/// every fragment.
 ///
 /// # Errors
 /// If the robot fails, or its map refuses what it met.
@@ -50,8 +52,8 @@ pub fn pursue<B: CpmRobot>(
     Ok(begun.ended(done, walker))
 }
 
-/// Lets a robot that was put down anywhere search until it knows where it is, or has come to as many places as it may. `see` is told of
-/// every place it comes to.
+/// Lets a robot that was put down anywhere search until it knows where it is, or has come to as
+/// many places as it may. `see` is told of every place it comes to.
 ///
 /// # Errors
 /// If the robot fails, or the search refuses what it met.

@@ -12,12 +12,15 @@ use super::spots::{Looks, Spot, knowable};
 use super::trial::{CpmTrialError, TrialRecord};
 use crate::course::Course;
 
-/// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to find out which and where.
+/// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to
+/// find out which and where.
 ///
-/// [`play`](Self::play) puts the robot into `here` by its seed, at the middle of a cell between the places at the ends of a fragment that the map has, looking along it.
+/// [`play`](Self::play) puts the robot into `here` by its seed, at the middle of a cell between the
+/// places at the ends of a fragment that the map has, looking along it.
 #[derive(Clone, Debug)]
 pub struct PutDown<'a> {
-    /// The mazes that the robot knows, all with one width of corridors and learned with the same patterns.
+    /// The mazes that the robot knows, all with one width of corridors and learned with the same
+    /// patterns.
     pub known: &'a [KnownMaze<'a>],
     /// Which of them it is put into.
     pub here: usize,
@@ -47,21 +50,23 @@ pub struct KnownMaze<'a> {
 pub struct PutDownRecord {
     /// What the robot believed.
     pub whereabouts: Whereabouts,
-    /// How likely an ideal observer would have known maze, fragment and direction before it entered the first place, by how the corridor bends:
-    /// 0 to 1.
+    /// How likely an ideal observer would have known maze, fragment and direction before it entered
+    /// the first place, by how the corridor bends: 0 to 1.
     pub knowable_by_bends: f64,
-    /// The same if it also saw what the place ahead is, and the ways to the sides of the place behind where it stands beside that; no robot
-    /// knows more on average.
+    /// The same if it also saw what the place ahead is, and the ways to the sides of the place
+    /// behind where it stands beside that; no robot knows more on average.
     pub knowable_by_places: f64,
     /// Whether the robot knew them then; who has observed nothing did not.
     pub is_right_under_way: bool,
     /// The same at that place.
     pub is_right_at_first_place: bool,
-    /// The same within one further fragment (section 8): at that place if it was sure there, else before it came to the next.
+    /// The same within one further fragment (section 8): at that place if it was sure there, else
+    /// before it came to the next.
     pub is_right_within_one_further: bool,
     /// The same at the last place, where it was sure or gave up.
     pub is_right_at_last: bool,
-    /// Whether SOINN-AM recalled the right maze of the first fragment walked whole; none if the robot knew before where it was.
+    /// Whether SOINN-AM recalled the right maze of the first fragment walked whole; none if the
+    /// robot knew before where it was.
     pub is_recalled: Option<bool>,
     /// How long it took, s.
     pub seconds: f64,

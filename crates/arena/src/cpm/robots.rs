@@ -20,7 +20,8 @@ pub fn epuck() -> EpuckConfig {
     }
 }
 
-/// The paper's e-puck as if its wheels could turn fast enough to sweep at "2π rad/s", in 1 s (section 4.1).
+/// The paper's e-puck as if its wheels could turn fast enough to sweep at "2π rad/s", in 1 s
+/// (section 4.1).
 #[must_use]
 pub fn idealized_epuck() -> EpuckConfig {
     EpuckConfig {
@@ -30,7 +31,8 @@ pub fn idealized_epuck() -> EpuckConfig {
     }
 }
 
-/// The paper's e-puck at the speed of the real one, which swept at 3π/5 rad/s, in 3.3 s (section 7).
+/// The paper's e-puck at the speed of the real one, which swept at 3π/5 rad/s, in 3.3 s (section
+/// 7).
 #[must_use]
 pub fn slow_epuck() -> EpuckConfig {
     EpuckConfig {
@@ -39,8 +41,8 @@ pub fn slow_epuck() -> EpuckConfig {
     }
 }
 
-/// Returns how the paper's robot drives and observes in corridors of this width, m: a sample of a sweep a time step, so that the time
-/// step says how fast it sweeps.
+/// Returns how the paper's robot drives and observes in corridors of this width, m: a sample of a
+/// sweep a time step, so that the time step says how fast it sweeps.
 ///
 /// # Errors
 /// If the response curve cannot be turned round.

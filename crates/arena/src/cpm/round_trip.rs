@@ -11,11 +11,12 @@ use super::pursue::pursue;
 use super::robots::SimulatedEpuck;
 use super::trial::CpmTrialError;
 
-/// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11): "on the way back, the robot tries a new
-/// path-fragment" as long as it may be shorter than the known way.
+/// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11):
+/// "on the way back, the robot tries a new path-fragment" as long as it may be shorter than the
+/// known way.
 ///
-/// The paper's robot made 20 observations to the goal, 13 on the way back and 4 on its second way; those are the `observations` of the
-/// three episodes.
+/// The paper's robot made 20 observations to the goal, 13 on the way back and 4 on its second way;
+/// those are the `observations` of the three episodes.
 #[derive(Clone, Debug)]
 pub struct RoundTrip {
     /// From the start until the goal was found.
@@ -43,7 +44,8 @@ pub struct RoundTrip {
 }
 
 impl RoundTrip {
-    /// Plays the way to the goal, back and there again, from where the robot stands. `see` is told of every fragment of the first two.
+    /// Plays the way to the goal, back and there again, from where the robot stands. `see` is told
+    /// of every fragment of the first two.
     ///
     /// # Errors
     /// [`CpmTrialError`].

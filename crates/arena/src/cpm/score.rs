@@ -11,13 +11,16 @@ use super::known_map::KnownMap;
 use super::map_right::is_map_right;
 use super::robots::SimulatedEpuck;
 
-/// Loops closed in the first episode: arrivals by a way that was not on the map, at a fragment or place that was.
+/// Loops closed in the first episode: arrivals by a way that was not on the map, at a fragment or
+/// place that was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Closures {
-    /// A duplicate was told, and it was that fragment, or a loop, and it was that place; on arrival, or by what was met later.
+    /// A duplicate was told, and it was that fragment, or a loop, and it was that place; on
+    /// arrival, or by what was met later.
     pub right: u32,
-    /// Arrivals by which a duplicate or a loop was told that was another one or none: on arrival, or by a map that became the likeliest later. Each counts
-    /// once, however much of the map is wrong by it, and though it be mended later.
+    /// Arrivals by which a duplicate or a loop was told that was another one or none: on arrival,
+    /// or by a map that became the likeliest later. Each counts once, however much of the map is
+    /// wrong by it, and though it be mended later.
     pub wrong: u32,
     /// A fragment was walked again, and still is on the map at the end as another one.
     pub missed: u32,
@@ -44,8 +47,8 @@ pub(super) struct Score<'a> {
     pub(super) known: KnownMap<'a>,
 }
 
-/// What all maps have in common that became the likeliest since: how things stood at the start, or when nothing explained what was met and the mapper
-/// began anew.
+/// What all maps have in common that became the likeliest since: how things stood at the start, or
+/// when nothing explained what was met and the mapper began anew.
 struct Base {
     /// The port behind the robot.
     at: Port,
@@ -86,7 +89,8 @@ impl<'a> Score<'a> {
         self.begin_at(layer.explorer().mapper.at(), cell);
     }
 
-    /// Takes in a walk to the end of a fragment; a robot that looks for the goal never turns back amid one.
+    /// Takes in a walk to the end of a fragment; a robot that looks for the goal never turns back
+    /// amid one.
     pub(super) fn see(
         &mut self,
         layer: &Layer3,
@@ -172,9 +176,10 @@ impl<'a> Score<'a> {
         });
     }
 
-    /// Another map has its own names of fragments and places: what they are follows from the same walks on it. An arrival has closed a loop wrongly that
-    /// is the first to show a fragment of the map to be two true ones, or a place; but for those of a robot that was taken to be elsewhere before, as they
-    /// follow from that.
+    /// Another map has its own names of fragments and places: what they are follows from the same
+    /// walks on it. An arrival has closed a loop wrongly that is the first to show a fragment of
+    /// the map to be two true ones, or a place; but for those of a robot that was taken to be
+    /// elsewhere before, as they follow from that.
     fn retrace(&mut self, map: &CpMap) {
         let Some(base) = &self.base else {
             return;
@@ -216,8 +221,9 @@ impl<'a> Score<'a> {
         }
     }
 
-    /// Loops count as closed too that were closed after the arrival, by another fragment or another map, and as missed those that are open on
-    /// the map at the end, where a fragment is on it more than once.
+    /// Loops count as closed too that were closed after the arrival, by another fragment or another
+    /// map, and as missed those that are open on the map at the end, where a fragment is on it more
+    /// than once.
     pub(super) fn closures_at_the_end(&self, map: &CpMap) -> Closures {
         let known = map.fragments().filter_map(|(id, _)| self.truth.get(&id));
         let mut fragments: Vec<u32> = known.map(|way| way.fragment).collect();
@@ -238,13 +244,15 @@ impl<'a> Score<'a> {
         is_map_right(map, maze, &self.fragments, &walked)
     }
 
-    /// The length of the shortest way from start to goal over the fragments that were walked, by observations.
+    /// The length of the shortest way from start to goal over the fragments that were walked, by
+    /// observations.
     pub(super) fn shortest_as_it_lies(&self, maze: &Maze) -> Option<u32> {
         let length = |way: WayOut| self.lengths.get(&way.fragment).copied();
         self.fragments.shortest(maze, length)
     }
 
-    /// The length of a drive, in observations of the fragments it was along; none if one of them was not walked before.
+    /// The length of a drive, in observations of the fragments it was along; none if one of them
+    /// was not walked before.
     pub(super) fn length_of(&self, world: &World, path: &[Pose]) -> Option<u32> {
         let cells = path.iter().filter_map(|pose| world.cell_at(pose.position));
         let driven = self.fragments.driven(cells)?;
@@ -304,7 +312,8 @@ mod tests {
         }
         assert!(score.wrong.is_empty());
 
-        // Had the robot truly gone to the third corridor, the map would have taken two for one, and their ends.
+        // Had the robot truly gone to the third corridor, the map would have taken two for one, and
+        // their ends.
         let third = score.fragments.way(fork, Heading::from_degrees(90.0));
         let home = (score.walked[3].way, score.walked[3].here);
         (score.walked[3].way, score.walked[3].here) = (third, third.map(|way| way.to));

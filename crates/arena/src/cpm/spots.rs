@@ -10,7 +10,8 @@ use super::fragments::{
 use crate::course::Course;
 use tolman_systems::cpm::Approach;
 
-/// Where a robot may be put down: in the middle of a cell between the places at the ends of a fragment, looking along it.
+/// Where a robot may be put down: in the middle of a cell between the places at the ends of a
+/// fragment, looking along it.
 #[derive(Clone, Debug)]
 pub(super) struct Spot {
     cell: Cell,
@@ -136,11 +137,13 @@ impl Spot {
     }
 }
 
-/// How likely the best guess of an ideal observer is right about maze, fragment and direction, for a robot at a spot of the maze `here`: 0 to 1.
+/// How likely the best guess of an ideal observer is right about maze, fragment and direction, for
+/// a robot at a spot of the maze `here`: 0 to 1.
 ///
-/// It knows the mazes as they are, and how robots are put down: into each maze as often, and at each of its spots. It mistakes nothing of what
-/// it looks at, from the cell behind on. Of that cell and of the places the robot sees a part, so that on average no robot knows more than
-/// one that looks at both.
+/// It knows the mazes as they are, and how robots are put down: into each maze as often, and at
+/// each of its spots. It mistakes nothing of what it looks at, from the cell behind on. Of that
+/// cell and of the places the robot sees a part, so that on average no robot knows more than one
+/// that looks at both.
 pub(super) fn knowable(
     mazes: &[Vec<Spot>],
     here: usize,

@@ -22,8 +22,8 @@ use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::score::{Closures, Score};
 use crate::course::{Course, CourseError};
 
-/// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
-/// shortest known way.
+/// Both episodes of the paper in one maze: the first from the start until the goal is found, the
+/// second from the start again, along the shortest known way.
 #[derive(Clone, Debug)]
 pub struct CpmTrial<'a> {
     /// The maze, with a start and a goal.
@@ -45,13 +45,15 @@ pub struct TrialRecord {
     pub first: Option<EpisodeSummary>,
     /// The second.
     pub second: Option<EpisodeSummary>,
-    /// Whether the second episode's way was as short as any that could be known: the junctions at the ends of a fragment that was walked twice are
-    /// known to be the same, and start and goal are; others are not.
+    /// Whether the second episode's way was as short as any that could be known: the junctions at
+    /// the ends of a fragment that was walked twice are known to be the same, and start and goal
+    /// are; others are not.
     pub is_shortest_known: bool,
-    /// Whether it was as short as any over the fragments that were walked as they truly lie, which nothing need tell the robot.
+    /// Whether it was as short as any over the fragments that were walked as they truly lie, which
+    /// nothing need tell the robot.
     pub is_shortest_as_it_lies: bool,
-    /// Whether the map by which the second episode is planned is right: each place and fragment where the robot has been is on it once, and all are
-    /// joined as they truly are.
+    /// Whether the map by which the second episode is planned is right: each place and fragment
+    /// where the robot has been is on it once, and all are joined as they truly are.
     pub is_map_right: bool,
     /// How well loops were closed.
     pub closures: Closures,
@@ -98,7 +100,8 @@ impl TrialRecord {
     }
 }
 
-/// Learns the common patterns in a maze as the paper's simulated robot does, from 1000 observations (section 5).
+/// Learns the common patterns in a maze as the paper's simulated robot does, from 1000 observations
+/// (section 5).
 ///
 /// # Errors
 /// [`CpmTrialError`].
@@ -146,7 +149,8 @@ impl CpmTrial<'_> {
         Ok(Walker::new(body, config))
     }
 
-    /// The robot looks where it is and begins its map there, as its mode has it but for the configuration.
+    /// The robot looks where it is and begins its map there, as its mode has it but for the
+    /// configuration.
     pub(super) fn begin(
         &self,
         walker: &mut Walker<SimulatedEpuck>,
@@ -237,7 +241,8 @@ impl CpmTrial<'_> {
     }
 }
 
-/// Whether a drive was as short as the shortest way, by observations, give or take what walks vary by: 5 % and 8 observations.
+/// Whether a drive was as short as the shortest way, by observations, give or take what walks vary
+/// by: 5 % and 8 observations.
 fn is_as_short(driven: u32, shortest: Option<u32>) -> bool {
     shortest.is_some_and(|shortest| f64::from(driven) <= 1.05 * f64::from(shortest) + 8.0)
 }
@@ -449,7 +454,8 @@ pub(super) mod tests {
         let silent = faulty(Fault::DropOut { probability: 1.0 });
         let trouble = play(&maze, silent).trouble.unwrap();
         assert!(trouble.contains("check the proximity sensors"), "{trouble}");
-        // A sensor that always says the same shows no way on, or one everywhere: an end without the goal, whichever.
+        // A sensor that always says the same shows no way on, or one everywhere: an end without the
+        // goal, whichever.
         let stuck = faulty(Fault::Stuck {
             probability: 1.0,
             steps: u32::MAX,

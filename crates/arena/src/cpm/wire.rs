@@ -1,4 +1,5 @@
-//! The agent on the serial driver: a firmware that speaks the real robot's protocol and drives the simulated one.
+//! The agent on the serial driver: a firmware that speaks the real robot's protocol and drives the
+//! simulated one.
 
 use alloc::collections::VecDeque;
 use alloc::rc::Rc;
@@ -25,7 +26,8 @@ use super::trial::tests::{PATTERNS, maze_1};
 
 const WIDTH: f64 = 0.25;
 
-/// What runs on the robot: it reads lines, answers, and turns the wheels by whole steps of the motors.
+/// What runs on the robot: it reads lines, answers, and turns the wheels by whole steps of the
+/// motors.
 struct Firmware {
     body: SimulatedEpuck,
     /// Steps a second.

@@ -1,9 +1,11 @@
-//! Mazes of corridors and junctions without a robot: what layer 3 is shown of a maze, true or noisy, in microseconds.
+//! Mazes of corridors and junctions without a robot: what layer 3 is shown of a maze, true or
+//! noisy, in microseconds.
 //!
-//! A [`PlaneMaze`] is a plane graph: places with a position, whose ports are in the order of the corridors' bearings, and corridors
-//! that look from each end as a sequence of common patterns. A [`PlaneWalker`] walks it and tells what an e-puck's lower layers
-//! would, with [`WalkerNoise`]. The world can tell whether a map is [right](PlaneMaze::check), and what the [shortest
-//! walk](PlaneMaze::shortest_covering_walk) through all corridors would have been.
+//! A [`PlaneMaze`] is a plane graph: places with a position, whose ports are in the order of the
+//! corridors' bearings, and corridors that look from each end as a sequence of common patterns. A
+//! [`PlaneWalker`] walks it and tells what an e-puck's lower layers would, with [`WalkerNoise`].
+//! The world can tell whether a map is [right](PlaneMaze::check), and what the
+//! [shortest walk](PlaneMaze::shortest_covering_walk) through all corridors would have been.
 
 mod check;
 mod generate;
@@ -192,11 +194,12 @@ impl WorldBuilder {
         self.places.len() as u32 - 1
     }
 
-    /// Adds a corridor from a place to another, or back to the same, over some points between, that is observed as these
-    /// patterns; and returns its number.
+    /// Adds a corridor from a place to another, or back to the same, over some points between, that
+    /// is observed as these patterns; and returns its number.
     ///
     /// # Errors
-    /// [`PlaneMazeError`] if a place is not there, a point not finite, or a pattern not in the dictionary.
+    /// [`PlaneMazeError`] if a place is not there, a point not finite, or a pattern not in the
+    /// dictionary.
     pub fn corridor(
         &mut self,
         minus: u32,
@@ -237,7 +240,8 @@ impl WorldBuilder {
         Ok(number)
     }
 
-    /// The world, with ports in the order of their bearings, and a robot that will start at a place with port 0 behind it.
+    /// The world, with ports in the order of their bearings, and a robot that will start at a place
+    /// with port 0 behind it.
     ///
     /// # Errors
     /// [`PlaneMazeError`] if no corridor leads to a place, or the start is none.

@@ -1,5 +1,6 @@
-//! CPM's e-puck as the robot of a diktiometry: its layers 0 and 1 drive from one junction or dead end to the next, which are the places;
-//! encoders with headings trued up by the walls are its odometry, a sweep is what a place looks like.
+//! CPM's e-puck as the robot of a diktiometry: its layers 0 and 1 drive from one junction or dead
+//! end to the next, which are the places; encoders with headings trued up by the walls are its
+//! odometry, a sweep is what a place looks like.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -27,17 +28,20 @@ use tolman_systems::stream;
 pub struct EpuckSurveyConfig {
     /// How many moves are made, each from one place to the next.
     pub moves: u32,
-    /// How likely a script of the map's advice is begun when one is applicable, 0 … 1; "generally 30 % of the time".
+    /// How likely a script of the map's advice is begun when one is applicable, 0 … 1; "generally
+    /// 30 % of the time".
     pub heed: f64,
-    /// How far odometry may be off at the end of a move along either axis, m: where in a place the robot stops.
+    /// How far odometry may be off at the end of a move along either axis, m: where in a place the
+    /// robot stops.
     pub margin: f64,
-    /// And how much farther after one metre, m; it grows as the root of the way, as each tick's slip is independent of the others'.
+    /// And how much farther after one metre, m; it grows as the root of the way, as each tick's
+    /// slip is independent of the others'.
     pub margin_per_root_metre: f64,
 }
 
 impl EpuckSurveyConfig {
-    /// Bounds for wheels that slip by 10 %. They were seen to hold: in Mazes 1 to 3, of 3600 moves with seeds 1 to 3, for all. As slips are independent
-    /// of each other, this is no strict bound.
+    /// Bounds for wheels that slip by 10 %. They were seen to hold: in Mazes 1 to 3, of 3600 moves
+    /// with seeds 1 to 3, for all. As slips are independent of each other, this is no strict bound.
     #[must_use]
     pub const fn usual(moves: u32) -> Self {
         Self {
@@ -71,7 +75,8 @@ impl EpuckSurveyConfig {
 /// Columns of what a place looks like.
 const COLUMNS: usize = 20;
 
-/// Raw values above this are those of walls in any corridor: what is told apart is a wall from none.
+/// Raw values above this are those of walls in any corridor: what is told apart is a wall from
+/// none.
 const WALL: f64 = 60.0;
 
 /// What came of a survey.
@@ -129,7 +134,8 @@ pub enum EpuckRoverError {
 /// Walks through a maze and maps its places.
 ///
 /// # Errors
-/// [`EpuckSurveyError`] if it cannot be begun, or the observer refuses what it is told. That the robot gets stuck is a result.
+/// [`EpuckSurveyError`] if it cannot be begun, or the observer refuses what it is told. That the
+/// robot gets stuck is a result.
 pub fn survey_maze(
     maze: &Maze,
     corridor_width: f64,
@@ -298,7 +304,8 @@ fn direction_of(heading: Heading) -> Direction {
     Direction::ALL[(5 - quarters % 4) % 4]
 }
 
-/// The junctions, dead ends, start and goals of a maze and where their ways lead, by the number of their cell.
+/// The junctions, dead ends, start and goals of a maze and where their ways lead, by the number of
+/// their cell.
 fn true_places(maze: &Maze, world: &World) -> Places {
     let fragments = TrueFragments::of(maze);
     let site = |cell: Cell| maze.grid().index(cell) as u32;

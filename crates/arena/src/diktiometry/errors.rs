@@ -3,10 +3,11 @@
 use tolman_geom::{Point, PointBox, Vector};
 use tolman_maps::diktiometry::StepReport;
 
-/// The squared distances of one move between how the robot truly moved and how it was expected to, m².
+/// The squared distances of one move between how the robot truly moved and how it was expected to,
+/// m².
 ///
-/// "We measure this by calculating the sum-of-squared-distance (SSD) between the robot's actual relative motion and
-/// predicted relative motion for each track after a move."
+/// "We measure this by calculating the sum-of-squared-distance (SSD) between the robot's actual
+/// relative motion and predicted relative motion for each track after a move."
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MoveError {
     /// By the map, the mean over all tracks; of a track that expected nothing, by the odometry.
@@ -18,7 +19,8 @@ pub struct MoveError {
 }
 
 impl MoveError {
-    /// The errors of a move that the observer reports so, whose odometry was `moved` and that truly was `truth`.
+    /// The errors of a move that the observer reports so, whose odometry was `moved` and that truly
+    /// was `truth`.
     #[must_use]
     pub fn of(report: &StepReport, moved: PointBox, truth: Vector) -> Self {
         let square = |middle: Point| (middle.coords - truth).norm_squared();
@@ -50,8 +52,8 @@ pub struct ErrorSummary {
     pub asymptote: f64,
     /// The mean error per move by odometry over all moves, m².
     pub odometry: f64,
-    /// Moves after which the mean over a [`WINDOW`] of moves is, and in every later window stays, [`NEAR`] the run's own
-    /// asymptote; all moves if it never is.
+    /// Moves after which the mean over a [`WINDOW`] of moves is, and in every later window stays,
+    /// [`NEAR`] the run's own asymptote; all moves if it never is.
     pub moves_to_own: usize,
     /// The mean error by the map over each successive [`WINDOW`] of moves, m².
     pub curve: Vec<f64>,
@@ -69,8 +71,8 @@ pub const TAIL: f64 = 0.25;
 pub const NEAR: f64 = 0.2;
 
 impl ErrorSummary {
-    /// Sums the errors of a run up, window by window; moves beyond the last full window belong to none. None if no move
-    /// was made.
+    /// Sums the errors of a run up, window by window; moves beyond the last full window belong to
+    /// none. None if no move was made.
     #[must_use]
     pub fn of(errors: &[MoveError]) -> Option<Self> {
         let mean = |part: &[MoveError], value: fn(&MoveError) -> f64| {

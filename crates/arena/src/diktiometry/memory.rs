@@ -1,4 +1,5 @@
-//! What a mapper can know that confuses no two places and remembers how each way last was: the measure of a map whose world changes.
+//! What a mapper can know that confuses no two places and remembers how each way last was: the
+//! measure of a map whose world changes.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 
@@ -15,8 +16,8 @@ struct End {
     distance: f64,
 }
 
-/// The true ways as they were when the robot last saw them. Nothing is inferred of ways that it did not see: where a place has
-/// appeared on a way, the way back is what it was until it is gone.
+/// The true ways as they were when the robot last saw them. Nothing is inferred of ways that it did
+/// not see: where a place has appeared on a way, the way back is what it was until it is gone.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Memory {
     /// Where a way led when it was last gone, by site and direction.
@@ -41,8 +42,8 @@ impl Memory {
         }
     }
 
-    /// A way led to a site, at a distance in metres. Ways do not turn: where it led before is missed if that is nearer, and behind
-    /// the new end if it is not.
+    /// A way led to a site, at a distance in metres. Ways do not turn: where it led before is
+    /// missed if that is nearer, and behind the new end if it is not.
     pub(super) fn go(&mut self, from: u32, direction: Direction, to: u32, distance: f64) {
         let end = End { site: to, distance };
         if let Some(before) = self.led.insert((from, direction), end)

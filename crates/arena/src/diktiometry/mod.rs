@@ -1,9 +1,9 @@
 //! The diktiometry's worlds, runs and scores.
 //!
 //! An [`Office`] is a world with its true places, an [`OfficeRobot`] a simulated Pioneer in it. A
-//! [`Survey`] is one run: the [system](tolman_systems::diktiometry)'s planner, routines and map, with
-//! the truth beside; [`ErrorSummary`] and [`MapScore`] say how well it went. A [`SurveyFile`] keeps
-//! it. An [`EpuckSurvey`] is the same on CPM's e-puck in its mazes.
+//! [`Survey`] is one run: the [system](tolman_systems::diktiometry)'s planner, routines and map,
+//! with the truth beside; [`ErrorSummary`] and [`MapScore`] say how well it went. A [`SurveyFile`]
+//! keeps it. An [`EpuckSurvey`] is the same on CPM's e-puck in its mazes.
 //!
 //! Source: S. Engelson, D. McDermott, "Maps Considered as Adaptive Planning Resources", AAAI Fall
 //! Symposium 1992, *Results*.

@@ -1,4 +1,5 @@
-//! A world of corridors in which corners and doorways are the places: the paper's simulated environments.
+//! A world of corridors in which corners and doorways are the places: the paper's simulated
+//! environments.
 
 use alloc::collections::BTreeMap;
 use core::f64::consts::PI;
@@ -14,7 +15,8 @@ use tolman_sim::{CorridorSize, Door, DoorState, Material, WallSegment, World, Wo
 
 use crate::course::Course;
 
-/// How deep the narrow part of a doorway is, in the middle of the wall, as a share of the corridor's width.
+/// How deep the narrow part of a doorway is, in the middle of the wall, as a share of the
+/// corridor's width.
 const DOORWAY_DEPTH: f64 = 0.5;
 /// From jamb to jamb of a doorway, as a share of the corridor's width.
 const DOORWAY_WIDTH: f64 = 2.0 / 3.0;
@@ -23,13 +25,16 @@ const DOORWAY_WIDTH: f64 = 2.0 / 3.0;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OfficeConfig {
-    /// From wall to wall of a corridor, m. Openings beside a way are told apart only if the walls between them are thick.
+    /// From wall to wall of a corridor, m. Openings beside a way are told apart only if the walls
+    /// between them are thick.
     pub corridor_width: f64,
     /// What lies between two corridors side by side, m; 0 for walls that are lines.
     pub wall_thickness: f64,
-    /// Which share of the passages between two cells are doorways, 0 … 1; which ones, `seed` decides.
+    /// Which share of the passages between two cells are doorways, 0 … 1; which ones, `seed`
+    /// decides.
     pub doorway_share: f64,
-    /// How many colours the walls have, each piece as long as a cell its own: 1 makes all places look the same.
+    /// How many colours the walls have, each piece as long as a cell its own: 1 makes all places
+    /// look the same.
     pub colours: u32,
     /// Of the doorways and the colours.
     pub seed: u64,
@@ -61,13 +66,16 @@ impl OfficeConfig {
     }
 }
 
-/// A maze as a world with doorways and painted walls, and what is truly there: the places and the ways between them.
+/// A maze as a world with doorways and painted walls, and what is truly there: the places and the
+/// ways between them.
 ///
-/// Where four cells make a square without walls, a pillar stands between them: all floor is corridor. Only what a way leads
-/// to a goal of the maze from belongs to it, if the maze has a goal.
+/// Where four cells make a square without walls, a pillar stands between them: all floor is
+/// corridor. Only what a way leads to a goal of the maze from belongs to it, if the maze has a
+/// goal.
 #[derive(Clone, Debug)]
 pub struct Office {
-    /// Its corridors. Doorway n has two leaves, `n a` and `n b`; shut, they make a wall of the passage.
+    /// Its corridors. Doorway n has two leaves, `n a` and `n b`; shut, they make a wall of the
+    /// passage.
     pub course: Course,
     /// Passages that are doorways, each named from its south or west cell, in order.
     doorways: Vec<(Cell, Direction)>,
@@ -200,8 +208,8 @@ impl Office {
                 .any(|way| along(way) > 0.0 && along(way.left()).abs() < half)
     }
 
-    /// Returns a random pose from which a run may begin: anywhere in the corridors outside the destination
-    /// and outside doorways, where `body` stands clear of the walls; any heading.
+    /// Returns a random pose from which a run may begin: anywhere in the corridors outside the
+    /// destination and outside doorways, where `body` stands clear of the walls; any heading.
     #[must_use]
     pub fn random_start(&self, body: &Body, rng: &mut impl Rng) -> Pose {
         let goals = self.course.maze.goals();
@@ -231,7 +239,8 @@ impl Office {
         Pose::new(self.config.middle(cell) + along + aside, heading)
     }
 
-    /// Any two places are so far apart along one axis at least, whatever doorways are shut, m: δ_sep.
+    /// Any two places are so far apart along one axis at least, whatever doorways are shut, m:
+    /// δ_sep.
     #[must_use]
     pub fn separation(&self) -> f64 {
         match self.doorways.is_empty() {
@@ -256,11 +265,12 @@ impl Office {
         self.config.between(cell, direction)
     }
 
-    /// What is truly there while some doorways are shut, by site: a place at every bend, junction and dead end of the
-    /// corridors and in every open doorway, and from each the ways to the next in the four directions.
+    /// What is truly there while some doorways are shut, by site: a place at every bend, junction
+    /// and dead end of the corridors and in every open doorway, and from each the ways to the next
+    /// in the four directions.
     ///
-    /// A site is the index of a cell in its grid, or behind all cells the number of a doorway. O(cells · length of the
-    /// longest corridor).
+    /// A site is the index of a cell in its grid, or behind all cells the number of a doorway.
+    /// O(cells · length of the longest corridor).
     #[must_use]
     pub fn places(&self, shut: &[usize]) -> BTreeMap<u32, TruePlace> {
         let chart = Chart { office: self, shut };
@@ -301,8 +311,8 @@ impl Office {
     }
 }
 
-/// Corridors between blocks: a square grid in which a share of the inner walls stands, drawn by chance but for those that would
-/// cut a cell off.
+/// Corridors between blocks: a square grid in which a share of the inner walls stands, drawn by
+/// chance but for those that would cut a cell off.
 pub fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
     let grid = Grid::new(side, side);
     let mut maze = Maze::open(grid);
@@ -426,7 +436,8 @@ impl OfficeConfig {
         (0..=count).map(at).collect()
     }
 
-    /// The outline of a pillar at the north-east corner of a cell, which keeps the corridors beside it apart.
+    /// The outline of a pillar at the north-east corner of a cell, which keeps the corridors beside
+    /// it apart.
     fn pillar(&self, cell: Cell) -> Vec<Point> {
         let half = 0.5 * self.pitch();
         let centre = self.middle(cell) + Vector::new(half, half);
@@ -452,7 +463,8 @@ impl OfficeConfig {
         })
     }
 
-    /// The two leaves of a doorway's door, one at each face of the wall, so that shut it looks like a wall from both sides.
+    /// The two leaves of a doorway's door, one at each face of the wall, so that shut it looks like
+    /// a wall from both sides.
     fn leaves(&self, number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
         let across = unit_of(direction.left()) * (0.5 * self.corridor_width);
         let depth = unit_of(direction) * (0.5 * self.wall_thickness);

@@ -39,7 +39,8 @@ pub fn office_robot(
     Ok(office.course.robot_at(pose, robot, seed)?)
 }
 
-/// Returns a robot with its routines at `at`, m, in `office`, facing north. `seed` is that of all noise.
+/// Returns a robot with its routines at `at`, m, in `office`, facing north. `seed` is that of all
+/// noise.
 ///
 /// # Errors
 /// [`RunError`] if the configuration is out of its bounds or the robot cannot stand there.
@@ -81,7 +82,8 @@ mod tests {
         Office::new(&maze, &config).unwrap()
     }
 
-    /// Walks at random, and at every arrival hands over the places left and reached, the arrival and the robot.
+    /// Walks at random, and at every arrival hands over the places left and reached, the arrival
+    /// and the robot.
     fn walk(
         office: &Office,
         shut: &[usize],
@@ -156,7 +158,8 @@ mod tests {
         );
     }
 
-    /// The abstract world in which mappers are tried by the million offers them the same as the robot does.
+    /// The abstract world in which mappers are tried by the million offers them the same as the
+    /// robot does.
     #[test]
     fn the_abstract_world_offers_the_same_statistics() {
         let office = office(8, 0.2);

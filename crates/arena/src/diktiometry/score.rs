@@ -24,15 +24,16 @@ pub struct MapScore {
     pub places: usize,
     /// True places that were visited.
     pub visited: usize,
-    /// Share of the visits that were to the true place which their place on the map stands for: the one it was most often
-    /// taken for. Below 1 there is polytopy, one node for several places.
+    /// Share of the visits that were to the true place which their place on the map stands for: the
+    /// one it was most often taken for. Below 1 there is polytopy, one node for several places.
     pub purity: f64,
-    /// Share of the visited true places that exactly one place on the map stands for; others suffer monotopy, several nodes for one,
-    /// or are not on the map.
+    /// Share of the visited true places that exactly one place on the map stands for; others suffer
+    /// monotopy, several nodes for one, or are not on the map.
     pub share_once: f64,
     /// Share of the links on the map that lead where their action truly leads.
     pub link_precision: f64,
-    /// The same of the links that the map takes to be there now: of each action the likeliest, if it is likelier than not.
+    /// The same of the links that the map takes to be there now: of each action the likeliest, if
+    /// it is likelier than not.
     pub believed_precision: f64,
     /// Share of the true ways of the whole world that are on the map.
     pub link_recall: f64,
@@ -45,8 +46,9 @@ pub struct MapScore {
 /// A true way: a site and a direction.
 type Way = (u32, Direction);
 
-/// Scores a map. `visits` are all places the robot was at, from the first on; `gone` are the ways it took;
-/// `truth` is what is there now. Action n of the map is direction n of [`Direction::ALL`]. O(visits · log places + links · log links).
+/// Scores a map. `visits` are all places the robot was at, from the first on; `gone` are the ways
+/// it took; `truth` is what is there now. Action n of the map is direction n of [`Direction::ALL`].
+/// O(visits · log places + links · log links).
 #[must_use]
 pub fn score(
     map: &PathGraph,

@@ -30,11 +30,13 @@ pub struct SurveyConfig {
     pub robot: SurveyorConfig,
     /// The mapper.
     pub mapper: Config,
-    /// How likely a script is begun when one is applicable, 0 … 1. Paper: "generally 30% of the time".
+    /// How likely a script is begun when one is applicable, 0 … 1. Paper: "generally 30% of the
+    /// time".
     pub heed: f64,
     /// How many moves are made.
     pub moves: u32,
-    /// After every so many moves one of the office's doorways, by chance, is shut or opened; 0 for never.
+    /// After every so many moves one of the office's doorways, by chance, is shut or opened; 0 for
+    /// never.
     pub door_period: u32,
 }
 
@@ -71,7 +73,8 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     config.world = WorldKind::Static;
     match robot.sight {
         PlaceCue::Camera { columns, .. } if office.config().colours > 1 => {
-            // A doorway does not look like the corners beside it, and those are a pitch apart or more.
+            // A doorway does not look like the corners beside it, and those are a pitch apart or
+            // more.
             config.alike_separation = separation.max(office.config().pitch());
             config.search.width = 4.0 * config.alike_separation;
             config.percepts = aligned_signatures(3, columns as usize);
@@ -131,7 +134,8 @@ pub struct PlaceMark {
 /// What became of a plan to a place of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlanTrial {
-    /// The place is not there now (a doorway that is shut, a junction whose branch is): no plan leads to it.
+    /// The place is not there now (a doorway that is shut, a junction whose branch is): no plan
+    /// leads to it.
     Gone,
     /// The place is there.
     There {
@@ -220,7 +224,8 @@ impl Survey {
         Self::after(past, office, config, rover, mapping, seed)
     }
 
-    /// A run that goes on where another ended. `seed` is that of all chance from now on; doorways are open.
+    /// A run that goes on where another ended. `seed` is that of all chance from now on; doorways
+    /// are open.
     ///
     /// # Errors
     /// [`RunError`] if the robot cannot stand where the other ended, or no place is there.
@@ -403,9 +408,10 @@ impl Survey {
         &self.errors
     }
 
-    /// Whether a plan from here to a place of the map that is drawn by chance would lead there: its actions are followed on
-    /// the true ways, without moving the robot. A place that cannot be planned to counts as one not reached; none if the map has
-    /// no other place, or the robot was never where the one drawn is.
+    /// Whether a plan from here to a place of the map that is drawn by chance would lead there: its
+    /// actions are followed on the true ways, without moving the robot. A place that cannot be
+    /// planned to counts as one not reached; none if the map has no other place, or the robot was
+    /// never where the one drawn is.
     pub fn try_plan(&mut self) -> Option<PlanTrial> {
         let paths = &self.mapping.observer().map().paths;
         let here = self.observer().place();
@@ -437,9 +443,10 @@ impl Survey {
         })
     }
 
-    /// The share of ways that lead where they did when the robot last saw them, of those it would then take to be there: what a map
-    /// of this run is measured against that does not guess what has changed since. A run that was resumed remembers what it saw since then
-    /// alone: the ways of before are no part of its [`Past`].
+    /// The share of ways that lead where they did when the robot last saw them, of those it would
+    /// then take to be there: what a map of this run is measured against that does not guess what
+    /// has changed since. A run that was resumed remembers what it saw since then alone: the ways
+    /// of before are no part of its [`Past`].
     #[must_use]
     pub fn remembered_precision(&self) -> f64 {
         self.memory.precision(&self.truth)

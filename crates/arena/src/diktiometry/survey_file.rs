@@ -15,8 +15,8 @@ const FILES: MapFiles = MapFiles {
     system: "diktiometry",
 };
 
-/// A survey as it lies in a file: JSON, read back to the bit. It holds the world and where the robot is in it, so that the
-/// survey can go on; the map is the journal of all moves.
+/// A survey as it lies in a file: JSON, read back to the bit. It holds the world and where the
+/// robot is in it, so that the survey can go on; the map is the journal of all moves.
 #[derive(Clone, Debug)]
 pub struct SurveyFile {
     /// Where it began, with which robot and from which seed. Going on has seeds of its own.
@@ -35,7 +35,8 @@ pub struct SurveyFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SurveyFileError {
-    /// The header or the JSON is not sound, or names another system; or the survey has no JSON form.
+    /// The header or the JSON is not sound, or names another system; or the survey has no JSON
+    /// form.
     #[error(transparent)]
     File(#[from] FileError),
     /// How likely a script is begun is no probability.
@@ -94,7 +95,8 @@ impl SurveyFile {
     /// The text of the file, with a line end.
     ///
     /// # Errors
-    /// [`SurveyFileError::Map`] if the mapper kept no journal, [`SurveyFileError::File`] if it cannot be written.
+    /// [`SurveyFileError::Map`] if the mapper kept no journal, [`SurveyFileError::File`] if it
+    /// cannot be written.
     pub fn to_json(&self) -> Result<String, SurveyFileError> {
         let past = &self.past;
         let visits = past.visits.iter().map(|visit| (visit.site, visit.place));

@@ -22,8 +22,8 @@ pub struct SurveyorConfig {
     /// distance, 0 … 0.5: a calibration that is wrong, and told to be.
     #[serde(default, skip_serializing_if = "is_none")]
     pub shared_share: f64,
-    /// How likely odometry is wrong by four times its bound, 0 … 1, drawn as often as other errors. The mapper
-    /// is told none of it.
+    /// How likely odometry is wrong by four times its bound, 0 … 1, drawn as often as other errors.
+    /// The mapper is told none of it.
     #[serde(default, skip_serializing_if = "is_none")]
     pub outliers: f64,
     /// Largest error of the compass, rad.
@@ -66,8 +66,8 @@ pub enum PlaceCue {
 }
 
 impl SurveyorConfig {
-    /// Returns odometry of 10 % and a compass of ± 4°, as the figures have them. An error lasts about
-    /// as long as a move.
+    /// Returns odometry of 10 % and a compass of ± 4°, as the figures have them. An error lasts
+    /// about as long as a move.
     #[must_use]
     pub fn paper() -> Self {
         Self {

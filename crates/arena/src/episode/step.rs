@@ -43,8 +43,8 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// Returns in a few words what the brain made of its situation when it chose the action; empty if there is
-    /// nothing to say.
+    /// Returns in a few words what the brain made of its situation when it chose the action; empty
+    /// if there is nothing to say.
     #[must_use]
     pub fn words(&self) -> String {
         match self.brain {
@@ -54,8 +54,8 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// Returns where the brain believed the robot to be when it chose the action, the likeliest first; empty if it
-    /// does not ask.
+    /// Returns where the brain believed the robot to be when it chose the action, the likeliest
+    /// first; empty if it does not ask.
     #[must_use]
     pub fn belief(&self) -> Vec<Guess> {
         match self.brain {

@@ -34,7 +34,8 @@ pub struct LabelledRecord {
     pub label: Cell,
 }
 
-/// Which record best shows each goal, as was indicated by hand (section 3.4, *Score*): taken before it, looking at it.
+/// Which record best shows each goal, as was indicated by hand (section 3.4, *Score*): taken before
+/// it, looking at it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GoalRecords {
@@ -63,8 +64,8 @@ impl GoalRecords {
     }
 }
 
-/// How badly a goal is seen from a pose: the least where it is straight ahead and fills the picture, nothing stands before it, and it
-/// is not seen aslant.
+/// How badly a goal is seen from a pose: the least where it is straight ahead and fills the
+/// picture, nothing stands before it, and it is not seen aslant.
 fn cost(pitch: &Pitch, pose: Pose, goal: Pose) -> f64 {
     /// From here a goal fills the picture: where the paper's limits stop the robot, m.
     const BEST: f64 = 1.3;

@@ -1,7 +1,9 @@
 //! Data sets as text: a line of JSON for what holds for all records, then one for each record.
 //!
-//! A file begins `{"format":"tolman-place-records","version":1,"arena":"pitch","seed":1,"records":1006,"cells":…,"goals":…,"sensors":…,
-//! "picture":…}`. The pictures of the other lines are compressed (zlib) and written in base64; all numbers come back to the bit.
+//! A file begins
+//! `{"format":"tolman-place-records","version":1,"arena":"pitch","seed":1,"records":1006,"cells":…,"goals":…,"sensors":…, "picture":…}`.
+//! The pictures of the other lines are compressed (zlib) and written in base64; all numbers come
+//! back to the bit.
 
 use std::io::{Read, Write};
 

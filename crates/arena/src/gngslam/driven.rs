@@ -93,8 +93,9 @@ const MOST_PIECES: u32 = 60;
 /// Random stream of a run's seed for the map and the goals.
 const DRIVES: u64 = 4;
 
-/// Gathers `records` records, learns a place map of image and odometry by `config`, and lets the same robot drive on by it, from where
-/// it is, to where `drives` of the records were taken, drawn at random. `seed` is that of all chance.
+/// Gathers `records` records, learns a place map of image and odometry by `config`, and lets the
+/// same robot drive on by it, from where it is, to where `drives` of the records were taken, drawn
+/// at random. `seed` is that of all chance.
 ///
 /// # Errors
 /// [`DrivenMapError`] if the robot fails or the records make no map.

@@ -57,8 +57,8 @@ pub struct FieldFrame {
 
 /// From positions in the frame of a map to cells of the field: steps 2 and 3 of the paper's score.
 ///
-/// A rotation, then one factor for x and one for y, both positive. So nothing is ever mirrored: a map that is a mirror image
-/// of the field stays one, and scores as badly as it is.
+/// A rotation, then one factor for x and one for y, both positive. So nothing is ever mirrored: a
+/// map that is a mirror image of the field stays one, and scores as badly as it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldFromMap {
     /// The first row of the rotation, (cos, −sin).
@@ -68,9 +68,9 @@ pub struct FieldFromMap {
 }
 
 impl FieldFromMap {
-    /// Turns the map so that the yellow goal is where it has to be seen from the blue one, and stretches it so that the least and
-    /// the greatest x and y of the nodes fall on those of the field. `None` if both goals lie at one place or there are no
-    /// nodes.
+    /// Turns the map so that the yellow goal is where it has to be seen from the blue one, and
+    /// stretches it so that the least and the greatest x and y of the nodes fall on those of the
+    /// field. `None` if both goals lie at one place or there are no nodes.
     #[must_use]
     pub fn of(
         nodes: impl Iterator<Item = Point>,
@@ -132,7 +132,8 @@ mod tests {
         },
     };
 
-    /// Corners of a pitch of 4 × 4.6 m and its goals, seen from a robot that was put down somewhere.
+    /// Corners of a pitch of 4 × 4.6 m and its goals, seen from a robot that was put down
+    /// somewhere.
     fn pitch(frame: Pose) -> ([Point; 4], [Point; 2]) {
         let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.6), (0.0, 4.6)];
         let goals = [(2.0, 0.0), (2.0, 4.6)];
@@ -158,7 +159,8 @@ mod tests {
         }
     }
 
-    /// The paper's maps had the windows on the left, and nobody found why. A map that is a mirror image stays one here.
+    /// The paper's maps had the windows on the left, and nobody found why. A map that is a mirror
+    /// image stays one here.
     #[test]
     fn a_mirror_image_stays_one() {
         let (corners, [blue, yellow]) = pitch(Pose::IDENTITY);

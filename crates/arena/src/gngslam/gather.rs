@@ -24,11 +24,13 @@ pub enum GatherError {
     Wanderer(#[from] WandererError<StepError>),
 }
 
-/// Random stream of a run's seed for the labels; those of the arena are 1 and 2, that of the wanderer 0.
+/// Random stream of a run's seed for the labels; those of the arena are 1 and 2, that of the
+/// wanderer 0.
 const LABELS: u64 = 3;
 
-/// Lets a robot wander in an arena until it has taken `count` records, and writes down the truth beside each (section 3.2; the paper
-/// has 1006). `seed` is that of all chance: where it begins, its noise, its turns and the labels.
+/// Lets a robot wander in an arena until it has taken `count` records, and writes down the truth
+/// beside each (section 3.2; the paper has 1006). `seed` is that of all chance: where it begins,
+/// its noise, its turns and the labels.
 ///
 /// # Errors
 /// [`GatherError`] if the robot cannot be built or put down, or takes no snapshot.

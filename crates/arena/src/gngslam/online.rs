@@ -43,8 +43,8 @@ pub struct OnlineRun {
 }
 
 impl OnlineRun {
-    /// Lays the map over the world by the looks of `learned`: the rigid motion under which the squared distances are least, as
-    /// trajectories are compared (Horn 1987). O(looks).
+    /// Lays the map over the world by the looks of `learned`: the rigid motion under which the
+    /// squared distances are least, as trajectories are compared (Horn 1987). O(looks).
     pub fn align(&mut self, learned: Range<usize>) {
         let pairs: Vec<(Point, Point)> = (self.looks.get(learned).into_iter().flatten())
             .map(|look| (look.corrected.position, look.truth.position))
@@ -69,8 +69,8 @@ pub enum OnlineRunError {
     System(#[from] OnlineSlamError<StepError>),
 }
 
-/// Lets a robot learn an arena for so many looks. `seed` is that of all chance: where it begins, how its wheels are out of
-/// calibration, within ± `calibration`, its noise and its turns.
+/// Lets a robot learn an arena for so many looks. `seed` is that of all chance: where it begins,
+/// how its wheels are out of calibration, within ± `calibration`, its noise and its turns.
 ///
 /// # Errors
 /// [`OnlineRunError`] if the robot cannot be built or put down, or the system cannot go on.
@@ -86,7 +86,8 @@ pub fn learn_online(
     run(OnlineSlam::new(config, seed), robot, start, looks)
 }
 
-/// Puts another robot down anywhere in the arena of a run, with the map that was learned there and without a word of where it is.
+/// Puts another robot down anywhere in the arena of a run, with the map that was learned there and
+/// without a word of where it is.
 ///
 /// # Errors
 /// As [`learn_online`].

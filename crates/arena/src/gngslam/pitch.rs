@@ -30,8 +30,8 @@ pub struct Pitch {
     pub(super) room: Room,
 }
 
-/// The middle of each goal's foot, looking onto the floor. In random arenas the goals have other colours, and the first is called
-/// blue.
+/// The middle of each goal's foot, looking onto the floor. In random arenas the goals have other
+/// colours, and the first is called blue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goals {
     /// Of the blue goal.
@@ -85,7 +85,8 @@ const ZONE_RADIUS: f64 = 0.5;
 const TRIES: u32 = 10_000;
 
 impl Pitch {
-    /// Returns the arena of this name: `pitch` for the [paper's](Self::paper), `hall`, `l-room`, or `random-` with a seed.
+    /// Returns the arena of this name: `pitch` for the [paper's](Self::paper), `hall`, `l-room`, or
+    /// `random-` with a seed.
     ///
     /// # Errors
     /// [`PitchError::Unknown`] if there is none.
@@ -127,8 +128,8 @@ impl Pitch {
         self.room.holds(point)
     }
 
-    /// Returns its world as the command sends robots into one: the zone `destination` lies before the blue goal, and `start` before the
-    /// yellow one.
+    /// Returns its world as the command sends robots into one: the zone `destination` lies before
+    /// the blue goal, and `start` before the yellow one.
     ///
     /// # Errors
     /// None.
@@ -187,8 +188,8 @@ impl Pitch {
 /// What the Pioneer 2-DX is called, as in the files of maps.
 pub const PIONEER_2DX: &str = "Pioneer 2-DX";
 
-/// Returns the paper's robot. Its wheels count wrongly by a constant share within ± `calibration`, each its own, by `seed`; 0 for
-/// wheels that are right but for slip.
+/// Returns the paper's robot. Its wheels count wrongly by a constant share within ± `calibration`,
+/// each its own, by `seed`; 0 for wheels that are right but for slip.
 ///
 /// # Errors
 /// [`PitchError::Calibration`] if that is no share from 0 to 0.5.

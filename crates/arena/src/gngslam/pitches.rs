@@ -27,7 +27,8 @@ pub(super) const GOAL: f64 = 0.5;
 /// The sill of a window behind boarding, m.
 pub(super) const SILL: f64 = 0.8;
 
-/// The sill of a window in a wall of the floor itself, m: lower, since the robot that looks up at it is nearer.
+/// The sill of a window in a wall of the floor itself, m: lower, since the robot that looks up at
+/// it is nearer.
 pub(super) const LOW_SILL: f64 = 0.4;
 
 /// A window from its sill, m, to its lintel.
@@ -59,8 +60,9 @@ const fn backdrop(floor: [u8; 3]) -> Backdrop {
 }
 
 impl Pitch {
-    /// Returns the paper's pitch (section 3.1): 4 × 4.6 m of green floor, white boarding 0.4 m high, a blue goal in the east and a
-    /// yellow one in the west, on the short sides. It lies in a room with windows in the north, a door and a cupboard in the south.
+    /// Returns the paper's pitch (section 3.1): 4 × 4.6 m of green floor, white boarding 0.4 m
+    /// high, a blue goal in the east and a yellow one in the west, on the short sides. It lies in a
+    /// room with windows in the north, a door and a cupboard in the south.
     ///
     /// # Errors
     /// None.
@@ -88,8 +90,8 @@ impl Pitch {
         Self::with_goals("pitch", room, (blue, BLUE), (yellow, YELLOW), look)
     }
 
-    /// Returns a hall of 8 × 6 m with walls as high as a room, windows in the west, four pieces of furniture and goals in the north
-    /// and in the south. Not in the paper.
+    /// Returns a hall of 8 × 6 m with walls as high as a room, windows in the west, four pieces of
+    /// furniture and goals in the north and in the south. Not in the paper.
     ///
     /// # Errors
     /// None.
@@ -119,8 +121,8 @@ impl Pitch {
         Self::with_goals("hall", room, (blue, BLUE), (yellow, YELLOW), look)
     }
 
-    /// Returns a room of 5 × 5 m without its corner in the north-east, with windows in the south; from neither goal is the other
-    /// one seen. Not in the paper.
+    /// Returns a room of 5 × 5 m without its corner in the north-east, with windows in the south;
+    /// from neither goal is the other one seen. Not in the paper.
     ///
     /// # Errors
     /// None.

@@ -4,13 +4,16 @@ use tolman_maze::Cell;
 
 use super::CellGrid;
 
-/// How well a position, in cells, fits a cell of the field. Cell (0, 0) reaches from (0, 0) to (1, 1).
+/// How well a position, in cells, fits a cell of the field. Cell (0, 0) reaches from (0, 0) to (1,
+/// 1).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointScore {
-    /// Equation 3.2: 1 inside the cell, else 0.5 / distance to its middle, in cells; 0.047 to 1 on the field.
+    /// Equation 3.2: 1 inside the cell, else 0.5 / distance to its middle, in cells; 0.047 to 1 on
+    /// the field.
     pub by_centre: f64,
-    /// 0.5 / (0.5 + distance to the cell), in cells: 1 inside it, and falling from its border on, not from a circle around
-    /// its middle. Not in the paper, which wishes for a distance "to the border of the square".
+    /// 0.5 / (0.5 + distance to the cell), in cells: 1 inside it, and falling from its border on,
+    /// not from a circle around its middle. Not in the paper, which wishes for a distance "to the
+    /// border of the square".
     pub by_border: f64,
 }
 
@@ -46,8 +49,9 @@ impl PointScore {
         }
     }
 
-    /// Returns the score of a guess: a position anywhere on the field against a cell anywhere, both uniform. The baseline of
-    /// the paper; the mean over many is 0.175 by the centre and 0.184 by the border.
+    /// Returns the score of a guess: a position anywhere on the field against a cell anywhere, both
+    /// uniform. The baseline of the paper; the mean over many is 0.175 by the centre and 0.184 by
+    /// the border.
     #[must_use]
     pub fn random(rng: &mut impl Rng) -> Self {
         let side = u32::from(CellGrid::SIDE);
@@ -94,8 +98,8 @@ mod tests {
         }
     }
 
-    /// The paper's figures of ten million guesses: mean 0.18 (0.175 in Table 4.1), median 0.12, standard deviation 0.16, 1.56 %
-    /// inside.
+    /// The paper's figures of ten million guesses: mean 0.18 (0.175 in Table 4.1), median 0.12,
+    /// standard deviation 0.16, 1.56 % inside.
     #[test]
     fn guesses_score_as_in_the_paper() {
         let mut rng = ChaCha8Rng::seed_from_u64(1);

@@ -24,7 +24,8 @@ pub enum PutError {
 }
 
 impl Pitch {
-    /// Returns a robot where a run of this `seed` [begins](Self::start), at rest, which stands still when the run is over.
+    /// Returns a robot where a run of this `seed` [begins](Self::start), at rest, which stands
+    /// still when the run is over.
     ///
     /// # Errors
     /// [`PutError`] if it cannot be built or cannot stand there.

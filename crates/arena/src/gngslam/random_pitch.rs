@@ -14,7 +14,8 @@ use super::room::{Room, Span};
 /// How long a side is, m.
 const SIDE: core::ops::Range<f64> = 3.0..6.5;
 
-/// Between furniture and anything else, m: a lane wide enough for the robot to drive along and turn in.
+/// Between furniture and anything else, m: a lane wide enough for the robot to drive along and turn
+/// in.
 const GAP: f64 = 0.95;
 
 /// How much furniture there is at most.
@@ -27,9 +28,10 @@ const TRIES: u32 = 50;
 const SIDES: [Heading; 4] = [Heading::SOUTH, Heading::EAST, Heading::NORTH, Heading::WEST];
 
 impl Pitch {
-    /// Returns the arena of this seed: a rectangle of 3 to 6.5 m a side, half of them with boarding in a larger room, half of them with
-    /// walls as high as a room; goals of two colours on two sides, windows on one, and 0 to 4 boxes of furniture that the robot can
-    /// drive round. Light and floor are drawn as well. Not in the paper.
+    /// Returns the arena of this seed: a rectangle of 3 to 6.5 m a side, half of them with boarding
+    /// in a larger room, half of them with walls as high as a room; goals of two colours on two
+    /// sides, windows on one, and 0 to 4 boxes of furniture that the robot can drive round. Light
+    /// and floor are drawn as well. Not in the paper.
     ///
     /// # Errors
     /// None.
@@ -151,7 +153,8 @@ fn free_place(room: &Room, size: Vector, rng: &mut ChaCha8Rng) -> Option<Bounds>
     is_free.then_some(place)
 }
 
-/// How far apart two boxes are along the axis where they are farther apart, m; below 0 where they overlap.
+/// How far apart two boxes are along the axis where they are farther apart, m; below 0 where they
+/// overlap.
 fn gap(a: &Bounds, b: &Bounds) -> f64 {
     let x = (a.min.x - b.max.x).max(b.min.x - a.max.x);
     let y = (a.min.y - b.max.y).max(b.min.y - a.max.y);

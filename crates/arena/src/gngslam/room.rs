@@ -1,7 +1,8 @@
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_sim::{Bounds, Material, WallSegment, World, WorldError};
 
-/// What is built of walls: a floor with its outline, what hangs on it, furniture, and the room round it.
+/// What is built of walls: a floor with its outline, what hangs on it, furniture, and the room
+/// round it.
 #[derive(Clone, Debug)]
 pub(super) struct Room {
     /// The floor's corners, counter-clockwise.

@@ -29,15 +29,16 @@ pub struct PlaceScorer {
 pub struct PlaceScore {
     /// The mean over the records that were asked about.
     pub mean: PointScore,
-    /// Whether it is a mirror image of the field, as the paper's maps were: where records were taken counter-clockwise around
-    /// their middle, it has them clockwise.
+    /// Whether it is a mirror image of the field, as the paper's maps were: where records were
+    /// taken counter-clockwise around their middle, it has them clockwise.
     pub mirrored: bool,
 }
 
 impl PlaceScorer {
-    /// Returns the paper's scorer of maps of a data set, by the cells that were written down. Maps are stretched over the field as
-    /// far as its cells were visited, since "the learned positions are scaled to the manual position". Record i of the data
-    /// set has to be record i of the table.
+    /// Returns the paper's scorer of maps of a data set, by the cells that were written down. Maps
+    /// are stretched over the field as far as its cells were visited, since "the learned positions
+    /// are scaled to the manual position". Record i of the data set has to be record i of the
+    /// table.
     #[must_use]
     pub fn paper(data: &DataSet, pitch: &Pitch) -> Self {
         let labels = data.records.iter().map(|record| record.label);
@@ -45,7 +46,8 @@ impl PlaceScorer {
         Self::of(labels.collect(), data.goals, Heading::of(to_yellow))
     }
 
-    /// Returns the same of the cell of each record, from record 0 on, and the true direction from the blue goal to the yellow one.
+    /// Returns the same of the cell of each record, from record 0 on, and the true direction from
+    /// the blue goal to the yellow one.
     #[must_use]
     pub fn of(cells: Vec<Cell>, goals: GoalRecords, yellow_from_blue: Heading) -> Self {
         let extent = FieldExtent::of_middles(&cells);
@@ -66,11 +68,12 @@ impl PlaceScorer {
         self
     }
 
-    /// Scores a map by a random 20 % of the records, the paper's way. `None` if both goals are nearest to one node: the paper's
-    /// score of 0.
+    /// Scores a map by a random 20 % of the records, the paper's way. `None` if both goals are
+    /// nearest to one node: the paper's score of 0.
     ///
     /// # Errors
-    /// If the table has fewer records than are asked about, or the map is empty or of another table.
+    /// If the table has fewer records than are asked about, or the map is empty or of another
+    /// table.
     pub fn score(
         &self,
         map: &PlaceMap,
@@ -117,7 +120,8 @@ impl PlaceScorer {
         })
     }
 
-    /// Returns how the map lies on the field: steps 1 to 3 of the score. `None` if both goals are nearest to one node.
+    /// Returns how the map lies on the field: steps 1 to 3 of the score. `None` if both goals are
+    /// nearest to one node.
     ///
     /// # Errors
     /// As [`score`](Self::score).
@@ -167,7 +171,8 @@ fn mean(pairs: &[(Cell, Point)]) -> Option<PointScore> {
     })
 }
 
-/// Whether positions are turned about their middle against the cells: the determinant of their covariance is negative.
+/// Whether positions are turned about their middle against the cells: the determinant of their
+/// covariance is negative.
 fn is_mirrored(pairs: &[(Cell, Point)]) -> bool {
     let count = pairs.len().max(1) as f64;
     let cells = pairs.iter().map(|(cell, _)| middle(*cell).coords);

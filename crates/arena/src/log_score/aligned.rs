@@ -1,6 +1,7 @@
 use tolman_geom::{Heading, Point, Pose, Vector};
 
-/// How far positions are from others, once they are laid over them as well as a turn and a shift can.
+/// How far positions are from others, once they are laid over them as well as a turn and a shift
+/// can.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlignedScore {
     /// Pairs of positions.
@@ -16,7 +17,8 @@ pub struct AlignedScore {
 impl AlignedScore {
     /// Returns the score of pairs of a position found and the true one; `None` of none. O(pairs).
     ///
-    /// Source: S. Umeyama: Least-Squares Estimation of Transformation Parameters, 1991, in the plane and without scale.
+    /// Source: S. Umeyama: Least-Squares Estimation of Transformation Parameters, 1991, in the
+    /// plane and without scale.
     #[must_use]
     pub fn of(pairs: &[(Point, Point)]) -> Option<Self> {
         if pairs.is_empty() {

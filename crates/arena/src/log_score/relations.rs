@@ -22,7 +22,8 @@ impl RelationScore {
     /// Times that lie farther apart than that are far, s: the robot has come back in between.
     pub const FAR: f64 = 30.0;
 
-    /// Returns the score of a trajectory; `None` if no relation lies on it. O(relations · log poses).
+    /// Returns the score of a trajectory; `None` if no relation lies on it. O(relations · log
+    /// poses).
     #[must_use]
     pub fn of(trajectory: &Trajectory, relations: &[PoseRelation]) -> Option<Self> {
         let mut all = Means::default();

@@ -61,7 +61,8 @@ impl Judgement {
     }
 }
 
-/// Returns the score of a mouse that knows its maze, whose best run takes `optimum` steps: there, a reset, and there again.
+/// Returns the score of a mouse that knows its maze, whose best run takes `optimum` steps: there, a
+/// reset, and there again.
 #[must_use]
 pub fn floor(optimum: u32) -> f64 {
     f64::from(optimum) + f64::from(optimum + 1) / 30.0

@@ -313,7 +313,8 @@ mod tests {
 
     #[test]
     fn the_goal_counts_only_where_a_movement_ends() {
-        // Through the goal, without a stop on it: the reset is refused and the mouse stays where it is.
+        // Through the goal, without a stop on it: the reset is refused and the mouse stays where it
+        // is.
         let (cell, _, events) = after(
             &plain(),
             &[Order::new(0, 1), Order::new(90, 3), Order::RESET],

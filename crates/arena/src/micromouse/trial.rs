@@ -42,8 +42,8 @@ pub struct SideSeen {
     pub stands: bool,
 }
 
-/// Returns what a mouse sees of the maze from `cell`, looking to `heading`: the cells' sides along its three lines of sight, up
-/// to the first wall.
+/// Returns what a mouse sees of the maze from `cell`, looking to `heading`: the cells' sides along
+/// its three lines of sight, up to the first wall.
 #[must_use]
 pub fn sides_seen(sight: Sight, cell: Cell, heading: Direction) -> Vec<SideSeen> {
     let lines = [

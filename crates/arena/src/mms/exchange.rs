@@ -36,8 +36,9 @@ impl Exchange {
         }
     }
 
-    /// Returns the sides of cells that the mouse was told of in a maze of this size: none but for questions for walls. Where a wall
-    /// stands somewhere within several half-steps, it is the one side of which the mouse does not know that it `is_open`.
+    /// Returns the sides of cells that the mouse was told of in a maze of this size: none but for
+    /// questions for walls. Where a wall stands somewhere within several half-steps, it is the one
+    /// side of which the mouse does not know that it `is_open`.
     #[must_use]
     pub fn sides_seen(
         &self,

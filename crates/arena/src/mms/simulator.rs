@@ -58,7 +58,8 @@ const DRAWING: [&str; 8] = [
     "clearAllText",
 ];
 
-/// Where a question for a wall looks, in eighths of a circle, clockwise from ahead; `None` of other commands.
+/// Where a question for a wall looks, in eighths of a circle, clockwise from ahead; `None` of other
+/// commands.
 pub(super) fn eighths_of(command: &str) -> Option<i8> {
     let wall = WALLS.iter().find(|(name, _)| *name == command);
     wall.map(|(_, eighths)| *eighths)

@@ -11,7 +11,8 @@ use crate::episode_error::EpisodeError;
 /// How often each action is tried at a node.
 pub(super) const SAMPLES: usize = 8;
 
-/// How far a robot may look past the axis of its node, rad either way: about as far as the layers leave it.
+/// How far a robot may look past the axis of its node, rad either way: about as far as the layers
+/// leave it.
 const ASKEW: f64 = 6.0 * core::f64::consts::PI / 180.0;
 
 /// Costs count as settled when a sweep changes none by more than this, time steps.
@@ -73,8 +74,9 @@ impl Chances {
         Ok(())
     }
 
-    /// Returns the least expected steps to the destination by node and first action, by value iteration in place. O(sweeps ·
-    /// nodes · [`SAMPLES`]); sweeps are about as many as actions on the longest way.
+    /// Returns the least expected steps to the destination by node and first action, by value
+    /// iteration in place. O(sweeps · nodes · [`SAMPLES`]); sweeps are about as many as actions on
+    /// the longest way.
     pub(super) fn costs(mut self, lattice: &Lattice) -> Vec<Costs> {
         let mut costs = vec![[HOPELESS; 4]; lattice.node_count()];
         self.forget_gaps(lattice);
@@ -100,7 +102,8 @@ impl Chances {
         costs
     }
 
-    /// Leaves out what ended at a node where no sample could stand: it says nothing of what comes then.
+    /// Leaves out what ended at a node where no sample could stand: it says nothing of what comes
+    /// then.
     fn forget_gaps(&mut self, lattice: &Lattice) {
         let mut known = vec![false; lattice.node_count()];
         for node in &self.nodes {

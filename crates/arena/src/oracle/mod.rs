@@ -1,8 +1,8 @@
 //! The ceilings: minds that know the maze, and are measured by it.
 //!
-//! An [`Oracle`] is shown the truth and follows a [`Policy`]. An [`UnlocalizedOracle`] lives on what its robot senses,
-//! like every brain, but has a [`PlaceViews`] of what it would see everywhere. Neither is a competitor: they say what
-//! the same body and the same layers allow.
+//! An [`Oracle`] is shown the truth and follows a [`Policy`]. An [`UnlocalizedOracle`] lives on
+//! what its robot senses, like every brain, but has a [`PlaceViews`] of what it would see
+//! everywhere. Neither is a competitor: they say what the same body and the same layers allow.
 
 mod chances;
 mod policy;
@@ -45,11 +45,11 @@ fn noisy_robot(
     Ok(Solo::new(course.world.clone(), model, somewhere, 0)?)
 }
 
-/// The ceiling: knows the maze and its true pose and plans anew at every action, with the same body and
-/// the same layers as everyone else. Not in the paper.
+/// The ceiling: knows the maze and its true pose and plans anew at every action, with the same body
+/// and the same layers as everyone else. Not in the paper.
 ///
-/// Its [`Policy`] says what each action is expected to cost in time steps from about where the robot is. An action
-/// that has just failed there is not tried again before the robot has moved.
+/// Its [`Policy`] says what each action is expected to cost in time steps from about where the
+/// robot is. An action that has just failed there is not tried again before the robot has moved.
 #[derive(Clone, Debug)]
 pub struct Oracle {
     policy: Arc<Policy>,
@@ -66,8 +66,8 @@ impl Oracle {
         }
     }
 
-    /// Returns the next action of a robot at `pose`. `last` is the action before and how it ended, if there was
-    /// one.
+    /// Returns the next action of a robot at `pose`. `last` is the action before and how it ended,
+    /// if there was one.
     pub fn choose(&mut self, pose: Pose, last: Option<(Direction, Outcome)>) -> Direction {
         match last {
             Some((action, outcome)) if !outcome.moved() => self.failed.push(action),

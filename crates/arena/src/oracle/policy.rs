@@ -10,16 +10,18 @@ use crate::episode_error::EpisodeError;
 
 /// What every action costs, in time steps to the destination, from every place of a course.
 ///
-/// Places are a lattice of positions, each with the two axes a robot can face along. The robot itself carries out
-/// every action there eight times, with its own layers and its own noise, from about the position and about the
-/// axis; where it ended, how long it took and whether it failed are the chances that the plan reckons with. Value iteration
-/// does the rest (Bellman 1957): the costs are expected ones, those of the best plan for a robot that may miss, with an action that
-/// has just failed not tried again at once. Exact but for the rounding of where actions end to the lattice and
-/// the number of samples.
+/// Places are a lattice of positions, each with the two axes a robot can face along. The robot
+/// itself carries out every action there eight times, with its own layers and its own noise, from
+/// about the position and about the axis; where it ended, how long it took and whether it failed
+/// are the chances that the plan reckons with. Value iteration does the rest (Bellman 1957): the
+/// costs are expected ones, those of the best plan for a robot that may miss, with an action that
+/// has just failed not tried again at once. Exact but for the rounding of where actions end to the
+/// lattice and the number of samples.
 #[derive(Clone, Debug)]
 pub struct Policy {
     lattice: Lattice,
-    /// For each node and action, the expected steps from there to the destination that begin with the action.
+    /// For each node and action, the expected steps from there to the destination that begin with
+    /// the action.
     costs: Vec<Costs>,
     /// For each node and action, the node it leads to without noise; none where it fails.
     ends: Vec<[Option<u32>; 4]>,
@@ -28,19 +30,20 @@ pub struct Policy {
 /// Positions of the lattice per corridor width.
 const POSITIONS: f64 = 8.0;
 
-/// The furthest that positions may lie apart, m: half a robot's radius, so that every action leads to
-/// another one.
+/// The furthest that positions may lie apart, m: half a robot's radius, so that every action leads
+/// to another one.
 const COARSEST: f64 = 0.125;
 
 /// What fits a few hundred megabytes and a few minutes.
 const MOST_NODES: usize = 2_000_000;
 
 impl Policy {
-    /// Works out the policy of a course, on eight positions per corridor width or more. Every node is
-    /// simulated 36 times: about 10 µs each, and a node per axis and position.
+    /// Works out the policy of a course, on eight positions per corridor width or more. Every node
+    /// is simulated 36 times: about 10 µs each, and a node per axis and position.
     ///
     /// # Errors
-    /// When the course is a free world, the robot cannot be built for it, or the course needs more than two million nodes.
+    /// When the course is a free world, the robot cannot be built for it, or the course needs more
+    /// than two million nodes.
     pub fn new(course: &Course, robot: &LaserPioneerConfig) -> Result<Self, EpisodeError> {
         course.needs_maze("the oracle")?;
         let lattice = Lattice::new(course, (course.corridor_width / POSITIONS).min(COARSEST));
@@ -77,8 +80,8 @@ impl Policy {
         })
     }
 
-    /// Returns the expected steps to the destination from about `pose`, by the action they begin with; infinite where it would
-    /// not lead there.
+    /// Returns the expected steps to the destination from about `pose`, by the action they begin
+    /// with; infinite where it would not lead there.
     #[must_use]
     pub fn costs(&self, pose: Pose) -> [f64; 4] {
         self.costs[self.lattice.nearest(pose) as usize]

@@ -14,13 +14,14 @@ use super::{Oracle, Policy, perfect_robot};
 use crate::course::Course;
 use crate::episode_error::{EpisodeError, step_failed};
 
-/// The ceiling for those who start they know not where: it has the true map, and finds out where it is by a
-/// Bayes filter over all positions; then it does what the [`Oracle`] would do at the most likely one.
-/// Not in the paper.
+/// The ceiling for those who start they know not where: it has the true map, and finds out where it
+/// is by a Bayes filter over all positions; then it does what the [`Oracle`] would do at the most
+/// likely one. Not in the paper.
 ///
-/// The filter is exact on the positions of the policy's lattice. Heading is what the compass says. A completed
-/// action moves each position as the policy's noise-free robot moved, spread along the direction of travel;
-/// an action of other outcome than that robot's is held to be unlikely, not impossible.
+/// The filter is exact on the positions of the policy's lattice. Heading is what the compass says.
+/// A completed action moves each position as the policy's noise-free robot moved, spread along the
+/// direction of travel; an action of other outcome than that robot's is held to be unlikely, not
+/// impossible.
 #[derive(Clone, Debug)]
 pub struct UnlocalizedOracle {
     chart: Arc<PlaceViews>,

@@ -70,7 +70,8 @@ proptest! {
             let mut rng = rng.clone();
             let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, reckoning);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-            // How many fragments it has walked when it has walked all, whether it knows that or not.
+            // How many fragments it has walked when it has walked all, whether it knows that or
+            // not.
             let mut walked = BTreeSet::new();
             let mut until_all = 0;
             let done = rover.pursue(&mut explorer, Aim::Explore, &mut rng, |rover, explorer, _, _| {
@@ -217,8 +218,9 @@ fn a_large_maze_needs_few_comparisons() {
     assert_eq!(explore(Candidates::Best(3)), all);
 }
 
-/// Patterns learned on the way: "the robot … is expected to be capable of deciding if the current path-fragment is best represented by the
-/// existed CP, or if a new CP is best added." What was written before stays valid.
+/// Patterns learned on the way: "the robot … is expected to be capable of deciding if the current
+/// path-fragment is best represented by the existed CP, or if a new CP is best added." What was
+/// written before stays valid.
 #[test]
 fn patterns_are_learned_while_mapping() {
     for seed in 0..10 {

@@ -307,7 +307,8 @@ fn bad_input_is_refused() {
     assert!((localizer.maps().iter().sum::<f64>() - 1.0).abs() < 1e-9);
 }
 
-/// The fourth layer: paths of several environments in one memory, each recalled as a whole from one of its fragments.
+/// The fourth layer: paths of several environments in one memory, each recalled as a whole from one
+/// of its fragments.
 #[test]
 fn one_sequence_recalls_its_path_and_environment() {
     let noise = WalkerNoise {
@@ -372,7 +373,8 @@ fn one_sequence_recalls_its_path_and_environment() {
     assert!(100 * right >= 95 * all, "{right} of {all}");
 }
 
-/// Two corridors that end alike and begin differently: what lies behind tells which of them it is, and which way the robot goes then.
+/// Two corridors that end alike and begin differently: what lies behind tells which of them it is,
+/// and which way the robot goes then.
 #[test]
 fn who_turns_round_knows_by_the_other_end() {
     let mut dictionary = Dictionary::new(1);

@@ -30,7 +30,8 @@ fn sightings(world: &PlaneMaze, noise: WalkerNoise, rng: &mut ChaCha8Rng) -> Vec
     seen
 }
 
-/// The area under the ROC curve: how often a pair of one corridor is more similar than a pair of two.
+/// The area under the ROC curve: how often a pair of one corridor is more similar than a pair of
+/// two.
 fn auc(matching: &FragmentMatching, dictionary: &Dictionary, seen: &[Seen]) -> f64 {
     let (mut same, mut other) = (Vec::new(), Vec::new());
     for (i, (corridor, patterns)) in seen.iter().enumerate() {

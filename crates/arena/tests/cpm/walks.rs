@@ -50,8 +50,8 @@ fn end(fragment: u32, sign: Sign) -> End {
     }
 }
 
-/// Figure 1: A → B → C → D → A closes a loop round a junction of four ports, B between two, C round the corner, D from
-/// a third; the drawing gives Δ_AB, Δ_BC, Δ_CD, Δ_DA, reasoning the rest.
+/// Figure 1: A → B → C → D → A closes a loop round a junction of four ports, B between two, C round
+/// the corner, D from a third; the drawing gives Δ_AB, Δ_BC, Δ_CD, Δ_DA, reasoning the rest.
 #[test]
 fn figure_1() {
     use Sign::{Minus, Plus};
@@ -121,8 +121,9 @@ fn figure_1() {
     assert!(!explorer.mapper.map().is_complete());
 }
 
-/// The environment of figure 10, as far as its walk and its text tell: A1 from P to Q, A2 from Q to R, A3 from R to S, A4 from S back to Q;
-/// X2 leads from R to the goal, X3 from S to a junction T, from which X4 and X5 lead to P.
+/// The environment of figure 10, as far as its walk and its text tell: A1 from P to Q, A2 from Q to
+/// R, A3 from R to S, A4 from S back to Q; X2 leads from R to the goal, X3 from S to a junction T,
+/// from which X4 and X5 lead to P.
 fn figure_10_world() -> PlaneMaze {
     let mut drawing = WorldBuilder::new(dictionary());
     let place = |x: f64, y: f64| Point::new(x, y);
@@ -203,14 +204,15 @@ fn figure_10() {
         MapUpdate::Duplicate
     );
     assert_eq!(explorer.mapper.before_duplicate(), Some(4));
-    // (b) "Connects path-fragment A4 to junc(A1⁺) = junc(A2⁻) and localizes itself at the path-fragment A2 where it is going to make a
-    // decision at junc(A2⁺)."
+    // (b) "Connects path-fragment A4 to junc(A1⁺) = junc(A2⁻) and localizes itself at the
+    // path-fragment A2 where it is going to make a decision at junc(A2⁺)."
     let [a1, a2, a3, a4] =
         [0, 1, 2, 3].map(|id| explorer.mapper.map().fragment(FragmentId(id)).unwrap());
     assert_eq!(a4.plus.junction, a1.plus.junction);
     assert_eq!(a2.minus.junction, a1.plus.junction);
     assert_eq!(explorer.mapper.at(), a2.plus);
-    // What is unexplored: X1 at junc(A1⁻), which is two ports here; X2 at junc(A2⁺); X3 at junc(A3⁺).
+    // What is unexplored: X1 at junc(A1⁻), which is two ports here; X2 at junc(A2⁺); X3 at
+    // junc(A3⁺).
     let open: Vec<_> = explorer
         .mapper
         .map()
@@ -219,7 +221,8 @@ fn figure_10() {
         .collect();
     let [x1, x2, x3] = [a1.minus.junction, a2.plus.junction, a3.plus.junction];
     assert_eq!(open, [x1, x1, x2, x3]);
-    // "We let the robot move forward": X2 is all that is unknown here; A3 "is not available as a choice".
+    // "We let the robot move forward": X2 is all that is unknown here; A3 "is not available as a
+    // choice".
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let JunctionDecision::Go(leg) = explorer.decide(Aim::Find(Landmark::Goal), &mut rng) else {
         panic!("there is more to explore");
@@ -261,8 +264,9 @@ fn figure_10() {
     );
 }
 
-/// Figure 8: an unlucky first episode goes round and round; the optimized map has each fragment once, and the second episode a
-/// short way, which leads along fragments that were walked the other way only.
+/// Figure 8: an unlucky first episode goes round and round; the optimized map has each fragment
+/// once, and the second episode a short way, which leads along fragments that were walked the other
+/// way only.
 #[test]
 fn figure_8() {
     let world = figure_10_world();
@@ -303,7 +307,8 @@ fn figure_8() {
     assert_eq!(rover.sighting().landmark, Some(Landmark::Goal));
 }
 
-/// "It continues forward until reaching a junction that has some remaining unknown ports" can go round for long.
+/// "It continues forward until reaching a junction that has some remaining unknown ports" can go
+/// round for long.
 #[test]
 fn to_go_on_takes_longer_than_the_shortest_known_way() {
     let world = figure_10_world();
@@ -325,8 +330,9 @@ fn to_go_on_takes_longer_than_the_shortest_known_way() {
     assert!(on > 1.1 * way, "{on} and {way}");
 }
 
-/// From a dead end along A to a fork, out of which B leads round to itself. Two walks along B that differ by three observations of 25 are less
-/// similar than μ and stay two; A walked from both their ends shows that they are one.
+/// From a dead end along A to a fork, out of which B leads round to itself. Two walks along B that
+/// differ by three observations of 25 are less similar than μ and stay two; A walked from both
+/// their ends shows that they are one.
 #[test]
 fn what_is_missing_to_mu_others_make_up_for() {
     let dictionary = dictionary();

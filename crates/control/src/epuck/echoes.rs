@@ -3,9 +3,11 @@ use tolman_robot::epuck::{PROXIMITY_SENSORS, proximity_mounts};
 
 use super::RangeCurve;
 
-/// What the eight proximity sensors meet right now: a point each in the robot's frame, m, or nothing within reach.
+/// What the eight proximity sensors meet right now: a point each in the robot's frame, m, or
+/// nothing within reach.
 ///
-/// The sensors are numbered as [`proximity_mounts`]: 0 and 7 look ahead, 1 and 6 half aside, 2 and 5 aside.
+/// The sensors are numbered as [`proximity_mounts`]: 0 and 7 look ahead, 1 and 6 half aside, 2 and
+/// 5 aside.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Echoes {
     points: [Option<Point>; PROXIMITY_SENSORS],
@@ -37,7 +39,8 @@ impl Echoes {
         self.points.iter().copied().flatten()
     }
 
-    /// How much room is straight ahead of the robot's middle, m; none if neither sensor that looks ahead meets anything.
+    /// How much room is straight ahead of the robot's middle, m; none if neither sensor that looks
+    /// ahead meets anything.
     #[must_use]
     pub fn ahead(&self) -> Option<f64> {
         let ahead = [0, 7]

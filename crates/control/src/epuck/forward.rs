@@ -2,17 +2,21 @@ use tolman_geom::{Point, Twist};
 
 use super::Echoes;
 
-/// Layer 1: drives forward along the path (section 3.2), in the middle of the corridor and round its bends.
+/// Layer 1: drives forward along the path (section 3.2), in the middle of the corridor and round
+/// its bends.
 ///
-/// It keeps to the middle of the walls beside it, or at half a corridor's width from the one it sees; where it does not see along a wall, as
-/// beside a fork, it goes by how far it has turned since it did. Where a wall stands across the way, it turns on the spot to the side with more room, and keeps to that side
-/// until the way ahead is free. It knows no junctions: those are layer 3's.
+/// It keeps to the middle of the walls beside it, or at half a corridor's width from the one it
+/// sees; where it does not see along a wall, as beside a fork, it goes by how far it has turned
+/// since it did. Where a wall stands across the way, it turns on the spot to the side with more
+/// room, and keeps to that side until the way ahead is free. It knows no junctions: those are layer
+/// 3's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forward {
     config: ForwardConfig,
     /// The side of the bend it is turning in.
     bend: Option<Side>,
-    /// The direction of the way in the robot's frame, rad: that of the walls when it last saw along one, turned as the robot has turned since.
+    /// The direction of the way in the robot's frame, rad: that of the walls when it last saw along
+    /// one, turned as the robot has turned since.
     way: f64,
 }
 
@@ -51,7 +55,8 @@ pub struct ForwardConfig {
 }
 
 impl ForwardConfig {
-    /// For corridors of this width, m: 4.5 cm/s, so that half a second takes the robot on by 2 cm, and gains that bring the robot back to the middle without a swing.
+    /// For corridors of this width, m: 4.5 cm/s, so that half a second takes the robot on by 2 cm,
+    /// and gains that bring the robot back to the middle without a swing.
     #[must_use]
     pub const fn for_width(width: f64) -> Self {
         Self {
@@ -89,7 +94,8 @@ impl Forward {
         self.way = 0.0;
     }
 
-    /// The robot has turned by so many radians, counter-clockwise, since the last [proposal](Self::propose).
+    /// The robot has turned by so many radians, counter-clockwise, since the last
+    /// [proposal](Self::propose).
     pub const fn turned(&mut self, radians: f64) {
         self.way -= radians;
     }
@@ -148,8 +154,8 @@ impl Forward {
             .into_iter()
             .flatten()
             .fold((0.0, 0.0), |(sum, count), angle| (sum + angle, count + 1.0));
-        // A wall that ends ahead says how far off the middle the robot is, but not where it heads. What is turned by that alone swings, and
-        // turned robots into the ways of forks.
+        // A wall that ends ahead says how far off the middle the robot is, but not where it heads.
+        // What is turned by that alone swings, and turned robots into the ways of forks.
         if count > 0.0 {
             self.way = sum / count;
         }
@@ -182,7 +188,8 @@ mod tests {
 
     const WIDTH: f64 = 0.25;
 
-    /// What it senses 3 cm off the middle to the right, where the wall on the left ends so far ahead.
+    /// What it senses 3 cm off the middle to the right, where the wall on the left ends so far
+    /// ahead.
     fn beside_a_wall(ahead: f64) -> Echoes {
         let curve = RangeCurve::new(alloc::vec![(0.0, 1.0), (0.25, 0.0)]).unwrap();
         let to_wall = WIDTH / 2.0 + 0.03;

@@ -15,10 +15,12 @@ pub struct Pilot<R> {
     forward: Forward,
 }
 
-/// The least turn that the real robot's encoders tell, rad: each wheel by a step, against the other.
+/// The least turn that the real robot's encoders tell, rad: each wheel by a step, against the
+/// other.
 pub const TURN_STEP: f64 = 2.0 * ENCODER_STEP * WHEEL_RADIUS / TRACK;
 
-/// Encoders that count whole steps may tell nothing of so many time steps of a slow turn, or before the motors have begun.
+/// Encoders that count whole steps may tell nothing of so many time steps of a slow turn, or before
+/// the motors have begun.
 const PATIENCE: u32 = 10;
 
 /// What a pilot holds to.
@@ -38,14 +40,16 @@ pub struct PilotConfig {
         serde(deserialize_with = "crate::read::at_least_one")
     )]
     pub samples: u32,
-    /// How fast the robot turns in a sweep, rad/s. The paper says 2π, the wheels give 4.9; the real robot had 3π/5.
+    /// How fast the robot turns in a sweep, rad/s. The paper says 2π, the wheels give 4.9; the real
+    /// robot had 3π/5.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub sweep_speed: f64,
     /// How fast the wheels are told to turn at most, rad/s: what they can, 6.28.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub most_wheel_speed: f64,
-    /// How far a turn may end from where it should, rad: no less than the encoders can tell, [`TURN_STEP`] on the real robot, next to
-    /// nothing where they are exact. What is left of a sample's turn is made up for by the next.
+    /// How far a turn may end from where it should, rad: no less than the encoders can tell,
+    /// [`TURN_STEP`] on the real robot, next to nothing where they are exact. What is left of a
+    /// sample's turn is made up for by the next.
     #[cfg_attr(
         feature = "serde",
         serde(deserialize_with = "crate::read::at_least_zero")
@@ -98,7 +102,8 @@ where
         self.echoes().ok()?.ahead()
     }
 
-    /// Whether walls stand ahead and on both sides, none farther than this from the middle of the robot, m.
+    /// Whether walls stand ahead and on both sides, none farther than this from the middle of the
+    /// robot, m.
     pub fn is_enclosed(&self, within: f64) -> bool {
         let Ok(echoes) = self.echoes() else {
             return false;
@@ -116,7 +121,8 @@ where
         &self.config
     }
 
-    /// Turns once round on the spot, counter-clockwise, and reads all sensors at every sample's bearing (section 4.1).
+    /// Turns once round on the spot, counter-clockwise, and reads all sensors at every sample's
+    /// bearing (section 4.1).
     ///
     /// # Errors
     /// If the robot fails, or its wheels do not say how far they turned.
@@ -135,8 +141,9 @@ where
         Ok(sweep)
     }
 
-    /// Drives forward along the path for about so many seconds: layer 1 proposes, layer 0 corrects. What layer 1 turns on the spot in a bend is
-    /// not forward and does not count, up to ten times as long.
+    /// Drives forward along the path for about so many seconds: layer 1 proposes, layer 0 corrects.
+    /// What layer 1 turns on the spot in a bend is not forward and does not count, up to ten times
+    /// as long.
     ///
     /// # Errors
     /// If the robot fails, or its proximity sensors give nothing.
@@ -157,8 +164,8 @@ where
         Ok(())
     }
 
-    /// Stands still for a time step, so that the sensors tell what is round the robot now: when it was carried elsewhere, they still tell of
-    /// where it stood before.
+    /// Stands still for a time step, so that the sensors tell what is round the robot now: when it
+    /// was carried elsewhere, they still tell of where it stood before.
     ///
     /// # Errors
     /// If the robot fails.
@@ -175,8 +182,8 @@ where
         self.turn_on(radians, self.config.sweep_speed).map(|_| ())
     }
 
-    /// Drives straight to a point of its own frame, m, ahead or backward, whichever needs the smaller turn, as far as layer 0 lets it; then
-    /// looks again where it looked before.
+    /// Drives straight to a point of its own frame, m, ahead or backward, whichever needs the
+    /// smaller turn, as far as layer 0 lets it; then looks again where it looked before.
     ///
     /// # Errors
     /// If the robot fails, or its sensors give nothing.

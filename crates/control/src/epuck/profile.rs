@@ -7,9 +7,11 @@ use tolman_robot::epuck::{PROXIMITY_SENSORS, proximity_mounts};
 
 use super::{RangeCurve, Sweep};
 
-/// What is round the robot: one value for each bearing, the mean over all sensors of a [`Sweep`]; the larger the nearer.
+/// What is round the robot: one value for each bearing, the mean over all sensors of a [`Sweep`];
+/// the larger the nearer.
 ///
-/// Value *k* of *n* belongs to the bearing *k* · 360°/*n*, counter-clockwise from ahead. The last is the neighbour of the first.
+/// Value *k* of *n* belongs to the bearing *k* · 360°/*n*, counter-clockwise from ahead. The last
+/// is the neighbour of the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     values: Vec<f64>,
@@ -29,10 +31,12 @@ pub(super) enum Met {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum SensorAlignment {
-    /// Each sensor's vector is turned by the angle it is mounted at first, so that one bearing is averaged with itself.
+    /// Each sensor's vector is turned by the angle it is mounted at first, so that one bearing is
+    /// averaged with itself.
     #[default]
     Mounts,
-    /// Sample by sample as the paper says ("these vectors are reduced to one single vector by averaging"), which mixes eight bearings.
+    /// Sample by sample as the paper says ("these vectors are reduced to one single vector by
+    /// averaging"), which mixes eight bearings.
     Literal,
 }
 
@@ -59,7 +63,8 @@ impl Profile {
                 if !value.is_finite() {
                     return Err(ProfileError::NotFinite { sensor, index });
                 }
-                // A sample belongs to the two bearings beside its own, to each the more the nearer it is.
+                // A sample belongs to the two bearings beside its own, to each the more the nearer
+                // it is.
                 let bearing = (index as f64 + shifts[sensor] + count as f64) % count as f64;
                 let (below, share) = (libm::floor(bearing), bearing - libm::floor(bearing));
                 for (at, weight) in [(below, 1.0 - share), (below + 1.0, share)] {
@@ -107,7 +112,8 @@ impl Profile {
         Self { values }
     }
 
-    /// What is met at every bearing, in the robot's frame, m; where nothing is met, the farthest point that could be.
+    /// What is met at every bearing, in the robot's frame, m; where nothing is met, the farthest
+    /// point that could be.
     pub(super) fn echoes(&self, curve: &RangeCurve) -> impl Iterator<Item = (Point, Met)> + '_ {
         // The sensors sit on a circle.
         let mounts = proximity_mounts();
@@ -130,8 +136,9 @@ impl Profile {
         })
     }
 
-    /// How far the walls are turned out of the robot's axes, rad, from -π/4 to π/4, where walls stand at right angles to each other: a
-    /// heading without drift for mazes of cells. None if too few walls are near.
+    /// How far the walls are turned out of the robot's axes, rad, from -π/4 to π/4, where walls
+    /// stand at right angles to each other: a heading without drift for mazes of cells. None if too
+    /// few walls are near.
     #[must_use]
     pub fn askew(&self, curve: &RangeCurve) -> Option<f64> {
         let points: Vec<(Point, Met)> = self.echoes(curve).collect();

@@ -2,7 +2,8 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
-/// How far a surface is, by the raw value of a proximity sensor: straight lines between measured points, nearest first.
+/// How far a surface is, by the raw value of a proximity sensor: straight lines between measured
+/// points, nearest first.
 ///
 /// ```
 /// use tolman_control::epuck::RangeCurve;
@@ -38,7 +39,8 @@ const CPM: [(f64, f64); 10] = [
 ];
 
 impl RangeCurve {
-    /// Returns the curve of CPM's simulated e-puck, which sees 25 cm. The thresholds of its layers are meant for it.
+    /// Returns the curve of CPM's simulated e-puck, which sees 25 cm. The thresholds of its layers
+    /// are meant for it.
     #[must_use]
     pub fn cpm() -> Self {
         Self {
@@ -49,7 +51,8 @@ impl RangeCurve {
     /// A curve through points of a range, m, and the value read there.
     ///
     /// # Errors
-    /// If there are fewer than two points, a number is not finite, ranges do not grow or values do not fall.
+    /// If there are fewer than two points, a number is not finite, ranges do not grow or values do
+    /// not fall.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, RangeCurveError> {
         if points.len() < 2 {
             return Err(RangeCurveError::TooFew {
@@ -69,7 +72,8 @@ impl RangeCurve {
         Ok(Self { points })
     }
 
-    /// The range of what reads `value`, m; none at or below the value of the farthest point, which is also read where nothing is near.
+    /// The range of what reads `value`, m; none at or below the value of the farthest point, which
+    /// is also read where nothing is near.
     #[must_use]
     pub fn range(&self, value: f64) -> Option<f64> {
         let far = self.points.partition_point(|(_, at)| *at > value);

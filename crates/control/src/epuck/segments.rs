@@ -4,14 +4,16 @@ use thiserror::Error;
 
 use super::Profile;
 
-/// Elements of a [`feature`](Segments::feature): the means of up to ten segments, and the landmark (section 4.1).
+/// Elements of a [`feature`](Segments::feature): the means of up to ten segments, and the landmark
+/// (section 4.1).
 pub const FEATURES: usize = 11;
 
 /// The parts of a [`Profile`] between the places where it changes (section 4.1).
 ///
-/// The profile is cyclic. The first segment is the way by which the robot came, the one nearest to behind it that is lower than its neighbours; the others follow
-/// counter-clockwise. So a place has the same feature whichever way the robot looks in a bend, and a bend to the left another than one to
-/// the right. Where there is none, the first segment is the one behind.
+/// The profile is cyclic. The first segment is the way by which the robot came, the one nearest to
+/// behind it that is lower than its neighbours; the others follow counter-clockwise. So a place has
+/// the same feature whichever way the robot looks in a bend, and a bend to the left another than
+/// one to the right. Where there is none, the first segment is the one behind.
 ///
 /// ```
 /// use tolman_control::epuck::{PlaceKind, Profile, SegmentConfig};
@@ -46,34 +48,37 @@ pub struct Segment {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SegmentConfig {
-    /// δ: over how many samples a change is averaged, at least 1. The paper calls it the estimated error and gives no value.
+    /// δ: over how many samples a change is averaged, at least 1. The paper calls it the estimated
+    /// error and gives no value.
     #[cfg_attr(
         feature = "serde",
         serde(deserialize_with = "crate::read::at_least_one")
     )]
     pub window: u32,
-    /// Raw values are cut to this before steps between them are taken, so that the sharp edge of a near wall does not hide all other
-    /// boundaries. The paper cuts nothing, which is `f64::INFINITY`.
+    /// Raw values are cut to this before steps between them are taken, so that the sharp edge of a
+    /// near wall does not hide all other boundaries. The paper cuts nothing, which is
+    /// `f64::INFINITY`.
     #[cfg_attr(
         feature = "serde",
         serde(deserialize_with = "crate::read::positive_or_infinite")
     )]
     pub ceiling: f64,
-    /// A segment whose mean lies below this raw value is a space: a way on. The paper gives no value.
+    /// A segment whose mean lies below this raw value is a space: a way on. The paper gives no
+    /// value.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub space_below: f64,
-    /// Fewer samples than this are no space but the foot of a wall's edge, or a gap between walls far away. The paper says nothing of it,
-    /// which is 1.
+    /// Fewer samples than this are no space but the foot of a wall's edge, or a gap between walls
+    /// far away. The paper says nothing of it, which is 1.
     pub narrowest_space: u32,
-    /// Neighbouring segments whose means lie both below this, or both not, are made one, so that ways and walls alternate. The paper joins
-    /// none, which is 0.
+    /// Neighbouring segments whose means lie both below this, or both not, are made one, so that
+    /// ways and walls alternate. The paper joins none, which is 0.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub way_below: f64,
 }
 
 impl SegmentConfig {
-    /// The paper's to the letter, with ours where it is silent: δ = 5; a space reads less than 12 on average, as nothing within
-    /// 23 cm does.
+    /// The paper's to the letter, with ours where it is silent: δ = 5; a space reads less than 12
+    /// on average, as nothing within 23 cm does.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -85,8 +90,9 @@ impl SegmentConfig {
         }
     }
 
-    /// The paper's, with values above 60 cut, which are those of walls within 17 cm, and spaces of four samples of 100 at least: through less the
-    /// robot does not fit at the end of its sensors' reach.
+    /// The paper's, with values above 60 cut, which are those of walls within 17 cm, and spaces of
+    /// four samples of 100 at least: through less the robot does not fit at the end of its sensors'
+    /// reach.
     #[must_use]
     pub const fn cut() -> Self {
         Self {
@@ -96,8 +102,8 @@ impl SegmentConfig {
         }
     }
 
-    /// As [`cut`](Self::cut), with ways and walls joined: for features, which then say how much wall is on either side of a path, wherever
-    /// the robot looks.
+    /// As [`cut`](Self::cut), with ways and walls joined: for features, which then say how much
+    /// wall is on either side of a path, wherever the robot looks.
     #[must_use]
     pub const fn joined() -> Self {
         Self {
@@ -121,9 +127,10 @@ pub enum PlaceKind {
 }
 
 impl Profile {
-    /// Segments it: a value is where it changes if the mean of the steps to the δ values after it exceeds (S_max + S_min)/2, the
-    /// middle between the largest and the smallest step from one value to the next. Neighbouring such values are one boundary; what
-    /// lies between two boundaries is a segment.
+    /// Segments it: a value is where it changes if the mean of the steps to the δ values after it
+    /// exceeds (S_max + S_min)/2, the middle between the largest and the smallest step from one
+    /// value to the next. Neighbouring such values are one boundary; what lies between two
+    /// boundaries is a segment.
     ///
     /// # Errors
     /// If the window is empty or longer than the profile.
@@ -168,7 +175,8 @@ impl Profile {
                 samples: part.length as u32,
             })
             .collect();
-        // A way on that is all but hidden behind a bend is no space, but still lower than what is beside it.
+        // A way on that is all but hidden behind a bend is no space, but still lower than what is
+        // beside it.
         let found = segments.len();
         let mean = |index: usize| segments[index % found].mean;
         let valleys = (0..found).filter(|index| {
@@ -185,7 +193,8 @@ impl Profile {
     }
 }
 
-/// A segment as it grows: its values may have boundaries between them, which count for its extent alone.
+/// A segment as it grows: its values may have boundaries between them, which count for its extent
+/// alone.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     start: usize,
@@ -228,7 +237,8 @@ fn merge(parts: &mut Vec<Part>, count: usize, way_below: f64) {
     }
 }
 
-/// Start and length of the cyclic runs of values that do not change. The first is the one that holds `origin`, or else the next.
+/// Start and length of the cyclic runs of values that do not change. The first is the one that
+/// holds `origin`, or else the next.
 fn runs(changes: &[bool], origin: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
     let count = changes.len();
     let quiet = move |index: usize| !changes[index % count];
@@ -258,8 +268,8 @@ impl Segments {
         &self.segments
     }
 
-    /// The bearings of the spaces, rad: the branches of a junction, counter-clockwise from the one by which the robot came, that nearest to
-    /// behind.
+    /// The bearings of the spaces, rad: the branches of a junction, counter-clockwise from the one
+    /// by which the robot came, that nearest to behind.
     pub fn spaces(&self) -> impl Iterator<Item = f64> + '_ {
         let spaces = || {
             let below = self.segments.iter().filter(|segment| {
@@ -275,7 +285,8 @@ impl Segments {
         spaces().skip(first).chain(spaces().take(first))
     }
 
-    /// How many ways lead on, those that are half hidden among them, where ways and walls alternate.
+    /// How many ways lead on, those that are half hidden among them, where ways and walls
+    /// alternate.
     #[must_use]
     pub fn ways(&self) -> usize {
         self.segments
@@ -295,10 +306,12 @@ impl Segments {
         }
     }
 
-    /// The input of SOINN: the means, filled up to ten with zeros, and what is known of a landmark here (0 for none).
+    /// The input of SOINN: the means, filled up to ten with zeros, and what is known of a landmark
+    /// here (0 for none).
     ///
     /// # Errors
-    /// If there are more than ten segments: "the vector's size might be more than ten if the junction size is larger than five ways".
+    /// If there are more than ten segments: "the vector's size might be more than ten if the
+    /// junction size is larger than five ways".
     pub fn feature(&self, landmark: f64) -> Result<[f64; FEATURES], SegmentError> {
         let most = FEATURES - 1;
         if self.segments.len() > most {

@@ -1,12 +1,15 @@
-//! A robot with range sensors that drives straight on until something is near, and then turns elsewhere.
+//! A robot with range sensors that drives straight on until something is near, and then turns
+//! elsewhere.
 //!
-//! Goldhoorn, Stadman, Eldering: "Implementation of a Simultaneous Localization and Mapping system using Growing Neural Gas",
-//! section 3.2. In the order data flows:
+//! Goldhoorn, Stadman, Eldering: "Implementation of a Simultaneous Localization and Mapping system
+//! using Growing Neural Gas", section 3.2. In the order data flows:
 //!
 //! 1. [`RunningMean`]: the mean of the last three readings of each sensor, as noise is coped with.
-//! 2. [`GoAhead`], the top layer: straight on. [`StopNear`] corrects it: nothing nearer than its threshold, which depends on
-//!    where the sensor looks. [`StopAtBump`] corrects both: what no sensor heard has been touched.
-//! 3. [`UntilNear`]: carries that out on a [`Robot`](tolman_robot::Robot), and turns it to where the way is clear, or by an angle.
+//! 2. [`GoAhead`], the top layer: straight on. [`StopNear`] corrects it: nothing nearer than its
+//!    threshold, which depends on where the sensor looks. [`StopAtBump`] corrects both: what no
+//!    sensor heard has been touched.
+//! 3. [`UntilNear`]: carries that out on a [`Robot`](tolman_robot::Robot), and turns it to where
+//!    the way is clear, or by an angle.
 //!
 //! Where to turn is the business of whoever drives.
 

@@ -5,7 +5,8 @@ use tolman_robot::{Sounding, Soundings};
 /// Over how many readings the mean is taken. Paper: 3.
 const READINGS: usize = 3;
 
-/// The mean of the last three readings of each range sensor (section 3.2), or of as many as there were.
+/// The mean of the last three readings of each range sensor (section 3.2), or of as many as there
+/// were.
 #[derive(Clone, Debug, Default)]
 pub struct RunningMean {
     sensors: Vec<Recent>,

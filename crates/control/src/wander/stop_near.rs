@@ -2,8 +2,8 @@ use tolman_robot::Soundings;
 
 use super::{LegEnd, LegStep, NearLimits, RunningMean};
 
-/// The layer that stops before what is near: "near collision" is where the running mean of a sensor falls below its threshold
-/// (section 3.2).
+/// The layer that stops before what is near: "near collision" is where the running mean of a sensor
+/// falls below its threshold (section 3.2).
 #[derive(Clone, Debug)]
 pub struct StopNear {
     limits: NearLimits,

@@ -12,8 +12,8 @@ use super::{GoAhead, LegEnd, LegStep, NearLimits, StopAtBump, StopNear};
 pub struct UntilNearConfig {
     /// How near things may come.
     pub limits: NearLimits,
-    /// How much farther than its limit all must be where the way is clear: a factor of at least 1. Ours: 1.25, so that a leg does
-    /// not end where it began.
+    /// How much farther than its limit all must be where the way is clear: a factor of at least 1.
+    /// Ours: 1.25, so that a leg does not end where it began.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub margin: f64,
     /// Fraction of the full speed driven at, 0 … 1.
@@ -37,8 +37,8 @@ pub struct UntilNearConfig {
 }
 
 impl UntilNearConfig {
-    /// The paper's thresholds, on a robot that turns by some 0.2 rad and drives some 0.04 m in a time step at full rate. The
-    /// paper gives no speeds and no bounds.
+    /// The paper's thresholds, on a robot that turns by some 0.2 rad and drives some 0.04 m in a
+    /// time step at full rate. The paper gives no speeds and no bounds.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -107,7 +107,8 @@ impl UntilNear {
         self.near.give_way(share);
     }
 
-    /// Lets things come as near ahead as `share` of the limit, 0 … 1, from now on; those beside keep theirs.
+    /// Lets things come as near ahead as `share` of the limit, 0 … 1, from now on; those beside
+    /// keep theirs.
     pub fn limit_ahead(&mut self, share: f64) {
         let limits = self.config.limits;
         self.near.limit(NearLimits {
@@ -116,7 +117,8 @@ impl UntilNear {
         });
     }
 
-    /// Drives straight on until something is near or touched, or the leg takes too long. O(sensors) a time step.
+    /// Drives straight on until something is near or touched, or the leg takes too long. O(sensors)
+    /// a time step.
     ///
     /// # Errors
     /// If the robot fails.
@@ -144,8 +146,8 @@ impl UntilNear {
         self.bump.correct(near, sensing)
     }
 
-    /// Turns in place by at least `angle`, rad, counter-clockwise, and on until the way ahead is clear; by one more turn at most.
-    /// Where the body touches something it turns the other way.
+    /// Turns in place by at least `angle`, rad, counter-clockwise, and on until the way ahead is
+    /// clear; by one more turn at most. Where the body touches something it turns the other way.
     ///
     /// # Errors
     /// If the robot fails.
@@ -194,8 +196,9 @@ impl UntilNear {
         creep(robot, back, steps, |sensing| self.near.take_in(sensing))
     }
 
-    /// Turns in place by `angle`, rad, counter-clockwise, and no farther, as well as the wheels tell, whatever is near. Where the
-    /// body touches something it [goes free](Self::go_free) of that instead.
+    /// Turns in place by `angle`, rad, counter-clockwise, and no farther, as well as the wheels
+    /// tell, whatever is near. Where the body touches something it [goes free](Self::go_free) of
+    /// that instead.
     ///
     /// # Errors
     /// If the robot fails.
@@ -232,8 +235,8 @@ impl UntilNear {
         Ok(TurnByEnd::Turned)
     }
 
-    /// Goes away from what is nearest by `steps` time steps, at half the speed of a leg: back if that lies ahead, and on if it lies
-    /// behind.
+    /// Goes away from what is nearest by `steps` time steps, at half the speed of a leg: back if
+    /// that lies ahead, and on if it lies behind.
     ///
     /// # Errors
     /// If the robot fails.
@@ -300,7 +303,8 @@ mod tests {
         Solo::new(world, model, pose, 1).unwrap()
     }
 
-    /// Its front sonars are 0.166 m ahead of the axle, and a mean of three readings is a step of 0.04 m late.
+    /// Its front sonars are 0.166 m ahead of the axle, and a mean of three readings is a step of
+    /// 0.04 m late.
     #[test]
     fn it_stops_before_the_wall_ahead() {
         let start = Pose::new(Point::new(1.0, 2.0), Heading::EAST);

@@ -30,7 +30,8 @@ pub(super) fn others(figures: &[Figure]) -> Markup {
     }
 }
 
-/// A picture wider than this may have to be scrolled on a phone, which the keyboard can do in focus.
+/// A picture wider than this may have to be scrolled on a phone, which the keyboard can do in
+/// focus.
 const PHONE: f64 = 340.0;
 
 fn one(figure: &Figure) -> Markup {

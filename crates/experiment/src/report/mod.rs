@@ -1,9 +1,9 @@
 //! The report: one HTML file that opens anywhere, without network.
 //!
-//! The page is put together from parts, each a function of the [`ExperimentOutcome`]: header, cards and contents
-//! (`header`), one section for each table (`table`), figures (`figures`), the notes that say how to
-//! read it all (`notes`), and the replays with the script (`replays`, `page.js`). `docs/report.md` names
-//! the ids and attributes that tests and other scripts may rely on.
+//! The page is put together from parts, each a function of the [`ExperimentOutcome`]: header, cards
+//! and contents (`header`), one section for each table (`table`), figures (`figures`), the notes
+//! that say how to read it all (`notes`), and the replays with the script (`replays`, `page.js`).
+//! `docs/report.md` names the ids and attributes that tests and other scripts may rely on.
 
 mod figures;
 mod header;

@@ -12,9 +12,9 @@ use tolman_draw::{Figure, Series};
 
 /// The section of the table of this number, from 1, with its figures.
 ///
-/// Each metric is a body of the table. A header with `data-sort` sorts the rows of every body by the
-/// `data-value` of their cells with that `data-column`. On a narrow page a row becomes a card: name and
-/// verdict above, the other cells below with their `data-label`.
+/// Each metric is a body of the table. A header with `data-sort` sorts the rows of every body by
+/// the `data-value` of their cells with that `data-column`. On a narrow page a row becomes a card:
+/// name and verdict above, the other cells below with their `data-label`.
 pub(super) fn section(number: u32, analysis: &TableAnalysis, figures: &[Figure]) -> Markup {
     let table = &analysis.table;
     let columns = Columns::of(analysis);
@@ -160,8 +160,8 @@ fn contrast(comparison: &Comparison, measured: &Measured) -> Markup {
     }
 }
 
-/// How large an effect is, in the words of Vargha and Delaney ("A critique and improvement of the CL
-/// common language effect size statistics of McGraw and Wong", 2000).
+/// How large an effect is, in the words of Vargha and Delaney ("A critique and improvement of the
+/// CL common language effect size statistics of McGraw and Wong", 2000).
 fn magnitude(a12: f64) -> &'static str {
     match (a12 - 0.5).abs() {
         distance if distance < 0.06 => "none",
@@ -171,7 +171,8 @@ fn magnitude(a12: f64) -> &'static str {
     }
 }
 
-/// The verdict, with how much of a difference could have been seen; who points at it reads the tolerance or the reason.
+/// The verdict, with how much of a difference could have been seen; who points at it reads the
+/// tolerance or the reason.
 fn verdict(metric: &Metric, verdict: Option<&Verdict>) -> Markup {
     html! {
         @if let Some(verdict) = verdict {

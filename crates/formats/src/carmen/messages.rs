@@ -42,8 +42,8 @@ pub(crate) fn front_laser(
     Ok(ReadScan::of(scan, &ranges))
 }
 
-/// Fields behind the ranges of a ROBOTLASER1 of the older age: two poses, four of velocity and safety, the time, the host, the
-/// logger's time.
+/// Fields behind the ranges of a ROBOTLASER1 of the older age: two poses, four of velocity and
+/// safety, the time, the host, the logger's time.
 const OLDER_FIELDS: usize = 6 + 4 + 3;
 
 pub(crate) fn robot_laser(line: u64, fields: &mut Fields<'_>) -> Result<ReadScan, Wrong> {
@@ -86,7 +86,8 @@ pub(crate) fn robot_laser(line: u64, fields: &mut Fields<'_>) -> Result<ReadScan
     Ok(ReadScan::of(scan, &ranges))
 }
 
-/// Farther from the robot's middle no laser sits, m: such a pose is one that somebody has corrected.
+/// Farther from the robot's middle no laser sits, m: such a pose is one that somebody has
+/// corrected.
 const FARTHEST_MOUNT: f64 = 0.5;
 
 pub(crate) fn mount(robot: Pose, laser: Pose) -> Pose {

@@ -31,8 +31,9 @@ impl Parameters {
         *known = Some(value);
     }
 
-    /// Returns how the beams of a FLASER with this many ranges lie: from −90° on, over half a circle as far as whole or half
-    /// degrees go, so that 180 beams are 1° apart like 181, and 360 half a degree like 361.
+    /// Returns how the beams of a FLASER with this many ranges lie: from −90° on, over half a
+    /// circle as far as whole or half degrees go, so that 180 beams are 1° apart like 181, and 360
+    /// half a degree like 361.
     pub(crate) fn ring(&self, beams: u32) -> Ring {
         let even = beams - beams % 2;
         let usual = PI / f64::from(even.max(1));
@@ -46,7 +47,8 @@ impl Parameters {
         }
     }
 
-    /// Returns where the laser sits, by the parameters if the two poses of a FLASER bear them out, else in the middle.
+    /// Returns where the laser sits, by the parameters if the two poses of a FLASER bear them out,
+    /// else in the middle.
     pub(crate) fn robot_from_laser(&self, odometry: Pose, laser: Pose) -> Pose {
         let offset = Pose::new(Point::new(self.offset.unwrap_or(0.0), 0.0), Heading::EAST);
         let off = odometry.compose(offset).between(laser);

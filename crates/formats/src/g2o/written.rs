@@ -5,8 +5,9 @@ use core::fmt::Write;
 use super::{G2o, G2oEdge, G2oPose};
 
 impl G2o {
-    /// Returns the text of a file: poses, edges, and `FIX` last, since some readers stop there. Without a fixed pose the first
-    /// one is. Every number is written so that it is read as it was. O(poses + edges).
+    /// Returns the text of a file: poses, edges, and `FIX` last, since some readers stop there.
+    /// Without a fixed pose the first one is. Every number is written so that it is read as it was.
+    /// O(poses + edges).
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = String::new();

@@ -35,8 +35,8 @@ pub struct LogVelocity {
 }
 
 impl LogVelocity {
-    /// Returns dead reckoning: where these velocities have the robot at their times, each kept until the next. It begins at the
-    /// origin, looking east. O(n).
+    /// Returns dead reckoning: where these velocities have the robot at their times, each kept
+    /// until the next. It begins at the origin, looking east. O(n).
     #[must_use]
     pub fn dead_reckoning(velocities: &[Self]) -> Trajectory {
         let mut pose = Pose::IDENTITY;
@@ -74,8 +74,8 @@ pub struct LogScan {
     pub time: f64,
     /// Dead reckoning, in a frame of its own.
     pub odometry: Pose,
-    /// Pose that the log notes beside the odometry: in a raw log that of the laser by dead reckoning, in a log that somebody has
-    /// corrected that of the map.
+    /// Pose that the log notes beside the odometry: in a raw log that of the laser by dead
+    /// reckoning, in a log that somebody has corrected that of the map.
     pub noted: Pose,
     /// Where the laser sits on the robot.
     pub robot_from_laser: Pose,

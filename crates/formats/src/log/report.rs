@@ -15,7 +15,8 @@ pub struct LogReport {
     pub scans: u64,
     /// Scans of which no beam hit anything.
     pub empty_scans: u64,
-    /// Lines of other kinds, by their first word; of more than fifty kinds the rest stands under `…`.
+    /// Lines of other kinds, by their first word; of more than fifty kinds the rest stands under
+    /// `…`.
     pub other_kinds: BTreeMap<String, KindCount>,
     /// What was wrong.
     pub troubles: BTreeMap<LogTrouble, TroubleCount>,
@@ -119,7 +120,8 @@ impl LogReport {
         self.troubles.get(&trouble).map_or(0, |known| known.count)
     }
 
-    /// Returns what a reader should know, a sentence a line: what is in the log, what was left out and why. O(kinds).
+    /// Returns what a reader should know, a sentence a line: what is in the log, what was left out
+    /// and why. O(kinds).
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
         let Self {

@@ -145,7 +145,8 @@ impl Reader<'_> {
         }
     }
 
-    /// The values as words. A value takes two bytes or more, so that no header asks for more memory than its file.
+    /// The values as words. A value takes two bytes or more, so that no header asks for more memory
+    /// than its file.
     fn plain(&mut self, wanted: usize, most: u16) -> Result<Vec<u16>, GreyMapError> {
         let mut values = Vec::new();
         while values.len() < wanted {

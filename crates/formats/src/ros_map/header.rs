@@ -69,8 +69,8 @@ pub enum RosMapHeaderError {
 }
 
 impl RosMapHeader {
-    /// Reads the YAML that map_server and map_saver write: flat keys, lists in brackets or in lines with a dash. Keys that are
-    /// not of map_server are passed over.
+    /// Reads the YAML that map_server and map_saver write: flat keys, lists in brackets or in lines
+    /// with a dash. Keys that are not of map_server are passed over.
     ///
     /// # Errors
     /// [`RosMapHeaderError`] with the line at fault.

@@ -7,8 +7,8 @@ use tolman_robot::PoseRelation;
 use crate::fields::{Fields, Wrong};
 use crate::log::{self, LogError, LogReport};
 
-/// Relative poses that were verified by hand, as the benchmark of Freiburg has them: one a line, of two times and what is between them, as
-/// `from to x y z roll pitch yaw`.
+/// Relative poses that were verified by hand, as the benchmark of Freiburg has them: one a line, of
+/// two times and what is between them, as `from to x y z roll pitch yaw`.
 ///
 /// ```
 /// use tolman_formats::ReadRelations;

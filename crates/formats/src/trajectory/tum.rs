@@ -9,8 +9,8 @@ use crate::fields::{Fields, Wrong};
 use crate::log::{self, LogError, LogReport};
 use crate::quaternion;
 
-/// Returns a trajectory as text, one pose a line, `time x y z qx qy qz qw`: the format of the RGB-D benchmark of the Technical
-/// University of Munich, which evo and others read.
+/// Returns a trajectory as text, one pose a line, `time x y z qx qy qz qw`: the format of the RGB-D
+/// benchmark of the Technical University of Munich, which evo and others read.
 ///
 /// ```
 /// use tolman_formats::{ReadTrajectory, tum};

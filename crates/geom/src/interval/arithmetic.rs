@@ -8,8 +8,8 @@ use super::rounding::{
 use super::{Interval, IntervalError};
 
 impl Interval {
-    /// All quotients of a number here and one of `divisor` other than 0; none if the divisor is 0 alone. Where 0
-    /// lies inside or at the end of the divisor, a bound is missing.
+    /// All quotients of a number here and one of `divisor` other than 0; none if the divisor is 0
+    /// alone. Where 0 lies inside or at the end of the divisor, a bound is missing.
     #[must_use]
     pub fn checked_div(self, divisor: Self) -> Option<Self> {
         let Self { low, high } = divisor;

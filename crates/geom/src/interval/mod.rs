@@ -10,12 +10,13 @@ use core::fmt;
 pub use error::IntervalError;
 use rounding::{sum_down, sum_up};
 
-/// A closed interval of reals, never empty, whose bounds are known for certain: `low` ≤ `high`. A bound that is
-/// infinite says that there is none on that side.
+/// A closed interval of reals, never empty, whose bounds are known for certain: `low` ≤ `high`. A
+/// bound that is infinite says that there is none on that side.
 ///
-/// Arithmetic is *sound*: if x lies in `a` and y in `b`, then x + y lies in `a + b`, whatever was rounded on the
-/// way; bounds are rounded outwards where they are not exact. It is *monotone*: narrower operands give no wider
-/// result (sine and cosine up to their last digits). What cannot be (an intersection of intervals apart, the root of a negative number) is `None`.
+/// Arithmetic is *sound*: if x lies in `a` and y in `b`, then x + y lies in `a + b`, whatever was
+/// rounded on the way; bounds are rounded outwards where they are not exact. It is *monotone*:
+/// narrower operands give no wider result (sine and cosine up to their last digits). What cannot be
+/// (an intersection of intervals apart, the root of a negative number) is `None`.
 ///
 /// ```
 /// use tolman_geom::Interval;
@@ -198,7 +199,8 @@ impl fmt::Display for Interval {
     }
 }
 
-/// How intervals are written: `[low, high]`, `null` for a bound that is not there, since JSON has no infinity.
+/// How intervals are written: `[low, high]`, `null` for a bound that is not there, since JSON has
+/// no infinity.
 #[cfg(feature = "serde")]
 type Bounds = [Option<f64>; 2];
 

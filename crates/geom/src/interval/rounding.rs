@@ -1,9 +1,11 @@
-//! Sums, products, quotients and roots rounded outwards without touching the processor's rounding mode.
+//! Sums, products, quotients and roots rounded outwards without touching the processor's rounding
+//! mode.
 //!
 //! A result rounded to nearest lies within half a unit in the last place of the exact one, so its
 //! neighbour bounds it. Sums that are exact are kept: what adds up grows by no more than it must.
 //!
-//! An infinite operand stands for a bound that is not there, for ever larger finite numbers, so 0 times it is 0.
+//! An infinite operand stands for a bound that is not there, for ever larger finite numbers, so 0
+//! times it is 0.
 
 /// At most a + b.
 #[inline]
@@ -15,7 +17,8 @@ pub(super) fn sum_down(a: f64, b: f64) -> f64 {
     if lost.is_nan() {
         return sum.next_down();
     }
-    // Half of all sums are rounded up, by chance, so that a branch costs more than the sum. A sum that was rounded is not 0.
+    // Half of all sums are rounded up, by chance, so that a branch costs more than the sum. A sum
+    // that was rounded is not 0.
     let step = i64::from(lost < 0.0);
     let bits = sum.to_bits().cast_signed();
     let sign = (bits >> 63) | 1;
@@ -67,7 +70,8 @@ pub(super) fn quotient_up(a: f64, b: f64) -> f64 {
     -quotient_down(-a, b)
 }
 
-/// √a for a ≥ 0, to the next double `towards` one side of it, where it need not be 0. libm's root is correctly rounded.
+/// √a for a ≥ 0, to the next double `towards` one side of it, where it need not be 0. libm's root
+/// is correctly rounded.
 pub(super) fn root(a: f64, towards: fn(f64) -> f64) -> f64 {
     if a == 0.0 {
         0.0

@@ -1,14 +1,14 @@
 //! Sine and cosine, without trust in anybody's libm.
 //!
-//! An angle is brought near 0 by a multiple of π/2 that is itself an interval, the Taylor series is summed in
-//! interval arithmetic, and what is cut off of it is added.
+//! An angle is brought near 0 by a multiple of π/2 that is itself an interval, the Taylor series is
+//! summed in interval arithmetic, and what is cut off of it is added.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use super::Interval;
 
-/// π/2 in three parts (Cody and Waite). Multiples of the first are exact, since its last 22 bits are 0; what is left
-/// of π/2 behind the second lies within the third.
+/// π/2 in three parts (Cody and Waite). Multiples of the first are exact, since its last 22 bits
+/// are 0; what is left of π/2 behind the second lies within the third.
 const HALF_PI: [Interval; 3] = [
     Interval::point(f64::from_bits(0x3FF9_21FB_5440_0000)),
     Interval::point(f64::from_bits(0x3DD0_B461_1A62_6331)),
@@ -22,8 +22,8 @@ const MOST_QUARTERS: f64 = 1_048_576.0;
 const REMAINDER: Interval = Interval::from_bounds(-1.2e-19, 1.2e-19);
 
 impl Interval {
-    /// The sines of all angles here, in radians: exact up to a few units in the last place, also where an extreme
-    /// lies inside.
+    /// The sines of all angles here, in radians: exact up to a few units in the last place, also
+    /// where an extreme lies inside.
     #[must_use]
     pub fn sin(self) -> Self {
         self.sines().0
@@ -54,7 +54,8 @@ impl Interval {
             let (high_sin, high_cos) = sines_of(self.high);
             (sin, cos) = (sin.hull(high_sin), cos.hull(high_cos));
         }
-        // Between the ends both grow or fall, but for the quarter turns inside. The quotients are rounded: one more is looked at.
+        // Between the ends both grow or fall, but for the quarter turns inside. The quotients are
+        // rounded: one more is looked at.
         let [first, last] = [self.low, self.high].map(|end| libm::floor(end / FRAC_PI_2) as i32);
         for quarter in first..=last + 1 {
             if multiple_of_half_pi(quarter).meets(self) {

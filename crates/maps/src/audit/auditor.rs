@@ -17,15 +17,17 @@ use super::{
 };
 use crate::pose_graph::PoseGraph;
 
-/// Audits the closures of a graph: finds of each whether the odometry and the other closures support it, refute it or leave it undecided.
-/// Where the poses lie does not matter; they are numbered in the order they were driven.
+/// Audits the closures of a graph: finds of each whether the odometry and the other closures
+/// support it, refute it or leave it undecided. Where the poses lie does not matter; they are
+/// numbered in the order they were driven.
 ///
 /// # Errors
-/// [`AuditError`] if odometry does not join a pose with the next, or the scale of the standard deviations is no positive number.
+/// [`AuditError`] if odometry does not join a pose with the next, or the scale of the standard
+/// deviations is no positive number.
 ///
 /// # Complexity
-/// O(pairs + closures · (edges · log edges)), where pairs are those of closures that begin and end within
-/// [`pair_gap`](AuditConfig::pair_gap) poses; a closure that odometry refutes costs O(1).
+/// O(pairs + closures · (edges · log edges)), where pairs are those of closures that begin and end
+/// within [`pair_gap`](AuditConfig::pair_gap) poses; a closure that odometry refutes costs O(1).
 ///
 /// ```
 /// use tolman_maps::audit::{AuditConfig, audit};
@@ -86,8 +88,9 @@ pub(super) fn check(config: &AuditConfig) -> Result<(), AuditError> {
     }
 }
 
-/// Returns of each refuted closure, by its edge, how far the cycle that refutes it is off, χ², if the closure is replaced by the truth:
-/// how far its witnesses err. `poses` are the true ones. A certificate above the bound is not to be relied on.
+/// Returns of each refuted closure, by its edge, how far the cycle that refutes it is off, χ², if
+/// the closure is replaced by the truth: how far its witnesses err. `poses` are the true ones. A
+/// certificate above the bound is not to be relied on.
 ///
 /// # Errors
 /// As [`audit`].
@@ -163,7 +166,8 @@ impl Judge<'_, '_> {
         AuditCycle::of(self.link(link), way, self.belief.links, self.board).ok()
     }
 
-    /// The cycles that agree with a closure and share no run: the surest, then those over one other closure, then odometry alone.
+    /// The cycles that agree with a closure and share no run: the surest, then those over one other
+    /// closure, then odometry alone.
     fn witnesses(&self, link: u32, way: &Way) -> Option<Vec<AuditCycle>> {
         let links = self.belief.links;
         let mut runs: Vec<u32> = alloc::vec![self.link(link).run];
@@ -210,7 +214,8 @@ impl Judge<'_, '_> {
         })
     }
 
-    /// The surest cycle that shares no run with `shunned`, if it agrees and is not much wider than tight.
+    /// The surest cycle that shares no run with `shunned`, if it agrees and is not much wider than
+    /// tight.
     fn second_opinion(&mut self, link: u32, shunned: &[u32]) -> Option<AuditCycle> {
         let Belief {
             links,

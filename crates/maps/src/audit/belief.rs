@@ -23,7 +23,8 @@ pub(super) struct Belief<'a> {
     pub(super) by_odometry: &'a [ByOdometry],
     pub(super) search: Search,
     pub(super) believed: Vec<bool>,
-    /// The surest way of each closure when it was looked for last, and how far the closure is off from it.
+    /// The surest way of each closure when it was looked for last, and how far the closure is off
+    /// from it.
     pub(super) found: Vec<Option<(Way, Gap)>>,
     /// Which closures' ways lead over each closure, or did.
     users: Vec<Vec<u32>>,
@@ -72,7 +73,8 @@ impl<'a> Belief<'a> {
         gap.is_some_and(|gap| gap.supports(self.config))
     }
 
-    /// Believes the closures of groups that agree, the largest first, and drops what has no witness, until nothing new is believed.
+    /// Believes the closures of groups that agree, the largest first, and drops what has no
+    /// witness, until nothing new is believed.
     pub(super) fn settle(&mut self, pairs: &Pairs) {
         for _ in 0..MOST_ROUNDS {
             let before = self.open(true).len();
@@ -82,7 +84,8 @@ impl<'a> Belief<'a> {
             let groups = pairs.groups(&is_candidate, self.by_odometry);
             let (broad, single): (Vec<_>, Vec<_>) =
                 groups.into_iter().partition(|group| self.is_broad(group));
-            // Groups of several runs can bear witness to each other; those of single runs have to fit what is settled by then.
+            // Groups of several runs can bear witness to each other; those of single runs have to
+            // fit what is settled by then.
             self.take_in(&broad);
             self.take_in(&single);
             if self.open(true).len() <= before {
@@ -93,8 +96,8 @@ impl<'a> Belief<'a> {
         self.refresh();
     }
 
-    /// Drops what a way that shares no run with its witness speaks against, and believes again what has a witness then: closures that bear
-    /// witness to each other alone have none.
+    /// Drops what a way that shares no run with its witness speaks against, and believes again what
+    /// has a witness then: closures that bear witness to each other alone have none.
     fn drop_contested(&mut self) {
         let believed = self.open(true).into_iter();
         let contested: Vec<u32> = believed.filter(|link| self.is_contested(*link)).collect();
@@ -169,7 +172,8 @@ impl<'a> Belief<'a> {
         10 * against <= 3 * (for_it + against)
     }
 
-    /// Believes and drops until each closure that is believed has a witness in the others, and no other has one.
+    /// Believes and drops until each closure that is believed has a witness in the others, and no
+    /// other has one.
     fn come_to_rest(&mut self) {
         for _ in 0..MOST_ROUNDS {
             let all = self.open(true);
@@ -203,7 +207,8 @@ impl<'a> Belief<'a> {
         (0..self.links.len() as u32).filter(of).collect()
     }
 
-    /// The greatest fixed point: drops all without a witness at once, and looks again for those whose way led over them.
+    /// The greatest fixed point: drops all without a witness at once, and looks again for those
+    /// whose way led over them.
     fn drop_unwitnessed(&mut self, mut asked: Vec<u32>) {
         while !asked.is_empty() {
             let mut dropped = Vec::new();

@@ -82,7 +82,8 @@ impl Chain {
         self.piece[a as usize] == self.piece[b as usize]
     }
 
-    /// Returns the covariance of the span between two poses of one piece, seen from the first of the piece. O(1).
+    /// Returns the covariance of the span between two poses of one piece, seen from the first of
+    /// the piece. O(1).
     pub(super) fn span(&self, a: u32, b: u32) -> Spread {
         let (low, high) = (a.min(b) as usize, a.max(b) as usize);
         self.summed[high].minus(&self.summed[low])

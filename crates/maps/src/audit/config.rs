@@ -5,21 +5,24 @@ use core::f64::consts::PI;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct AuditConfig {
-    /// By how much every stated standard deviation is multiplied: below 1 for a graph that states more than it errs, above 1 for
-    /// one that states less. Positive; default 1.
+    /// By how much every stated standard deviation is multiplied: below 1 for a graph that states
+    /// more than it errs, above 1 for one that states less. Positive; default 1.
     pub sigma_scale: f64,
-    /// How many standard deviations a cycle may be off, k (default 5: of right cycles with Gaussian errors 2 in 100,000 are
-    /// farther off).
+    /// How many standard deviations a cycle may be off, k (default 5: of right cycles with Gaussian
+    /// errors 2 in 100,000 are farther off).
     pub bound: f64,
-    /// A cycle is tight if its region of k standard deviations fills at most this share of all poses near by (default 0.003).
+    /// A cycle is tight if its region of k standard deviations fills at most this share of all
+    /// poses near by (default 0.003).
     pub tight_share: f64,
     /// How far poses near by may lie, m (default 5); their headings are any.
     pub near: f64,
     /// Closures whose ends lie at most this many poses apart, both, are of one run (default 3).
     pub run_gap: u32,
-    /// Pairs of closures are compared whose ends lie at most this many poses apart, both (default 60).
+    /// Pairs of closures are compared whose ends lie at most this many poses apart, both (default
+    /// 60).
     pub pair_gap: u32,
-    /// By how many metres a radian counts when the surest way through the graph is looked for (default 3).
+    /// By how many metres a radian counts when the surest way through the graph is looked for
+    /// (default 3).
     pub lever: f64,
     /// The most witnesses of a supported closure that are looked for, at least 1 (default 5).
     pub most_witnesses: usize,
@@ -53,7 +56,8 @@ impl AuditConfig {
         self.bound * self.bound
     }
 
-    /// The greatest determinant of a tight covariance: that of the ellipsoid 4/3 π k³ √det that fills the share of π near² · 2π.
+    /// The greatest determinant of a tight covariance: that of the ellipsoid 4/3 π k³ √det that
+    /// fills the share of π near² · 2π.
     pub(super) fn most_det(&self) -> f64 {
         let near_by = PI * self.near * self.near * 2.0 * PI;
         let ball = 4.0 / 3.0 * PI * self.bound * self.bound * self.bound;

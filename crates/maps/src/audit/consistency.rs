@@ -1,7 +1,8 @@
 //! Closures held against each other in pairs, and the greatest consistent groups of them.
 //!
-//! Source: the idea of pairwise consistency is that of J. Mangelson et al.: Pairwise Consistent Measurement Set Maximization for Robust
-//! Multi-robot Map Merging, 2018. Deviation: the set is found greedily.
+//! Source: the idea of pairwise consistency is that of J. Mangelson et al.: Pairwise Consistent
+//! Measurement Set Maximization for Robust Multi-robot Map Merging, 2018. Deviation: the set is
+//! found greedily.
 
 use alloc::collections::BinaryHeap;
 use alloc::vec::Vec;
@@ -42,7 +43,8 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    /// Holds all closures that odometry does not refute against those that begin and end near them. O(pairs).
+    /// Holds all closures that odometry does not refute against those that begin and end near them.
+    /// O(pairs).
     pub(super) fn of(
         links: &[Link],
         by_odometry: &[ByOdometry],
@@ -88,8 +90,9 @@ impl Pairs {
         both[b].push(a as u32);
     }
 
-    /// Returns groups of candidates of which no two conflict, joined by agreement, the largest first: again and again the closure is dropped
-    /// that most conflict with, less those it agrees with. O(pairs · log closures).
+    /// Returns groups of candidates of which no two conflict, joined by agreement, the largest
+    /// first: again and again the closure is dropped that most conflict with, less those it agrees
+    /// with. O(pairs · log closures).
     pub(super) fn groups(
         &self,
         is_candidate: &[bool],

@@ -14,12 +14,13 @@ use crate::pose_graph::{PoseEdgeKind, PoseGraph};
 
 /// A cycle that begins with the closure in question, and how far it is off.
 ///
-/// Its product is that of the measurements along it, each inverted where it is walked against its direction. Were they exact, it would
-/// be the identity.
+/// Its product is that of the measurements along it, each inverted where it is walked against its
+/// direction. Were they exact, it would be the identity.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AuditCycle {
-    /// The parts of the cycle, each beginning where the one before ends, the last ending where the first begins.
+    /// The parts of the cycle, each beginning where the one before ends, the last ending where the
+    /// first begins.
     pub steps: Vec<CycleStep>,
     /// The logarithm of the product: x, y, m, heading, rad.
     pub residual: [f64; 3],
@@ -37,7 +38,8 @@ pub struct CycleStep {
     pub from: u32,
     /// The pose it leads to.
     pub to: u32,
-    /// The closure it leads over, by its edge; `None` if it leads along the odometry, by as many poses as there are between.
+    /// The closure it leads over, by its edge; `None` if it leads along the odometry, by as many
+    /// poses as there are between.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "Option::is_none")
@@ -52,7 +54,8 @@ pub enum CycleError {
     /// There are no steps, or the first is no closure.
     #[error("it does not begin with its closure")]
     Beginning,
-    /// A step does not begin where the one before ends, or the last does not end where the first begins.
+    /// A step does not begin where the one before ends, or the last does not end where the first
+    /// begins.
     #[error("step {step} begins at pose {from}, but the step before ends at {to}")]
     Gap {
         /// Which step, from 0.
@@ -116,7 +119,8 @@ impl AuditCycle {
                 ),
             })
             .collect();
-        // From its lower pose to its higher, as the way was measured, whichever way the edge itself leads.
+        // From its lower pose to its higher, as the way was measured, whichever way the edge itself
+        // leads.
         let mut steps = alloc::vec![step(link.first, link.second, None)];
         steps[0].over = Some(link.edge);
         let back = forth.into_iter().rev();
@@ -178,7 +182,8 @@ impl AuditCycle {
         }
     }
 
-    /// Returns how far the cycle is off, χ², were its first closure exact and its poses as far apart as `truth` says.
+    /// Returns how far the cycle is off, χ², were its first closure exact and its poses as far
+    /// apart as `truth` says.
     pub(super) fn chi2_of_witnesses(
         &self,
         board: &Board<'_>,

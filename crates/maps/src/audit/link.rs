@@ -14,7 +14,8 @@ pub(super) struct Link {
     pub(super) edge: u32,
     pub(super) first: u32,
     pub(super) second: u32,
-    /// By how much it disagrees with odometry: the identity where it agrees. Seen from the piece of the first pose.
+    /// By how much it disagrees with odometry: the identity where it agrees. Seen from the piece of
+    /// the first pose.
     pub(super) off: Motion,
     pub(super) off_inverse: Motion,
     /// The covariance of its measurement, seen from the first pose of the second pose's piece.
@@ -58,7 +59,8 @@ impl Gap {
     }
 }
 
-/// The closures in the order of their poses, with their runs. O(closures · log closures) for closures that are spread out.
+/// The closures in the order of their poses, with their runs. O(closures · log closures) for
+/// closures that are spread out.
 pub(super) fn links(graph: &PoseGraph, chain: &Chain, config: &AuditConfig) -> Vec<Link> {
     let mut links: Vec<Link> = Vec::new();
     for (index, edge) in (0..).zip(graph.edges()) {
@@ -93,7 +95,8 @@ pub(super) fn links(graph: &PoseGraph, chain: &Chain, config: &AuditConfig) -> V
 }
 
 impl Link {
-    /// Returns how far it is off from odometry alone; `None` where odometry does not join its poses. O(1).
+    /// Returns how far it is off from odometry alone; `None` where odometry does not join its
+    /// poses. O(1).
     pub(super) fn gap_to_odometry(&self, chain: &Chain) -> Option<Gap> {
         let joined = chain.joins(self.first, self.second);
         joined.then(|| {
@@ -102,8 +105,8 @@ impl Link {
         })
     }
 
-    /// Returns how far the cycle of it, another closure and the odometry between their ends is off; `None` where odometry does not
-    /// join those. O(1).
+    /// Returns how far the cycle of it, another closure and the odometry between their ends is off;
+    /// `None` where odometry does not join those. O(1).
     pub(super) fn gap_to(&self, other: &Self, chain: &Chain) -> Option<Gap> {
         let joined = chain.joins(self.first, other.first) && chain.joins(self.second, other.second);
         joined.then(|| {

@@ -3,7 +3,8 @@
 use tolman_geom::Pose;
 use tolman_geom::nalgebra::{Matrix3, Vector3};
 
-/// A rigid motion in the plane. Its rotation is kept as cosine and sine, so that composing needs no trigonometry.
+/// A rigid motion in the plane. Its rotation is kept as cosine and sine, so that composing needs no
+/// trigonometry.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Motion {
     pub(super) x: f64,
@@ -123,7 +124,8 @@ impl Spread {
         }
     }
 
-    /// Returns Ad C Adᵀ: the covariance of an error in the frame that `by` carries, as seen from the frame it is given in.
+    /// Returns Ad C Adᵀ: the covariance of an error in the frame that `by` carries, as seen from
+    /// the frame it is given in.
     pub(super) fn seen_from(&self, by: &Motion) -> Self {
         let (cos, sin) = (by.cos, by.sin);
         // The adjoint is [R w; 0 1] with w = (y, −x).

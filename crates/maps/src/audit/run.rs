@@ -1,12 +1,14 @@
-//! Runs: closures that come from one drive along a stretch driven before. They err together, so they are one witness.
+//! Runs: closures that come from one drive along a stretch driven before. They err together, so
+//! they are one witness.
 
 use alloc::vec::Vec;
 
 use super::groups::Groups;
 
-/// Returns the run of each closure, given the lower and the higher pose of each, sorted: closures are of one run whose lower poses and
-/// whose higher poses lie at most `gap` apart, and those that are so by way of others. Two that contradict each other, as `agree` says,
-/// do not err together, so they link no run.
+/// Returns the run of each closure, given the lower and the higher pose of each, sorted: closures
+/// are of one run whose lower poses and whose higher poses lie at most `gap` apart, and those that
+/// are so by way of others. Two that contradict each other, as `agree` says, do not err together,
+/// so they link no run.
 ///
 /// # Complexity
 /// O(n · m) for n closures of which at most m begin within `gap` poses.

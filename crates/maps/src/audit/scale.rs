@@ -32,7 +32,8 @@ pub struct SigmaScale {
 }
 
 impl SigmaScale {
-    /// Estimates it from cycles of two closures that begin and end within 10 poses; `None` if there are fewer than 20.
+    /// Estimates it from cycles of two closures that begin and end within 10 poses; `None` if there
+    /// are fewer than 20.
     ///
     /// # Errors
     /// [`AuditError`] as [`audit`](super::audit()) has it.
@@ -77,7 +78,8 @@ impl SigmaScale {
         self.tail > HEAVY * TAIL / MEDIAN
     }
 
-    /// Returns the scale to audit with: the estimate, but never less than 1 where the tail is heavy.
+    /// Returns the scale to audit with: the estimate, but never less than 1 where the tail is
+    /// heavy.
     #[must_use]
     pub fn scale(&self) -> f64 {
         match self.is_heavy() {

@@ -73,8 +73,9 @@ impl Search {
         }
     }
 
-    /// Returns the surest way from the lower pose of a closure to its higher over odometry and closures that are `believed`, but none
-    /// of the closure's own run nor of the runs of `shunned`; `None` if there is none.
+    /// Returns the surest way from the lower pose of a closure to its higher over odometry and
+    /// closures that are `believed`, but none of the closure's own run nor of the runs of
+    /// `shunned`; `None` if there is none.
     ///
     /// # Complexity
     /// O((stations + closures) · log stations).

@@ -25,9 +25,11 @@ pub struct AuditedClosure {
 /// Whether a closure is right, as far as odometry and the other closures tell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ClosureVerdict {
-    /// Cycles agree with it that share no run with it or each other, each within its bound and tight: evidence, never proof.
+    /// Cycles agree with it that share no run with it or each other, each within its bound and
+    /// tight: evidence, never proof.
     Supported {
-        /// The cycles, the surest first; at most [`AuditConfig::most_witnesses`](super::AuditConfig::most_witnesses).
+        /// The cycles, the surest first; at most
+        /// [`AuditConfig::most_witnesses`](super::AuditConfig::most_witnesses).
         witnesses: Vec<AuditCycle>,
     },
     /// A cycle is beyond its bound, and none was found that agrees and shares no run with it.
@@ -46,7 +48,8 @@ pub enum ClosureVerdict {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum RefutedBy {
-    /// Odometry alone: it is refuted if the odometry's bounds hold, whatever the other closures are.
+    /// Odometry alone: it is refuted if the odometry's bounds hold, whatever the other closures
+    /// are.
     Odometry,
     /// Odometry and supported closures: it is refuted if their bounds hold and they are right.
     SupportedClosures,
@@ -57,7 +60,8 @@ pub enum RefutedBy {
 pub enum UndecidedBecause {
     /// What leads from one of its poses to the other is too uncertain to tell.
     Wide {
-        /// The greatest half-axis of the region in which the pose may lie, m; infinite if nothing leads there.
+        /// The greatest half-axis of the region in which the pose may lie, m; infinite if nothing
+        /// leads there.
         position: f64,
         /// The half-width of the headings it may have, rad.
         heading: f64,

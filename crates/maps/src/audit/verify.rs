@@ -155,9 +155,10 @@ impl AuditCertificateError {
     }
 }
 
-/// Checks every cycle of an audit again, from the graph alone: that it is one, its numbers, on which side of its bound it lies, and that it leads
-/// over nothing but odometry and closures that are themselves supported, of runs that are not counted yet. That no other cycle agrees with a refuted
-/// closure cannot be checked so. Undecided closures are passed over.
+/// Checks every cycle of an audit again, from the graph alone: that it is one, its numbers, on
+/// which side of its bound it lies, and that it leads over nothing but odometry and closures that
+/// are themselves supported, of runs that are not counted yet. That no other cycle agrees with a
+/// refuted closure cannot be checked so. Undecided closures are passed over.
 ///
 /// # Errors
 /// [`AuditCertificateError`] of the first certificate that does not hold.
@@ -283,7 +284,8 @@ impl Checker<'_> {
         Ok(())
     }
 
-    /// Measures a cycle again, holds its numbers against those of the certificate, and counts its runs.
+    /// Measures a cycle again, holds its numbers against those of the certificate, and counts its
+    /// runs.
     fn measure(
         &self,
         edge: u32,

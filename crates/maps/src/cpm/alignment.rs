@@ -3,18 +3,20 @@ use alloc::vec::Vec;
 
 use super::pattern::{Dictionary, PatternId};
 
-/// Sequences laid along each other with insertions, deletions and changes of speed, in place of position by position: an edit
-/// distance (Wagner, Fischer 1974) in which a pattern may also last longer in one of the two, as in dynamic time
-/// warping (Sakoe, Chiba 1978). Ours, not the paper's; costs are in parts of a whole pattern's mismatch.
+/// Sequences laid along each other with insertions, deletions and changes of speed, in place of
+/// position by position: an edit distance (Wagner, Fischer 1974) in which a pattern may also last
+/// longer in one of the two, as in dynamic time warping (Sakoe, Chiba 1978). Ours, not the paper's;
+/// costs are in parts of a whole pattern's mismatch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Alignment {
     /// What an observation costs that the other sequence does not have; 0 to 1.
     pub gap: f64,
-    /// What an observation costs that lasts one longer in one of the two, besides its difference; 0 to `gap`.
+    /// What an observation costs that lasts one longer in one of the two, besides its difference; 0
+    /// to `gap`.
     pub stutter: f64,
-    /// The distance of prototypes, as a part of the greatest in the dictionary, from which two patterns have nothing in common;
-    /// above 0, at most 1.
+    /// The distance of prototypes, as a part of the greatest in the dictionary, from which two
+    /// patterns have nothing in common; above 0, at most 1.
     pub unlike: f64,
     /// Above it two fragments are the same; 0 to 1.
     pub threshold: f64,
@@ -32,9 +34,9 @@ impl Alignment {
         }
     }
 
-    /// How similar two sequences are: 1 less the cheapest alignment's cost for each position of the longer one. Equal ones have 1,
-    /// ones without anything in common about 0, an empty one beside any has 0.
-    /// O(length²) and the distances of prototypes.
+    /// How similar two sequences are: 1 less the cheapest alignment's cost for each position of the
+    /// longer one. Equal ones have 1, ones without anything in common about 0, an empty one beside
+    /// any has 0. O(length²) and the distances of prototypes.
     #[must_use]
     pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
         if a.is_empty() || b.is_empty() {

@@ -10,8 +10,9 @@ use super::turn::{NoSuchTurn, Turn};
 
 /// The likeliest ways to understand all that the robot has met: a beam search over hypotheses.
 ///
-/// Where much is open at once a beam may lose the truth. It is known by a walk that no hypothesis explains; all that was met is
-/// gone through again then with a wider beam, which grows narrow again while all is understood.
+/// Where much is open at once a beam may lose the truth. It is known by a walk that no hypothesis
+/// explains; all that was met is gone through again then with a wider beam, which grows narrow
+/// again while all is understood.
 #[derive(Clone, Debug)]
 pub(super) struct Beam {
     /// The likeliest first, never empty. Costs are counted from that of the first.
@@ -91,7 +92,8 @@ impl Beam {
             .map_or(&self.begin, |best| &best.mapper)
     }
 
-    /// How likely the likeliest map is among all that it keeps and that can be, with places at least `apart` m apart, 0 … 1.
+    /// How likely the likeliest map is among all that it keeps and that can be, with places at
+    /// least `apart` m apart, 0 … 1.
     pub(super) fn certainty(&self, apart: f64) -> f64 {
         let can_be = |other: &&Hypothesis| {
             let Mapper { map, at } = &other.mapper;
@@ -109,9 +111,10 @@ impl Beam {
         }
     }
 
-    /// Takes in a walk. O(width · fragments · log fragments), and a comparison for each pair of sequences. Where the beam has to be
-    /// wider all walks since the beginning are gone through again with each width tried, as long as it is full at some time: the
-    /// sum of these widths, in place of the width, is less than twice the widest.
+    /// Takes in a walk. O(width · fragments · log fragments), and a comparison for each pair of
+    /// sequences. Where the beam has to be wider all walks since the beginning are gone through
+    /// again with each width tried, as long as it is full at some time: the sum of these widths, in
+    /// place of the width, is less than twice the widest.
     ///
     /// # Errors
     /// If the place where the robot is has no such turn; nothing is changed then.
@@ -161,7 +164,8 @@ impl Beam {
         }
     }
 
-    /// Goes through all that was met. Returns what was believed of the last walk. Where nothing explains all, the beam is as before.
+    /// Goes through all that was met. Returns what was believed of the last walk. Where nothing
+    /// explains all, the beam is as before.
     fn look_again(&mut self, judge: &Comparison<'_>) -> Result<MapUpdate, Lost> {
         let mut now = Vec::from([Hypothesis::certain(self.begin.clone())]);
         let (mut arrival, mut lost) = (None, Lost::ForGood);

@@ -3,8 +3,9 @@ use core::f64::consts::{PI, TAU};
 
 use thiserror::Error;
 
-/// Where the ways out of a place lead, seen from its middle: rad, counter-clockwise, the first of them at 0. So one of three ways in a
-/// corridor that a side way leaves differs by the way from which it is entered.
+/// Where the ways out of a place lead, seen from its middle: rad, counter-clockwise, the first of
+/// them at 0. So one of three ways in a corridor that a side way leaves differs by the way from
+/// which it is entered.
 ///
 /// Ours; the paper's junctions number their branches and forget their directions.
 ///
@@ -46,8 +47,8 @@ pub enum BearingsError {
 }
 
 impl Bearings {
-    /// From directions of any frame, rad, counter-clockwise. They may come as ways do that a robot counts: over the direction at which
-    /// angles wrap.
+    /// From directions of any frame, rad, counter-clockwise. They may come as ways do that a robot
+    /// counts: over the direction at which angles wrap.
     ///
     /// # Errors
     /// [`BearingsError`].
@@ -99,7 +100,8 @@ impl Bearings {
         Self(turned.collect())
     }
 
-    /// By how much the ways of one number lead into other directions at most, rad, if there are as many.
+    /// By how much the ways of one number lead into other directions at most, rad, if there are as
+    /// many.
     #[must_use]
     pub fn apart(&self, other: &Self) -> Option<f64> {
         let pairs = self.0.iter().zip(&other.0);

@@ -23,8 +23,8 @@ pub struct CpMapperConfig {
 pub enum Candidates {
     /// Each.
     All,
-    /// So many that have the most patterns in common with it, counted the more the rarer they are (tf-idf, section 8); on smaller
-    /// maps that is each.
+    /// So many that have the most patterns in common with it, counted the more the rarer they are
+    /// (tf-idf, section 8); on smaller maps that is each.
     Best(u32),
 }
 
@@ -34,21 +34,23 @@ pub enum Candidates {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Mapping {
-    /// *Offline CPM*: the robot takes ports at random and keeps all it has walked; the map is optimized once the goal is
-    /// found.
+    /// *Offline CPM*: the robot takes ports at random and keeps all it has walked; the map is
+    /// optimized once the goal is found.
     Offline {
-        /// After so many fragments without the goal it goes on *online*, so that no loop can hold it for ever; with
-        /// `u32::MAX` it does as the paper, whose robot "might be locked in infinite loops of duplicated path-fragments".
+        /// After so many fragments without the goal it goes on *online*, so that no loop can hold
+        /// it for ever; with `u32::MAX` it does as the paper, whose robot "might be locked in
+        /// infinite loops of duplicated path-fragments".
         patience: u32,
     },
     /// *Online CPM*, section 6: the map is optimized, and looked at, before each decision.
     Online,
-    /// Online, and for mazes with fragments that look alike or symmetrical, which the paper excludes: several maps are kept, each
-    /// one way to understand all that was met, and the most likely of them is looked at. Ours, in the manner of the lazily
-    /// searched trees of topological maps (Johnson, Kuipers 2012).
+    /// Online, and for mazes with fragments that look alike or symmetrical, which the paper
+    /// excludes: several maps are kept, each one way to understand all that was met, and the most
+    /// likely of them is looked at. Ours, in the manner of the lazily searched trees of topological
+    /// maps (Johnson, Kuipers 2012).
     ///
-    /// Bounds of dead reckoning tell alike fragments apart and close loops on arrival; without them, fragments are told apart by their
-    /// neighbours alone.
+    /// Bounds of dead reckoning tell alike fragments apart and close loops on arrival; without
+    /// them, fragments are told apart by their neighbours alone.
     Hypotheses {
         /// How many maps are kept at most, at least 1.
         width: u32,

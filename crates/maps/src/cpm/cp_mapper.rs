@@ -12,7 +12,8 @@ use super::traversal::{Sighting, Traversal};
 use super::turn::{NoSuchTurn, Turn};
 use tolman_robot::Landmark;
 
-/// Learns a [`CpMap`] from walks along its fragments: the "path-fragment representation" of layer 3.
+/// Learns a [`CpMap`] from walks along its fragments: the "path-fragment representation" of layer
+/// 3.
 ///
 /// Tells where on the map the robot is. Where to go next is for whoever drives.
 #[derive(Clone, Debug)]
@@ -63,14 +64,16 @@ pub enum MapUpdate {
     New,
     /// A fragment that was on the map, and was walked from where the map has it.
     Known,
-    /// A duplicate: it was on the map already, and the robot did not know that it was there. A loop is closed.
+    /// A duplicate: it was on the map already, and the robot did not know that it was there. A loop
+    /// is closed.
     Duplicate,
     /// A fragment that was not on the map, to a place that was: a loop is closed on arrival.
     Loop,
-    /// Another way to understand all that was met has become the likeliest: the whole map may have changed.
+    /// Another way to understand all that was met has become the likeliest: the whole map may have
+    /// changed.
     Revised,
-    /// The map expected another place or fragment; the robot goes on with what it found, apart from the rest until it recognizes
-    /// something.
+    /// The map expected another place or fragment; the robot goes on with what it found, apart from
+    /// the rest until it recognizes something.
     Contradiction,
 }
 
@@ -119,10 +122,11 @@ const SURE: f64 = 0.5;
 pub(super) const MOST_PORTS: u32 = 1000;
 
 impl CpMapper {
-    /// Begins at a place that ends fragments, as if the robot had come in by port 0: that of a dead end; else the first opening
-    /// counter-clockwise from straight behind it.
+    /// Begins at a place that ends fragments, as if the robot had come in by port 0: that of a dead
+    /// end; else the first opening counter-clockwise from straight behind it.
     ///
-    /// A robot that stands in mid-fragment drives on to the first such place before, as the paper has it.
+    /// A robot that stands in mid-fragment drives on to the first such place before, as the paper
+    /// has it.
     ///
     /// # Errors
     /// [`CpmError`] if the place has no ports.
@@ -162,8 +166,9 @@ impl CpMapper {
         self.knowledge.mapper().at
     }
 
-    /// Returns how likely the map is among all that explain what was met, 0 … 1, by dead reckoning and what fragments look like, in a world
-    /// whose places are at least `apart` m apart; `None` of a mapper that keeps one hypothesis. O(width · places² · ports).
+    /// Returns how likely the map is among all that explain what was met, 0 … 1, by dead reckoning
+    /// and what fragments look like, in a world whose places are at least `apart` m apart; `None`
+    /// of a mapper that keeps one hypothesis. O(width · places² · ports).
     #[must_use]
     pub fn certainty(&self, apart: f64) -> Option<f64> {
         match &self.knowledge {
@@ -172,8 +177,9 @@ impl CpMapper {
         }
     }
 
-    /// Returns why the map is not to be believed in a world whose places are at least `apart` m apart; `None` if nothing speaks against it,
-    /// and of a mapper that keeps one hypothesis, which cannot tell. As [`certainty`](Self::certainty).
+    /// Returns why the map is not to be believed in a world whose places are at least `apart` m
+    /// apart; `None` if nothing speaks against it, and of a mapper that keeps one hypothesis, which
+    /// cannot tell. As [`certainty`](Self::certainty).
     #[must_use]
     pub fn doubt(&self, apart: f64) -> Option<MapDoubt> {
         let certainty = self.certainty(apart)?;
@@ -237,7 +243,8 @@ impl CpMapper {
         Ok(arrival)
     }
 
-    /// The robot has turned round in an unknown fragment after so many observations, and is back at the junction it came from.
+    /// The robot has turned round in an unknown fragment after so many observations, and is back at
+    /// the junction it came from.
     ///
     /// # Errors
     /// [`CpmError::Turn`] if the junction has no such turn.
@@ -253,8 +260,9 @@ impl CpMapper {
         Ok(())
     }
 
-    /// Merges all that is similar: the offline CPM's last step. With hypotheses similar is not the same, and nothing happens. Returns how many fragments were duplicates.
-    /// O(fragments²) comparisons.
+    /// Merges all that is similar: the offline CPM's last step. With hypotheses similar is not the
+    /// same, and nothing happens. Returns how many fragments were duplicates. O(fragments²)
+    /// comparisons.
     ///
     /// # Errors
     /// [`CpmError::Dictionary`] if the map is another dictionary's.
@@ -266,8 +274,8 @@ impl CpMapper {
         })
     }
 
-    /// Returns whether the map is optimized now, and worth being looked at: offline CPM is blind until its
-    /// patience ends.
+    /// Returns whether the map is optimized now, and worth being looked at: offline CPM is blind
+    /// until its patience ends.
     #[must_use]
     pub const fn looks_at_map(&self) -> bool {
         self.config.mapping.looks_at_map(self.traversals)
@@ -293,7 +301,8 @@ impl CpMapper {
     }
 }
 
-/// Offline and online: on the one map there is, what is similar is the same. Offline nothing is compared.
+/// Offline and online: on the one map there is, what is similar is the same. Offline nothing is
+/// compared.
 fn reason(
     mapper: &mut Mapper,
     turn: Turn,

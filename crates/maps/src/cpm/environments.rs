@@ -7,12 +7,14 @@ use super::map::{CpMap, End};
 use super::pattern::{Dictionary, DictionaryError, PatternId, euclidean};
 use super::similarity::Sense;
 
-/// The paths of several environments in one associative memory: the paper's fourth layer, "introduced for the case in which the robot
-/// must experience more than one environment. A single environment is represented by the associated path-fragments."
+/// The paths of several environments in one associative memory: the paper's fourth layer,
+/// "introduced for the case in which the robot must experience more than one environment. A single
+/// environment is represented by the associated path-fragments."
 ///
-/// "Unlike the original SOINN-AM, our method does not limit to associative pairs. Specifically, our method create the association
-/// A → B → C → D": one sequence recalls all that follow it on the path, and with them the environment. What is associated is
-/// a code of each fragment: the prototypes at [`SAMPLES`](Self::SAMPLES) places along it.
+/// "Unlike the original SOINN-AM, our method does not limit to associative pairs. Specifically, our
+/// method create the association A → B → C → D": one sequence recalls all that follow it on the
+/// path, and with them the environment. What is associated is a code of each fragment: the
+/// prototypes at [`SAMPLES`](Self::SAMPLES) places along it.
 ///
 /// ```
 /// use tolman_maps::cpm::{CpMapperConfig, Dictionary, Environments, CpMapper, PatternId, Sighting, Sign, Traversal, Turn};
@@ -57,10 +59,11 @@ struct Learned {
 pub struct Recollection {
     /// The environment it is of.
     pub environment: u32,
-    /// The fragment it is, and those that follow it on the path that was learned, each by the end it is entered at; up to the end
-    /// of the path, or until one comes again.
+    /// The fragment it is, and those that follow it on the path that was learned, each by the end
+    /// it is entered at; up to the end of the path, or until one comes again.
     pub chain: Vec<End>,
-    /// How far the sequence's code is from that of the fragment it was taken for, per sample: a distance of prototypes.
+    /// How far the sequence's code is from that of the fragment it was taken for, per sample: a
+    /// distance of prototypes.
     pub distance: f64,
 }
 
@@ -71,7 +74,8 @@ pub enum RecallError {
     /// Nothing was learned yet.
     #[error("no path was learned yet")]
     NothingLearned,
-    /// A sequence without patterns, or a path of fewer than two fragments, has nothing to associate.
+    /// A sequence without patterns, or a path of fewer than two fragments, has nothing to
+    /// associate.
     #[error("nothing to associate: a path needs two fragments, each with an observation")]
     TooShort,
     /// A fragment of the path is not on the map.
@@ -105,7 +109,8 @@ impl Environments {
         })
     }
 
-    /// Associates each fragment of a path, by the end it is entered at, with the next. O(fragments · learned).
+    /// Associates each fragment of a path, by the end it is entered at, with the next. O(fragments
+    /// · learned).
     ///
     /// # Errors
     /// [`RecallError`] if the path is too short or not on the map. Nothing is learned then.
@@ -145,7 +150,8 @@ impl Environments {
         Ok(())
     }
 
-    /// The fragment that a sequence is most like, the environment it is of, and what follows. O(learned · chain).
+    /// The fragment that a sequence is most like, the environment it is of, and what follows.
+    /// O(learned · chain).
     ///
     /// # Errors
     /// [`RecallError`] if nothing was learned, or a pattern is not in the dictionary.

@@ -16,15 +16,16 @@ use tolman_robot::Landmark;
 
 /// One way to understand all that the robot has met: a map, and what it costs to believe in it.
 ///
-/// The cost is a negative logarithm of probability, up to a constant that all hypotheses share. Every step adds how much less
-/// likely it is than a walk into the unknown would have been.
+/// The cost is a negative logarithm of probability, up to a constant that all hypotheses share.
+/// Every step adds how much less likely it is than a walk into the unknown would have been.
 #[derive(Clone, Debug)]
 pub(super) struct Hypothesis {
     pub(super) mapper: Mapper,
     pub(super) cost: f64,
 }
 
-/// Where the junctions of a map, by id, lie, seen from where a walk began; none where that is not known.
+/// Where the junctions of a map, by id, lie, seen from where a walk began; none where that is not
+/// known.
 type Positions = [Option<PointBox>];
 
 impl Hypothesis {
@@ -71,8 +72,8 @@ impl Hypothesis {
         Ok(all)
     }
 
-    /// Whether a walk has led, for certain, to a place of the map: to the only start, if it is known where that lies from here, or where one
-    /// like it is and two do not fit.
+    /// Whether a walk has led, for certain, to a place of the map: to the only start, if it is
+    /// known where that lies from here, or where one like it is and two do not fit.
     fn is_known_place(
         &self,
         walk: &Traversal,
@@ -115,7 +116,8 @@ impl Hypothesis {
         Some(next)
     }
 
-    /// The walk was a new fragment that led to a known place, through a port nobody has been through.
+    /// The walk was a new fragment that led to a known place, through a port nobody has been
+    /// through.
     fn to_places(
         &self,
         exit: Port,
@@ -156,7 +158,8 @@ impl Hypothesis {
         all
     }
 
-    /// The fragment just added is one that the map has already. The place it led to is the last, and has no position yet.
+    /// The fragment just added is one that the map has already. The place it led to is the last,
+    /// and has no position yet.
     fn duplicates(
         &self,
         new: FragmentId,
@@ -233,10 +236,12 @@ impl Hypothesis {
         if count > 0.0 { sum / count } else { 1.0 }
     }
 
-    /// Two hypotheses that say the same look the same: all that can be reached from the robot's place, in order.
+    /// Two hypotheses that say the same look the same: all that can be reached from the robot's
+    /// place, in order.
     pub(super) fn signature(&self) -> Vec<u32> {
         let Mapper { map, at } = &self.mapper;
-        // Junctions by rank, with the port by which each is entered first; and the place of each in this order, by rank.
+        // Junctions by rank, with the port by which each is entered first; and the place of each in
+        // this order, by rank.
         let mut order = Vec::new();
         let mut places = vec![None; map.junctions.len()];
         if let Some(rank) = map.junctions.rank(at.junction) {
@@ -279,20 +284,22 @@ impl Comparison<'_> {
     }
 }
 
-/// What it costs to believe that ways which a robot has seen, having come by a port, are those of a place.
+/// What it costs to believe that ways which a robot has seen, having come by a port, are those of a
+/// place.
 fn bearings_cost(place: &Junction, port: u32, walk: &Traversal) -> f64 {
     let off = place.apart(port, walk.bearings.as_ref()) / SHARP;
     (0.5 * off * off).min(MOST_EVIDENCE)
 }
 
-/// How much more likely two places are to be within a box of each other if they are one than if they are any two: the
-/// area in which one is expected, over that of the box.
+/// How much more likely two places are to be within a box of each other if they are one than if
+/// they are any two: the area in which one is expected, over that of the box.
 fn coincidence(apart: PointBox, area: f64) -> f64 {
     let side = |side: Interval| side.width().max(1e-3);
     libm::log(area / (side(apart.x) * side(apart.y))).clamp(-MOST_EVIDENCE, MOST_EVIDENCE)
 }
 
-/// No two places are nearer to each other, m: it is less than the width of any robot that could tell them apart.
+/// No two places are nearer to each other, m: it is less than the width of any robot that could
+/// tell them apart.
 const LEAST_APART: f64 = 0.05;
 
 /// What a new place costs: a map with fewer is simpler.

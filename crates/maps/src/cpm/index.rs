@@ -6,8 +6,9 @@ use super::map::FragmentId;
 use super::nodes::Nodes;
 use super::pattern::{Dictionary, PatternId};
 
-/// Which fragments of a large map are worth comparing: a ranking, as of texts. "One can use the 'term frequency-inverse
-/// document frequency', *tf-idf*, for path-fragment matching in more complex environment" (section 8).
+/// Which fragments of a large map are worth comparing: a ranking, as of texts. "One can use the
+/// 'term frequency-inverse document frequency', *tf-idf*, for path-fragment matching in more
+/// complex environment" (section 8).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FragmentIndex {
     bags: Nodes<FragmentId, Bag>,
@@ -43,8 +44,8 @@ impl FragmentIndex {
         self.bags.remove(id);
     }
 
-    /// At most so many fragments that have the most in common with a sequence or its inverse, best first, ties by id. All
-    /// if there are no more than that. O(fragments · patterns of each).
+    /// At most so many fragments that have the most in common with a sequence or its inverse, best
+    /// first, ties by id. All if there are no more than that. O(fragments · patterns of each).
     pub(super) fn candidates(
         &self,
         dictionary: &Dictionary,
@@ -65,8 +66,9 @@ impl FragmentIndex {
         Some(ranked.into_iter().map(|(id, _)| id).collect())
     }
 
-    /// For each fragment, by id, the occurrences of patterns it shares with a sequence, the rarer the more, as a part of the longer of
-    /// the two: else long fragments would have something in common with all.
+    /// For each fragment, by id, the occurrences of patterns it shares with a sequence, the rarer
+    /// the more, as a part of the longer of the two: else long fragments would have something in
+    /// common with all.
     fn in_common(&self, sequence: &[PatternId]) -> Vec<f64> {
         let seen = Bag::of(sequence);
         let bags = || self.bags.iter().map(|(_, bag)| bag).chain([&seen]);
@@ -99,7 +101,8 @@ impl FragmentIndex {
 mod tests {
     use super::*;
 
-    /// Long fragments share some patterns with all; the one that is the same, or nearly or inverted, comes first all the same.
+    /// Long fragments share some patterns with all; the one that is the same, or nearly or
+    /// inverted, comes first all the same.
     #[test]
     fn the_most_alike_comes_first() {
         let mut dictionary = Dictionary::new(1);

@@ -12,11 +12,13 @@ use super::traversal::Sighting;
 use super::turn::{NoSuchTurn, Turn};
 use tolman_robot::Landmark;
 
-/// Finds where a robot is, from one observation on: on which of several maps, in which fragment, walking which way.
+/// Finds where a robot is, from one observation on: on which of several maps, in which fragment,
+/// walking which way.
 ///
-/// The paper's robot, left in mid-fragment, "continues moving forward until the first junction", and knows in which environment it is by
-/// its fourth layer. This one keeps a probability of every place of every map (a Bayes filter), which each observation, junction and
-/// turn moves on, and begins with the first observation.
+/// The paper's robot, left in mid-fragment, "continues moving forward until the first junction",
+/// and knows in which environment it is by its fourth layer. This one keeps a probability of every
+/// place of every map (a Bayes filter), which each observation, junction and turn moves on, and
+/// begins with the first observation.
 ///
 /// ```
 /// use tolman_maps::cpm::{CpMapperConfig, Dictionary, CpMapper, Localizer, LocalizerConfig, PatternId, Sighting, Traversal, Turn};
@@ -62,11 +64,11 @@ pub struct Localizer {
 pub struct LocalizerConfig {
     /// That an observation is another pattern than the map's; above 0, less than 1.
     pub mistake: f64,
-    /// That the robot is, after an observation, still where the map has the one before, and likewise that it has passed one over;
-    /// 0 to 0.4.
+    /// That the robot is, after an observation, still where the map has the one before, and
+    /// likewise that it has passed one over; 0 to 0.4.
     pub slip: f64,
-    /// That it has been put elsewhere between two observations; above 0, at most 0.1. What it has come to believe wrongly it forgets by
-    /// this.
+    /// That it has been put elsewhere between two observations; above 0, at most 0.1. What it has
+    /// come to believe wrongly it forgets by this.
     pub elsewhere: f64,
 }
 
@@ -77,7 +79,8 @@ pub struct Location {
     pub map: usize,
     /// The fragment, by the end it was entered at.
     pub enter: End,
-    /// The port it leads to or, at a junction, has led to: what [`CpMapper::place`](super::CpMapper::place) has to be told there.
+    /// The port it leads to or, at a junction, has led to: what
+    /// [`CpMapper::place`](super::CpMapper::place) has to be told there.
     pub ahead: Port,
     /// How likely that is; 0 to 1.
     pub probability: f64,
@@ -118,19 +121,22 @@ struct Track {
     place: Sighting,
     bearings: Option<Bearings>,
     patterns: Vec<PatternId>,
-    /// How likely the robot has passed so many of them: one more than there are, as it may have passed none.
+    /// How likely the robot has passed so many of them: one more than there are, as it may have
+    /// passed none.
     passed: Vec<f64>,
 }
 
 impl Track {
-    /// How likely a robot sees these ways in the middle of the place ahead. Where as many are not seen, that has been weighed by the sighting.
+    /// How likely a robot sees these ways in the middle of the place ahead. Where as many are not
+    /// seen, that has been weighed by the sighting.
     fn seen(&self, seen: &Bearings) -> f64 {
         let expected = self.bearings.as_ref();
         let apart = expected.and_then(|expected| expected.apart(seen));
         apart.map_or(1.0, |apart| near(apart, SHARP).max(UNSEEN))
     }
 
-    /// How likely it glimpses these ways before the place ahead. What it glimpses may be no way, and ways may be hidden.
+    /// How likely it glimpses these ways before the place ahead. What it glimpses may be no way,
+    /// and ways may be hidden.
     fn glimpsed(&self, glimpse: &Bearings) -> f64 {
         let dead_end = [];
         let expected = match &self.bearings {
@@ -204,7 +210,8 @@ impl Localizer {
     /// Nothing is known yet: the robot may be in any fragment of any map.
     ///
     /// # Errors
-    /// [`LocalizeError`] if the maps are empty or another dictionary's, or a field is outside its range.
+    /// [`LocalizeError`] if the maps are empty or another dictionary's, or a field is outside its
+    /// range.
     pub fn new(
         maps: &[CpMap],
         dictionary: &Dictionary,
@@ -294,8 +301,8 @@ impl Localizer {
         Ok(())
     }
 
-    /// The end of the fragment comes into sight: what stands there, and where ways out seem to lead, seen from before it. O(all sequences'
-    /// lengths).
+    /// The end of the fragment comes into sight: what stands there, and where ways out seem to
+    /// lead, seen from before it. O(all sequences' lengths).
     pub fn end_in_sight(&mut self, landmark: Option<Landmark>, glimpse: Option<&Bearings>) {
         self.pass_all();
         self.weigh(|track| {
@@ -304,8 +311,8 @@ impl Localizer {
         });
     }
 
-    /// The end of a fragment is reached: a junction, dead end or landmark is seen, and where its ways lead, unless the robot does not look.
-    /// O(all sequences' lengths).
+    /// The end of a fragment is reached: a junction, dead end or landmark is seen, and where its
+    /// ways lead, unless the robot does not look. O(all sequences' lengths).
     pub fn arrive(&mut self, sighting: Sighting, bearings: Option<&Bearings>) {
         self.pass_all();
         self.weigh(|track| {
@@ -315,7 +322,8 @@ impl Localizer {
         self.is_placed = true;
     }
 
-    /// The robot turns round amid a fragment, or before the place at its end, and goes back along it. O(all sequences' lengths).
+    /// The robot turns round amid a fragment, or before the place at its end, and goes back along
+    /// it. O(all sequences' lengths).
     pub fn turn_round(&mut self) {
         let back: Vec<Vec<f64>> = self
             .tracks
@@ -356,7 +364,8 @@ impl Localizer {
         self.normalize();
     }
 
-    /// How likely the maps have a fragment where a turn leads, so that the robot would not go where it knows nothing. O(tracks).
+    /// How likely the maps have a fragment where a turn leads, so that the robot would not go where
+    /// it knows nothing. O(tracks).
     #[must_use]
     pub fn knows(&self, turn: Turn) -> f64 {
         self.entered(turn)
@@ -366,7 +375,8 @@ impl Localizer {
     /// The robot turns at the junction it is at, and enters the next fragment.
     ///
     /// # Errors
-    /// [`LocalizeError::Turn`] if no junction at which it may be has such a turn. Nothing is learned then.
+    /// [`LocalizeError::Turn`] if no junction at which it may be has such a turn. Nothing is
+    /// learned then.
     pub fn turn(&mut self, turn: Turn) -> Result<(), LocalizeError> {
         let entered = self.entered(turn)?;
         for (track, entered) in self.tracks.iter_mut().zip(entered) {
@@ -470,7 +480,8 @@ impl Localizer {
     }
 }
 
-/// How likely it is to be at any one place of each map: each map that has observations is as likely as the others, and each place of it.
+/// How likely it is to be at any one place of each map: each map that has observations is as likely
+/// as the others, and each place of it.
 fn anywhere(maps: usize, tracks: &[Track]) -> Vec<f64> {
     let mut places = vec![0_usize; maps];
     for track in tracks {
@@ -484,9 +495,10 @@ fn anywhere(maps: usize, tracks: &[Track]) -> Vec<f64> {
     places.iter().map(each).collect()
 }
 
-/// How far the prototype of what is observed lies from that of what is there, as a part of the greatest distance in the
-/// dictionary, on average. Exponential, not normal: what is observed a stride further on is off by much the same, so that a far one
-/// says less than many independent ones would; with it beliefs are as often right as they are sure.
+/// How far the prototype of what is observed lies from that of what is there, as a part of the
+/// greatest distance in the dictionary, on average. Exponential, not normal: what is observed a
+/// stride further on is off by much the same, so that a far one says less than many independent
+/// ones would; with it beliefs are as often right as they are sure.
 const NEAR: f64 = 0.14;
 
 /// How likely a junction is seen as one it is not.

@@ -24,7 +24,8 @@ impl FragmentId {
     }
 }
 
-/// A junction of a map, or a dead end, or a landmark in a corridor. It stays the same as long as that is there.
+/// A junction of a map, or a dead end, or a landmark in a corridor. It stays the same as long as
+/// that is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JunctionId(pub u32);
@@ -38,8 +39,8 @@ impl JunctionId {
     }
 }
 
-/// "The minus sign (−) denotes the entrance …, whereas a plus sign (+) denotes the exit. For any path-fragment, the signs
-/// are assigned only at the *first* time of traversal."
+/// "The minus sign (−) denotes the entrance …, whereas a plus sign (+) denotes the exit. For any
+/// path-fragment, the signs are assigned only at the *first* time of traversal."
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Sign {
     /// Where the robot entered when it first walked the fragment.
@@ -89,7 +90,8 @@ impl End {
     }
 }
 
-/// A port of a junction. As the place of a robot: it came in here, so that this port lies behind it.
+/// A port of a junction. As the place of a robot: it came in here, so that this port lies behind
+/// it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -127,7 +129,8 @@ pub enum PortState {
     Filled(End),
 }
 
-/// A junction node: "keeps only the fragments connecting to it, including the direction (−, +)", each at its port.
+/// A junction node: "keeps only the fragments connecting to it, including the direction (−, +)",
+/// each at its port.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Junction {
     /// Counter-clockwise.
@@ -160,8 +163,8 @@ impl Junction {
         Some(self.bearings.as_ref()?.counted_from(port))
     }
 
-    /// By how much ways lead into other directions than those that a robot has seen which came by a port, rad; 0 if nobody has looked or
-    /// there are not as many.
+    /// By how much ways lead into other directions than those that a robot has seen which came by a
+    /// port, rad; 0 if nobody has looked or there are not as many.
     pub(super) fn apart(&self, port: u32, seen: Option<&Bearings>) -> f64 {
         let known = self.bearings_from(port);
         let apart = known.zip(seen).and_then(|(known, seen)| known.apart(seen));
@@ -184,8 +187,8 @@ impl Junction {
     }
 }
 
-/// A fragment node: "contains three properties", its sequence, its length and its transitions. The transitions follow
-/// from the ports of its two ends: [`CpMap::transition`].
+/// A fragment node: "contains three properties", its sequence, its length and its transitions. The
+/// transitions follow from the ports of its two ends: [`CpMap::transition`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fragment {
@@ -202,7 +205,8 @@ pub struct Fragment {
 }
 
 impl Fragment {
-    /// ℓ(𝔸): its length in observations, at least 1, as a fragment costs time even where it is too short for one.
+    /// ℓ(𝔸): its length in observations, at least 1, as a fragment costs time even where it is too
+    /// short for one.
     #[must_use]
     pub const fn length(&self) -> u32 {
         let length = self.patterns.len() as u32;
@@ -221,7 +225,8 @@ impl Fragment {
 
 /// ℳ: the common-pattern map. Fragments, and the junctions that join them.
 ///
-/// Every fragment has each of its ends at a port that says so. Ids ascend in the order of making and are not used again.
+/// Every fragment has each of its ends at a port that says so. Ids ascend in the order of making
+/// and are not used again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CpMap {
     pub(super) fragments: Nodes<FragmentId, Fragment>,
@@ -243,7 +248,8 @@ impl CpMap {
         self.junctions.iter()
     }
 
-    /// Returns how many bytes fragments and junctions take, each with its id. O(fragments + junctions).
+    /// Returns how many bytes fragments and junctions take, each with its id. O(fragments +
+    /// junctions).
     #[must_use]
     pub fn bytes(&self) -> usize {
         let fragments = self.fragments().map(|(id, fragment)| {
@@ -321,7 +327,8 @@ impl CpMap {
         junction.map_or(&[][..], |junction| &junction.ports)
     }
 
-    /// Where one arrives who leaves by such a port: the junction's rank, and the number of its port.
+    /// Where one arrives who leaves by such a port: the junction's rank, and the number of its
+    /// port.
     pub(super) fn led_to(&self, port: PortState) -> Option<(usize, u32)> {
         let PortState::Filled(end) = port else {
             return None;
@@ -330,8 +337,8 @@ impl CpMap {
         Some((self.junctions.rank(there.junction)?, there.number))
     }
 
-    /// Λ2(X, Y) = Δ_{X→Y}, equation (6): the turn of a robot that comes out of a fragment at one end and shall enter
-    /// another at another end; none if the two ends are not at one junction.
+    /// Λ2(X, Y) = Δ_{X→Y}, equation (6): the turn of a robot that comes out of a fragment at one
+    /// end and shall enter another at another end; none if the two ends are not at one junction.
     ///
     /// As ports are kept, not transitions, all that (7) to (10) derive is there at once.
     #[must_use]
@@ -358,7 +365,8 @@ impl CpMap {
         marked.map(|(id, _)| id)
     }
 
-    /// Where a robot stands that has just begun the map at the first start on it; none if that is not on it.
+    /// Where a robot stands that has just begun the map at the first start on it; none if that is
+    /// not on it.
     #[must_use]
     pub fn start(&self) -> Option<Port> {
         Some(self.landmarks(Landmark::Start).next()?.port(0))
@@ -370,8 +378,8 @@ impl CpMap {
             .flat_map(|(id, place)| place.open_ports().map(move |number| id.port(number)))
     }
 
-    /// Definition 2: "ℳ is optimized if and only if … 𝔸ᵢ is distinctive", no two fragments are similar, either way.
-    /// O(fragments²) comparisons.
+    /// Definition 2: "ℳ is optimized if and only if … 𝔸ᵢ is distinctive", no two fragments are
+    /// similar, either way. O(fragments²) comparisons.
     #[must_use]
     pub fn is_optimized(&self, matching: &FragmentMatching, dictionary: &Dictionary) -> bool {
         let mut pairs = self.fragments().enumerate().flat_map(|(i, (_, first))| {
@@ -385,8 +393,8 @@ impl CpMap {
         })
     }
 
-    /// Definition 3: "every port (gateway) … has been filled, and ℳ contains an A-Pattern which represents the goal
-    /// path-fragment", one that ends at the goal.
+    /// Definition 3: "every port (gateway) … has been filled, and ℳ contains an A-Pattern which
+    /// represents the goal path-fragment", one that ends at the goal.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.is_explored() && self.has_goal()

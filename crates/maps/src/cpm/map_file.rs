@@ -10,7 +10,8 @@ use super::map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, P
 use super::pattern::{Dictionary, DictionaryError, Pattern, PatternId};
 use tolman_robot::Landmark;
 
-/// A map as it lies in a file, with the dictionary its sequences need. Any format of serde's will do.
+/// A map as it lies in a file, with the dictionary its sequences need. Any format of serde's will
+/// do.
 ///
 /// ```
 /// use tolman_maps::cpm::{CpMapperConfig, Dictionary, CpMapper, MapFile, PatternId, Sighting, Traversal, Turn};
@@ -221,11 +222,12 @@ impl MapFile {
         }
     }
 
-    /// The map as it was, for a robot with this dictionary: that of the file, or one that has grown out of it.
+    /// The map as it was, for a robot with this dictionary: that of the file, or one that has grown
+    /// out of it.
     ///
     /// # Errors
-    /// [`MapFileError`] as of [`dictionary`](Self::dictionary), if the robot's is another one, or if fragments and junctions do not fit
-    /// together.
+    /// [`MapFileError`] as of [`dictionary`](Self::dictionary), if the robot's is another one, or
+    /// if fragments and junctions do not fit together.
     pub fn map(&self, dictionary: &Dictionary) -> Result<CpMap, MapFileError> {
         let own = self.dictionary()?;
         dictionary.check_version(own.version())?;

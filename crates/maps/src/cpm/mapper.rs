@@ -25,7 +25,8 @@ impl Mapper {
         Self { map, at }
     }
 
-    /// Takes in a walk if it is along a fragment of the map that leads where it should and is trusted; returns whether it is.
+    /// Takes in a walk if it is along a fragment of the map that leads where it should and is
+    /// trusted; returns whether it is.
     pub(super) fn follow(
         &mut self,
         exit: Port,
@@ -46,8 +47,8 @@ impl Mapper {
         is_expected
     }
 
-    /// The robot is not where the map has it. What it has walked begins at a copy of its place that hangs on nothing, until it is
-    /// recognized; the port stays as it is.
+    /// The robot is not where the map has it. What it has walked begins at a copy of its place that
+    /// hangs on nothing, until it is recognized; the port stays as it is.
     pub(super) fn go_adrift(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let place = self.map.junction(exit.junction);
         let sighting = place.map(Junction::sighting);
@@ -61,8 +62,8 @@ impl Mapper {
         self.append(adrift.port(turn.0), walk)
     }
 
-    /// What is new is joined to the last junction, "together with the performed transition"; the junction it led to is new as well,
-    /// until unified with another.
+    /// What is new is joined to the last junction, "together with the performed transition"; the
+    /// junction it led to is new as well, until unified with another.
     pub(super) fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let junction = self.map.add_junction(walk.sighting, walk.bearings.clone());
         self.at = junction.port(0);
@@ -108,7 +109,8 @@ impl Mapper {
         Ok(junction.port(turn.exit(number, degree)?))
     }
 
-    /// The fragment that another one is a duplicate of: the most similar one with which it can be unified, which it then is.
+    /// The fragment that another one is a duplicate of: the most similar one with which it can be
+    /// unified, which it then is.
     pub(super) fn unify_with_similar(
         &mut self,
         new: FragmentId,
@@ -139,8 +141,8 @@ impl Mapper {
         })
     }
 
-    /// "The robot repeats checking the similar A-Pattern and fills the new path-fragments to the junction … until no similar
-    /// pattern remains." Returns how many were found to be duplicates.
+    /// "The robot repeats checking the similar A-Pattern and fills the new path-fragments to the
+    /// junction … until no similar pattern remains." Returns how many were found to be duplicates.
     pub(super) fn optimize(&mut self, comparison: &Comparison<'_>) -> usize {
         let before = self.map.fragments.len();
         let ids: Vec<FragmentId> = self.map.fragments().map(|(id, _)| id).collect();
@@ -197,8 +199,8 @@ impl Comparison<'_> {
         others
     }
 
-    /// How an online robot judges a fragment that it knows, entered at an end: it trusts the map unless another fragment fits what it
-    /// has observed, and this one does not.
+    /// How an online robot judges a fragment that it knows, entered at an end: it trusts the map
+    /// unless another fragment fits what it has observed, and this one does not.
     fn trusts(&self, map: &CpMap, walk: &Traversal, end: End) -> bool {
         let Self {
             matching,

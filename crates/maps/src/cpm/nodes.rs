@@ -1,8 +1,9 @@
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-/// The nodes of a map by id. Copies of the map share them all, and still the others once one of them has changed some: a copy
-/// costs nothing, the first change to it a count for each node, whatever is in it.
+/// The nodes of a map by id. Copies of the map share them all, and still the others once one of
+/// them has changed some: a copy costs nothing, the first change to it a count for each node,
+/// whatever is in it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Nodes<I, T>(Arc<Vec<(I, Arc<T>)>>);
 
@@ -53,7 +54,8 @@ impl<I: Copy + Ord, T: Clone> Nodes<I, T> {
         Some(Arc::make_mut(node))
     }
 
-    /// Returns whether there was none of this id; else the new one takes its place. The last id is the cheapest.
+    /// Returns whether there was none of this id; else the new one takes its place. The last id is
+    /// the cheapest.
     pub(super) fn insert(&mut self, id: I, node: T) -> bool {
         let place = self.search(id);
         let nodes = Arc::make_mut(&mut self.0);

@@ -9,9 +9,10 @@ pub struct PatternId(pub u32);
 
 /// C, the set of common patterns: the prototypes of what the robot observes.
 ///
-/// A dictionary only grows: a pattern keeps its number and its prototype for good, so that sequences that were
-/// written with an earlier [version](Self::version) stay readable beside new ones. A version is a number of patterns, and
-/// its [fingerprint](Version::fingerprint) tells it from those of other robots.
+/// A dictionary only grows: a pattern keeps its number and its prototype for good, so that
+/// sequences that were written with an earlier [version](Self::version) stay readable beside new
+/// ones. A version is a number of patterns, and its [fingerprint](Version::fingerprint) tells it
+/// from those of other robots.
 ///
 /// ```
 /// use tolman_maps::cpm::{Dictionary, PatternId};
@@ -115,11 +116,12 @@ impl Dictionary {
         }
     }
 
-    /// A finished dictionary: the prototypes, and for each which of them is its vector turned half round, for patterns that
-    /// are seen walking the other way. O(patterns²).
+    /// A finished dictionary: the prototypes, and for each which of them is its vector turned half
+    /// round, for patterns that are seen walking the other way. O(patterns²).
     ///
     /// # Errors
-    /// [`DictionaryError`] if a prototype is invalid, or `half_turned` does not lead back and forth.
+    /// [`DictionaryError`] if a prototype is invalid, or `half_turned` does not lead back and
+    /// forth.
     pub fn from_prototypes(
         dimension: usize,
         prototypes: &[(Vec<f64>, PatternId)],
@@ -139,12 +141,14 @@ impl Dictionary {
         Ok(dictionary)
     }
 
-    /// The pattern that stands for an observation: the nearest if it lies within `tolerance`, else a new one, made of the
-    /// observation, together with a new one for `half_turned`, the same seen the other way, unless that is known or nearly the
-    /// same. The paper's own wish: "the CPs must be learned incrementally". O(patterns · features).
+    /// The pattern that stands for an observation: the nearest if it lies within `tolerance`, else
+    /// a new one, made of the observation, together with a new one for `half_turned`, the same seen
+    /// the other way, unless that is known or nearly the same. The paper's own wish: "the CPs must
+    /// be learned incrementally". O(patterns · features).
     ///
     /// # Errors
-    /// [`DictionaryError`] if one of the observations or the tolerance is invalid. Nothing is learned then.
+    /// [`DictionaryError`] if one of the observations or the tolerance is invalid. Nothing is
+    /// learned then.
     pub fn learn(
         &mut self,
         observation: &[f64],
@@ -170,7 +174,8 @@ impl Dictionary {
         Ok(new)
     }
 
-    /// The nearest pattern and its distance, the first of equals; none if there are none. O(patterns · features).
+    /// The nearest pattern and its distance, the first of equals; none if there are none.
+    /// O(patterns · features).
     ///
     /// # Errors
     /// [`DictionaryError`] if the observation has another size, or a feature that is not finite.
@@ -239,7 +244,8 @@ impl Dictionary {
         self.greatest_distance
     }
 
-    /// A⁻¹: what is observed along a sequence walked the other way. Its order is reversed and each pattern half turned.
+    /// A⁻¹: what is observed along a sequence walked the other way. Its order is reversed and each
+    /// pattern half turned.
     ///
     /// # Errors
     /// If a pattern is not the dictionary's.

@@ -5,9 +5,9 @@ use tolman_planners::{Graph, a_star};
 use super::map::{CpMap, End, Fragment, JunctionId, Port, PortState};
 use super::turn::Turn;
 
-/// A way through the map, as section 4.3 words it: "follow the path until reaching the junction, perform Δ, follow the
-/// path by skipping the observation for 3 CPs until reaching another junction, perform Δ, and make observation again to
-/// confirm the correct destination".
+/// A way through the map, as section 4.3 words it: "follow the path until reaching the junction,
+/// perform Δ, follow the path by skipping the observation for 3 CPs until reaching another
+/// junction, perform Δ, and make observation again to confirm the correct destination".
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Plan {
     /// One fragment after the other; none where the robot is there already.
@@ -25,14 +25,15 @@ pub struct PlanLeg {
     pub enter: End,
     /// Where it leads.
     pub arrive: Port,
-    /// How many observations were made along the fragment, "used to estimate how many observation the robot can skip"; 0 where
-    /// it was too short for any.
+    /// How many observations were made along the fragment, "used to estimate how many observation
+    /// the robot can skip"; 0 where it was too short for any.
     pub observations: u32,
 }
 
 impl CpMap {
-    /// The shortest known way, in observations, from a robot's place to the nearest junction that is wanted; none if
-    /// none is known. Ties go to the older junctions and fragments. O(fragments · log fragments).
+    /// The shortest known way, in observations, from a robot's place to the nearest junction that
+    /// is wanted; none if none is known. Ties go to the older junctions and fragments. O(fragments
+    /// · log fragments).
     #[must_use]
     pub fn plan(&self, from: Port, wanted: impl Fn(JunctionId) -> bool) -> Option<Plan> {
         let source = self.junctions.rank(from.junction)? as u32;
@@ -60,7 +61,8 @@ impl CpMap {
         Some(Plan { legs, length })
     }
 
-    /// The shortest of the fragments that lead from one junction to another, by the end to enter it at.
+    /// The shortest of the fragments that lead from one junction to another, by the end to enter it
+    /// at.
     fn shortest_to(&self, from: JunctionId, to: JunctionId) -> Option<End> {
         let ports = 0..self.junction(from)?.degree();
         let ends = ports.filter_map(|number| {

@@ -5,7 +5,8 @@ use core::cell::RefCell;
 use super::pattern::PatternId;
 use super::similarity::Sense;
 
-/// How similar sequences are: of all pairs that were asked for. The hypotheses of a walk ask for the same ones again and again.
+/// How similar sequences are: of all pairs that were asked for. The hypotheses of a walk ask for
+/// the same ones again and again.
 #[derive(Debug, Default)]
 pub(super) struct Scores(RefCell<BTreeMap<Vec<PatternId>, Row>>);
 

@@ -102,8 +102,8 @@ impl FragmentMatching {
         }
     }
 
-    /// Above it two fragments may be one that would lead out of one port because others are similar: what others say for it makes up for a
-    /// little that is missing to μ.
+    /// Above it two fragments may be one that would lead out of one port because others are
+    /// similar: what others say for it makes up for a little that is missing to μ.
     #[must_use]
     pub const fn threshold_at_port(&self) -> f64 {
         match self {
@@ -185,7 +185,8 @@ pub struct Similarity {
     pub sum: Sum,
     /// μ: above it two fragments are the same; 0 to 1. "We simply set μ = 0.9."
     pub mu: f64,
-    /// Above it two fragments are the same that would lead out of one port, because others are similar; 0 to `mu`. Ours.
+    /// Above it two fragments are the same that would lead out of one port, because others are
+    /// similar; 0 to `mu`. Ours.
     pub mu_at_port: f64,
 }
 
@@ -196,7 +197,8 @@ pub struct Similarity {
 pub enum PatternDifference {
     /// The distance of their prototypes; d_max is the greatest of those.
     Prototypes,
-    /// The difference of their numbers, to the letter, though numbers are names; d_max is that of the last and the first.
+    /// The difference of their numbers, to the letter, though numbers are names; d_max is that of
+    /// the last and the first.
     Indices,
 }
 
@@ -207,7 +209,8 @@ pub enum PatternDifference {
 pub enum Span {
     /// All of both: the shorter sequence is stretched over the longer one.
     Whole,
-    /// Up to the end of the shorter one, to the letter: a fragment is similar to all that begin like it.
+    /// Up to the end of the shorter one, to the letter: a fragment is similar to all that begin
+    /// like it.
     Shorter,
 }
 
@@ -216,16 +219,17 @@ pub enum Span {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Sum {
-    /// Their mean over the positions, which is what the sum and the division of (3) make, so that long fragments and short
-    /// ones are measured alike.
+    /// Their mean over the positions, which is what the sum and the division of (3) make, so that
+    /// long fragments and short ones are measured alike.
     Mean,
-    /// The root of the sum of their squares, (4); the sum of (3) over so many times the same E, divided by as many, is E.
+    /// The root of the sum of their squares, (4); the sum of (3) over so many times the same E,
+    /// divided by as many, is E.
     Euclidean,
 }
 
 impl Similarity {
-    /// As we read the paper: distances of prototypes, whole sequences, means, μ = 0.9; at one port half-way between that and 0.8, under which
-    /// distinctive fragments stay.
+    /// As we read the paper: distances of prototypes, whole sequences, means, μ = 0.9; at one port
+    /// half-way between that and 0.8, under which distinctive fragments stay.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -237,7 +241,8 @@ impl Similarity {
         }
     }
 
-    /// The equations to the letter: differences of numbers, up to the shorter one's length, E as (4) has it, μ = 0.9.
+    /// The equations to the letter: differences of numbers, up to the shorter one's length, E as
+    /// (4) has it, μ = 0.9.
     #[must_use]
     pub const fn literal() -> Self {
         Self {
@@ -249,9 +254,9 @@ impl Similarity {
         }
     }
 
-    /// f_S of two sequences, at most 1, which equal ones have. [`Sum::Euclidean`] may lead below 0. Two empty ones, which
-    /// nothing tells apart or proves the same, have 0, and so has an empty one beside another.
-    /// O(length · features).
+    /// f_S of two sequences, at most 1, which equal ones have. [`Sum::Euclidean`] may lead below 0.
+    /// Two empty ones, which nothing tells apart or proves the same, have 0, and so has an empty
+    /// one beside another. O(length · features).
     #[must_use]
     pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
         let positions = match self.span {
@@ -265,7 +270,8 @@ impl Similarity {
             PatternDifference::Prototypes => dictionary.distance(a, b),
             PatternDifference::Indices => f64::from(a.0.abs_diff(b.0)),
         };
-        // In the middle of the position's share of the longer one; where that is a border, the two beside it count by halves.
+        // In the middle of the position's share of the longer one; where that is a border, the two
+        // beside it count by halves.
         let at = |sequence: &[PatternId], position: usize| match self.span {
             Span::Whole => {
                 let (middle, unit) = ((2 * position + 1) * sequence.len(), 2 * positions);

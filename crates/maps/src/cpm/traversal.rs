@@ -8,8 +8,9 @@ use super::bearings::Bearings;
 use super::pattern::PatternId;
 use tolman_robot::Landmark;
 
-/// What the robot sees of a place that ends a fragment: a junction, a dead end (one port), or a landmark ("other
-/// CP (some extra landmarks) might also be used to divide fragment as well"), which may stand in a corridor (two ports).
+/// What the robot sees of a place that ends a fragment: a junction, a dead end (one port), or a
+/// landmark ("other CP (some extra landmarks) might also be used to divide fragment as well"),
+/// which may stand in a corridor (two ports).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sighting {
     /// How many ways lead out, the port of entry among them; at least 1.
@@ -50,18 +51,21 @@ impl fmt::Display for Sighting {
 /// One fragment walked from one place to the next: what becomes an A-pattern.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traversal {
-    /// 𝔸 of Definition 1: the common patterns observed on the way, without those of the places at its ends.
+    /// 𝔸 of Definition 1: the common patterns observed on the way, without those of the places at
+    /// its ends.
     pub patterns: Vec<PatternId>,
     /// What dead reckoning says; none if the robot has none, as the paper's.
     pub motion: Option<DeadReckoning>,
     /// The place it led to.
     pub sighting: Sighting,
-    /// Where the ways out of that place lead, counted from the one by which the robot came; none if it did not look, as the paper's.
+    /// Where the ways out of that place lead, counted from the one by which the robot came; none if
+    /// it did not look, as the paper's.
     pub bearings: Option<Bearings>,
 }
 
-/// What dead reckoning knows of a walk. Its axes are the same for all walks: those the robot had at its start, as far as it
-/// knows them, with the drift of its heading since then allowed for in the bounds.
+/// What dead reckoning knows of a walk. Its axes are the same for all walks: those the robot had at
+/// its start, as far as it knows them, with the drift of its heading since then allowed for in the
+/// bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DeadReckoning {
@@ -84,7 +88,8 @@ impl DeadReckoning {
         }
     }
 
-    /// What both allow of walks along one fragment; none if they contradict each other, headings up to full circles.
+    /// What both allow of walks along one fragment; none if they contradict each other, headings up
+    /// to full circles.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         let pose = |motion: Self, heading| PoseBox::new(motion.displacement, heading);

@@ -1,11 +1,12 @@
 use thiserror::Error;
 
-/// A transition Δ: which port of a junction the robot leaves by, counted counter-clockwise from the port it came
-/// in by, which is 0.
+/// A transition Δ: which port of a junction the robot leaves by, counted counter-clockwise from the
+/// port it came in by, which is 0.
 ///
-/// In a crossing, 1 turns right, 2 goes straight on, 3 turns left, whatever way the robot came.
-/// The paper counts from the robot's heading, which its equation (2) does not survive; counted from the port of
-/// entry, Δ runs from 1 to degree − 1 and N_w of (2) is degree − 1. [`BACK`](Self::BACK) is the turn of a dead end.
+/// In a crossing, 1 turns right, 2 goes straight on, 3 turns left, whatever way the robot came. The
+/// paper counts from the robot's heading, which its equation (2) does not survive; counted from the
+/// port of entry, Δ runs from 1 to degree − 1 and N_w of (2) is degree − 1. [`BACK`](Self::BACK) is
+/// the turn of a dead end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Turn(pub u32);
 
@@ -47,8 +48,8 @@ impl Turn {
         Ok(sum(entry, self.0, degree))
     }
 
-    /// Λ1, equation (2): the turn that leads back again, Δ⁻¹ = N_w − Δ + 1 with N_w = `degree` − 1. It is its own
-    /// inverse.
+    /// Λ1, equation (2): the turn that leads back again, Δ⁻¹ = N_w − Δ + 1 with N_w = `degree` − 1.
+    /// It is its own inverse.
     ///
     /// # Errors
     /// If the junction has no such turn.
@@ -60,8 +61,8 @@ impl Turn {
         Ok(Self(sum(0, degree - self.0, degree)))
     }
 
-    /// Equations (9) and (10): the turn that leads to where first this turn and then `next` would lead,
-    /// (Δ + Δ') mod n_junc with n_junc = `degree`.
+    /// Equations (9) and (10): the turn that leads to where first this turn and then `next` would
+    /// lead, (Δ + Δ') mod n_junc with n_junc = `degree`.
     ///
     /// # Errors
     /// If the junction has no such turn.

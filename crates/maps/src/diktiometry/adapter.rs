@@ -9,7 +9,8 @@ use super::{
     PlaceId, Projection, Similarity, Successor, Track, elide_place, remember, trusted_odometry,
 };
 
-/// How many of the places met before the last are related to a new one directly: two moves back, three, …
+/// How many of the places met before the last are related to a new one directly: two moves back,
+/// three, …
 const SPAN: usize = 4;
 
 impl Observer {
@@ -75,9 +76,10 @@ impl Observer {
         (to, Some(link))
     }
 
-    /// Relates the places met lately to the one just met by the way between them. Where in a place the robot stopped matters at the
-    /// ends of a way alone, while relations from each place to the next count it at both ends of every move; so nothing
-    /// is to be won where robots stop at a point.
+    /// Relates the places met lately to the one just met by the way between them. Where in a place
+    /// the robot stopped matters at the ends of a way alone, while relations from each place to the
+    /// next count it at both ends of every move; so nothing is to be won where robots stop at a
+    /// point.
     fn relate_lately(&mut self, track: &Track, to: PlaceId, moved: PointBox) {
         if self.config.place_radius <= 0.0 {
             return;
@@ -113,7 +115,8 @@ impl Observer {
         grid.traverse(start, end, self.config.separation);
     }
 
-    /// A track gives way to another: the places that it alone made, and that nobody has met since, are taken out of the map.
+    /// A track gives way to another: the places that it alone made, and that nobody has met since,
+    /// are taken out of the map.
     pub(super) fn abandon(&mut self, loser: &Track, winner: PlaceId) {
         let lately = loser.history.iter().rev().map(|entry| entry.place);
         let made = lately.take_while(|&place| {

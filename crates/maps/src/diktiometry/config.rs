@@ -9,8 +9,9 @@ use super::Action;
 
 /// What the observer is told of the robot and the world, and which parts of it are at work.
 ///
-/// The paper gives no numbers but the error of odometry (10 % of the distance), so there is no `Default`;
-/// [`Config::new`] has the values proposed here, each with its reason. Lengths are in metres of the odometry.
+/// The paper gives no numbers but the error of odometry (10 % of the distance), so there is no
+/// `Default`; [`Config::new`] has the values proposed here, each with its reason. Lengths are in
+/// metres of the odometry.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Config {
@@ -18,13 +19,14 @@ pub struct Config {
     pub actions: Vec<ActionKind>,
     /// δ_sep: two places are never nearer than this, m, > 0. (*Geometric constraints*)
     pub separation: f64,
-    /// Two places that look alike are never nearer than this, m, at least `separation`. Where views tell, this is what
-    /// lets boxes be wider.
+    /// Two places that look alike are never nearer than this, m, at least `separation`. Where views
+    /// tell, this is what lets boxes be wider.
     pub alike_separation: f64,
     /// In what sense they are so far apart.
     #[cfg_attr(feature = "serde", serde(default))]
     pub apart: Apart,
-    /// Places at both ends of an action that [leads](ActionKind::leads) straight lie within this of one line along its axis, m, ≥ 0.
+    /// Places at both ends of an action that [leads](ActionKind::leads) straight lie within this of
+    /// one line along its axis, m, ≥ 0.
     #[cfg_attr(feature = "serde", serde(default))]
     pub across: f64,
     /// Whether the world may change.
@@ -32,13 +34,14 @@ pub struct Config {
     pub world: WorldKind,
     /// The robot ends a move within this of the place's point, m, ≥ 0.
     pub place_radius: f64,
-    /// Bound of an error of scale that all odometry shares, as a share of the distance, 0 ≤ … < 1. It cancels round every
-    /// loop, so it widens no box and only brings places nearer together: the map is in metres of the odometry.
+    /// Bound of an error of scale that all odometry shares, as a share of the distance, 0 ≤ … < 1.
+    /// It cancels round every loop, so it widens no box and only brings places nearer together: the
+    /// map is in metres of the odometry.
     pub shared_scale: f64,
     /// Whether percepts come with moves.
     pub percepts: Percepts,
-    /// A new place whose box in the frame it was reached from would be wider than twice this, m, ≥ 0, opens a frame of
-    /// its own. At 0 every place has one.
+    /// A new place whose box in the frame it was reached from would be wider than twice this, m, ≥
+    /// 0, opens a frame of its own. At 0 every place has one.
     pub frame_half_width: f64,
     /// How far the reference graph is searched.
     pub search: SearchLimits,
@@ -62,8 +65,8 @@ pub struct Config {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ActionKind {
-    /// The action that usually leads back. Advice uses it; the map believes what it saw, unless the world is
-    /// [static](WorldKind::Static).
+    /// The action that usually leads back. Advice uses it; the map believes what it saw, unless the
+    /// world is [static](WorldKind::Static).
     pub reverse: Option<Action>,
     /// The axis of the compass along which it leads straight; `None` if its ways may bend.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -89,8 +92,8 @@ pub enum Apart {
     /// The distance between them is, as in the paper.
     #[default]
     Distance,
-    /// They are so far apart along one axis of the compass. True where corridors follow the axes; false in halls and slanted
-    /// corridors.
+    /// They are so far apart along one axis of the compass. True where corridors follow the axes;
+    /// false in halls and slanted corridors.
     Side,
 }
 
@@ -147,8 +150,8 @@ pub struct SignatureKind {
     pub rows: usize,
     /// Columns, ≥ 1.
     pub columns: usize,
-    /// Values of two views of one place differ by no more than this, in units of the values, ≥ 0: twice the bound of the
-    /// sensor's noise.
+    /// Values of two views of one place differ by no more than this, in units of the values, ≥ 0:
+    /// twice the bound of the sensor's noise.
     pub tolerance: f64,
     /// Share of the columns that have to agree, 0 < … ≤ 1.
     pub share: f64,
@@ -172,7 +175,8 @@ pub enum ViewRotation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SearchLimits {
-    /// Frames whose position is known less well than this are not reached: the box's longer side, m, > 0.
+    /// Frames whose position is known less well than this are not reached: the box's longer side,
+    /// m, > 0.
     pub width: f64,
     /// Frames reached at most, ≥ 1.
     pub frames: usize,
@@ -209,8 +213,8 @@ pub enum PerceptualIndexing {
     Off,
     /// By their columns.
     Columns,
-    /// By triples of the edges between columns, as triangles. Asks for three columns or more; views with fewer than three edges are
-    /// not found.
+    /// By triples of the edges between columns, as triangles. Asks for three columns or more; views
+    /// with fewer than three edges are not found.
     Triangles,
 }
 
@@ -234,7 +238,8 @@ pub struct Matching {
     pub identity: Identity,
     /// How matchers take precedence.
     pub order: Precedence,
-    /// CONTINUE. Without it, an expected place has to show what an unexpected one has to, but to α-MATCH.
+    /// CONTINUE. Without it, an expected place has to show what an unexpected one has to, but to
+    /// α-MATCH.
     pub continuation: Use,
     /// LINK. Without it, unexpected places are noted at best.
     pub link: Use,
@@ -242,10 +247,11 @@ pub struct Matching {
     pub alpha: Use,
     /// β-MATCH.
     pub beta: Use,
-    /// α-MATCH goes before a new place while the old one has fewer visits than this: young boxes are the ones poisoned.
+    /// α-MATCH goes before a new place while the old one has fewer visits than this: young boxes
+    /// are the ones poisoned.
     pub alpha_visits: u32,
-    /// β-MATCH snaps to places nearer than this share of the distance since the last CONTINUE, ≥ 0, and never farther
-    /// than `separation`.
+    /// β-MATCH snaps to places nearer than this share of the distance since the last CONTINUE, ≥ 0,
+    /// and never farther than `separation`.
     pub beta_reach: f64,
     /// Cells of the grid that were traversed this often are well traversed.
     pub well_traversed: u32,
@@ -255,10 +261,11 @@ pub struct Matching {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Identity {
-    /// As the paper has it: the boxes meet. A wide box meets the neighbours as well, so that different places are confused.
+    /// As the paper has it: the boxes meet. A wide box meets the neighbours as well, so that
+    /// different places are confused.
     Meets,
-    /// The box of the difference is so narrow that two places cannot both be in it; what merely meets is noted, and
-    /// merged when the box has become narrow.
+    /// The box of the difference is so narrow that two places cannot both be in it; what merely
+    /// meets is noted, and merged when the box has become narrow.
     Certain,
 }
 
@@ -294,9 +301,11 @@ pub struct Tracking {
 pub struct Transients {
     /// Whether they are elided.
     pub elision: Use,
-    /// Elided when they are met, with 99 % certainty, in less than this share of the times they are expected, 0 … 1.
+    /// Elided when they are met, with 99 % certainty, in less than this share of the times they are
+    /// expected, 0 … 1.
     pub rate: f64,
-    /// Factor by which older counts fade with each expectation, 0 < … ≤ 1; at 1 nothing is ever forgotten.
+    /// Factor by which older counts fade with each expectation, 0 < … ≤ 1; at 1 nothing is ever
+    /// forgotten.
     pub fading: f64,
 }
 
@@ -318,7 +327,8 @@ pub struct Restructuring {
     pub weight: f64,
     /// Q: two estims split a place when their weights' ratio, larger to smaller, is below this.
     pub ratio: f64,
-    /// φ: places merge when the weight of every other estim of the union is below this share of the first's.
+    /// φ: places merge when the weight of every other estim of the union is below this share of the
+    /// first's.
     pub minority: f64,
     /// Share of common links that proposes a merge; below the second, it is rejected.
     pub links: [f64; 2],
@@ -340,8 +350,9 @@ pub enum GeometricMerge {
     Off,
     /// As the paper has it: the union of their estims has one mode.
     Estims,
-    /// The box of their difference is so narrow that two places cannot both be in it. What two places have in common, and
-    /// histories that fit both, are then no ground on their own: in a spiral whose places look alike they made one of two.
+    /// The box of their difference is so narrow that two places cannot both be in it. What two
+    /// places have in common, and histories that fit both, are then no ground on their own: in a
+    /// spiral whose places look alike they made one of two.
     Narrow,
 }
 
@@ -381,7 +392,8 @@ pub enum JournalLength {
 }
 
 impl Config {
-    /// The values proposed here, for places at least `separation` metres apart, that all look the same.
+    /// The values proposed here, for places at least `separation` metres apart, that all look the
+    /// same.
     #[must_use]
     pub fn new(actions: Vec<ActionKind>, separation: f64) -> Self {
         Self {
@@ -425,7 +437,8 @@ impl Config {
             },
             transients: Transients {
                 elision: Use::On,
-                // Together: what is gone is elided after 20 to 40 expectations in vain, what works half the time never.
+                // Together: what is gone is elided after 20 to 40 expectations in vain, what works
+                // half the time never.
                 rate: 0.3,
                 fading: 0.92,
             },
@@ -457,8 +470,8 @@ impl Config {
         }
     }
 
-    /// Four actions, each two the reverse of each other: 0 and 2, 1 and 3, as north, east, south and west in
-    /// [`Direction::ALL`](tolman_maze::Direction::ALL).
+    /// Four actions, each two the reverse of each other: 0 and 2, 1 and 3, as north, east, south
+    /// and west in [`Direction::ALL`](tolman_maze::Direction::ALL).
     #[must_use]
     pub fn compass_actions() -> Vec<ActionKind> {
         let reverses = [2, 3, 0, 1].map(|reverse| Some(Action(reverse)));

@@ -1,7 +1,7 @@
 use super::Expected;
 
-/// How constant something is that may come and go, as a door that is shut and opened: when it was last looked for, whether it was
-/// there, and how often that had changed.
+/// How constant something is that may come and go, as a door that is shut and opened: when it was
+/// last looked for, whether it was there, and how often that had changed.
 ///
 /// Beyond the paper, whose counts say how often a link works and not whether it does now.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,8 +20,8 @@ struct Seen {
 impl Constancy {
     /// The chance that it is there now: 1 for what was never looked for.
     ///
-    /// As a chain of two states that changes as often per move as was seen, v: t moves after it was seen, it is as it was seen with
-    /// chance (1 + exp(−2vt)) / 2.
+    /// As a chain of two states that changes as often per move as was seen, v: t moves after it was
+    /// seen, it is as it was seen with chance (1 + exp(−2vt)) / 2.
     #[must_use]
     pub fn chance(&self, now: u64) -> f64 {
         let Some(seen) = self.seen else {

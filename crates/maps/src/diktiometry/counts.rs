@@ -1,5 +1,5 @@
-/// How often something was expected, and how often of these it was met, both fading: with every expectation what was
-/// counted before it weighs less by a factor, so that the world may change.
+/// How often something was expected, and how often of these it was met, both fading: with every
+/// expectation what was counted before it weighs less by a factor, so that the world may change.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counts {
     expected: f64,
@@ -48,11 +48,12 @@ impl Counts {
         self.met += other.met;
     }
 
-    /// The share of expectations that are met, at most: the upper end of Wilson's score interval at 99 %. 1 for something never
-    /// expected.
+    /// The share of expectations that are met, at most: the upper end of Wilson's score interval at
+    /// 99 %. 1 for something never expected.
     ///
-    /// Expectations that fade are as good as n_eff = (Σw)² / Σw² that do not (Kish); from the sum alone, E = Σw,
-    /// n_eff = E (1 + f) / (2 − (1 − f) E), which is E without fading and at last (1 + f) / (1 − f), about 2 E.
+    /// Expectations that fade are as good as n_eff = (Σw)² / Σw² that do not (Kish); from the sum
+    /// alone, E = Σw, n_eff = E (1 + f) / (2 − (1 − f) E), which is E without fading and at last (1
+    /// + f) / (1 − f), about 2 E.
     pub(super) fn rate_at_most(&self, fading: f64) -> f64 {
         if self.expected <= 0.0 {
             return 1.0;

@@ -1,11 +1,12 @@
-//! "Local grid-based methods to maintain estimates of how well areas have been visited or traversed": traversed is all that
-//! the matchers' order asks for.
+//! "Local grid-based methods to maintain estimates of how well areas have been visited or
+//! traversed": traversed is all that the matchers' order asks for.
 
 use alloc::collections::BTreeMap;
 
 use tolman_geom::{Point, Vector};
 
-/// How well the area around a frame's origin was traversed, in square cells of the length that its user names.
+/// How well the area around a frame's origin was traversed, in square cells of the length that its
+/// user names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CoverageGrid {
     /// Cells that the robot was in, by their number.
@@ -28,7 +29,8 @@ impl CoverageGrid {
         });
     }
 
-    /// How often the way between two points was gone, in this direction: the least over the cells it crosses.
+    /// How often the way between two points was gone, in this direction: the least over the cells
+    /// it crosses.
     #[must_use]
     pub fn traversals(&self, from: Point, to: Point, cell: f64) -> u32 {
         let heading = quadrant(to - from);
@@ -55,8 +57,8 @@ fn quadrant(way: Vector) -> usize {
     }
 }
 
-/// The cells along a straight way, sampled twice a cell, each at most once in a row; at most 64 samples, so that
-/// a way of any length costs no more.
+/// The cells along a straight way, sampled twice a cell, each at most once in a row; at most 64
+/// samples, so that a way of any length costs no more.
 fn crossed(from: Point, to: Point, cell: f64, mut visit: impl FnMut(CellNumber)) {
     let way = to - from;
     let samples = (libm::ceil(2.0 * way.norm() / cell) as u32).clamp(1, 64);

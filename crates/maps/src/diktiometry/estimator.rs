@@ -11,7 +11,8 @@ use super::{
     expected, moved, plies, search,
 };
 
-/// Whether a track may change the map. Only the best may, lest a dying hypothesis damage it; in the paper all do.
+/// Whether a track may change the map. Only the best may, lest a dying hypothesis damage it; in the
+/// paper all do.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rank {
     Best,
@@ -19,8 +20,8 @@ pub(super) enum Rank {
 }
 
 impl Observer {
-    /// Projects a track, finds what it matches, and lets its best match change the map if it is the best track. Every
-    /// maximal matcher carries the track on.
+    /// Projects a track, finds what it matches, and lets its best match change the map if it is the
+    /// best track. Every maximal matcher carries the track on.
     pub(super) fn advance(
         &mut self,
         track: &Track,
@@ -125,8 +126,9 @@ impl Observer {
         TrackId(self.born - 1)
     }
 
-    /// The robot is not where it was expected to be: it may be wherever it looks like here, however far away. "Good candidate
-    /// places can be found based on perceptual cues, even if they are geometrically distant."
+    /// The robot is not where it was expected to be: it may be wherever it looks like here, however
+    /// far away. "Good candidate places can be found based on perceptual cues, even if they are
+    /// geometrically distant."
     fn suppose(
         &mut self,
         track: &Track,
@@ -196,8 +198,8 @@ impl Observer {
         }
     }
 
-    /// The tracks that live on: of those at one place the most trusted, none that is trusted too little, at most as many as
-    /// allowed; the best first.
+    /// The tracks that live on: of those at one place the most trusted, none that is trusted too
+    /// little, at most as many as allowed; the best first.
     pub(super) fn select(&mut self, mut tracks: Vec<Track>) -> Vec<Track> {
         // The best track stays the best until it has lost confidence and another has won it.
         let tracking = self.config.tracks;
@@ -282,9 +284,9 @@ pub(super) fn trusted_odometry(step: &ObservedMove, choice: &Choice, matcher: Ma
 /// The confidence of a track that begins because a place looks like what the robot sees.
 const SUPPOSED: f64 = 0.5;
 
-/// How far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an error or looks
-/// strange loses it. A new place
-/// posits one where another place was expected, or where another track needs none.
+/// How far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an error
+/// or looks strange loses it. A new place posits one where another place was expected, or where
+/// another track needs none.
 fn confidence_after(confidence: f64, matcher: Matcher, choice: &Choice, rivals: bool) -> f64 {
     match matcher {
         _ if choice.look == Similarity::Unlike => 0.7 * confidence,

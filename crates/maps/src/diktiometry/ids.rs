@@ -3,12 +3,14 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlaceId(pub u32);
 
-/// An action link of the path graph. Ids are given in the order links are made, and never given again.
+/// An action link of the path graph. Ids are given in the order links are made, and never given
+/// again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LinkId(pub u32);
 
-/// A local frame of the reference graph. Ids are given in the order frames are made, and never given again.
+/// A local frame of the reference graph. Ids are given in the order frames are made, and never
+/// given again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrameId(pub u32);
@@ -18,7 +20,8 @@ pub struct FrameId(pub u32);
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TrackId(pub u32);
 
-/// One of the robot's control routines, numbered from 0: an index into [`Config::actions`](super::Config::actions).
+/// One of the robot's control routines, numbered from 0: an index into
+/// [`Config::actions`](super::Config::actions).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Action(pub u32);

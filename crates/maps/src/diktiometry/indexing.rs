@@ -1,4 +1,5 @@
-//! "Indexing, to find likely candidate states to feed to the matcher": streams of sets of candidates, the best set first.
+//! "Indexing, to find likely candidate states to feed to the matcher": streams of sets of
+//! candidates, the best set first.
 
 mod active_frames;
 mod expectational;
@@ -49,7 +50,8 @@ impl Candidate {
         self.offset.contains(Point::origin())
     }
 
-    /// Whether the robot can be at no other place than this, if all others are `least_distance` `apart` from it.
+    /// Whether the robot can be at no other place than this, if all others are `least_distance`
+    /// `apart` from it.
     pub(super) fn is_certain(&self, apart: Apart, least_distance: f64) -> bool {
         self.is_possible() && apart.most(self.offset) < least_distance
     }

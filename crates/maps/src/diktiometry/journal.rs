@@ -1,4 +1,5 @@
-//! The journal: what the robot told, so that all that followed from it can be undone and done again.
+//! The journal: what the robot told, so that all that followed from it can be undone and done
+//! again.
 
 use alloc::vec::Vec;
 
@@ -9,8 +10,8 @@ use super::{
     StartError,
 };
 
-/// All that an observer was told, in order. What it decided follows from that, to the bit: to replay the journal is to decide
-/// again.
+/// All that an observer was told, in order. What it decided follows from that, to the bit: to
+/// replay the journal is to decide again.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Journal {
@@ -90,8 +91,8 @@ impl Observer {
         Ok(observer)
     }
 
-    /// Takes the last moves back: everything is as it was before them, to the bit. O(moves), since those before them are gone
-    /// through again.
+    /// Takes the last moves back: everything is as it was before them, to the bit. O(moves), since
+    /// those before them are gone through again.
     ///
     /// # Errors
     /// [`UndoError`] if no journal is kept or it has not that many moves.
@@ -109,9 +110,10 @@ impl Observer {
         Ok(())
     }
 
-    /// Takes back that two places were taken for one: all moves are gone through again, with the knowledge that the two are different.
-    /// Of `merged` in a [`Restructured::Merged`](super::Restructured::Merged) this is the undoing of that one decision.
-    /// Places made later may get other ids. O(moves).
+    /// Takes back that two places were taken for one: all moves are gone through again, with the
+    /// knowledge that the two are different. Of `merged` in a
+    /// [`Restructured::Merged`](super::Restructured::Merged) this is the undoing of that one
+    /// decision. Places made later may get other ids. O(moves).
     ///
     /// # Errors
     /// [`UndoError`] if no journal is kept or a place was never made.

@@ -1,4 +1,5 @@
-//! What new places teach of looks, and which places are noted since they look alike. Beyond the paper.
+//! What new places teach of looks, and which places are noted since they look alike. Beyond the
+//! paper.
 
 use alloc::vec::Vec;
 
@@ -8,9 +9,11 @@ use super::{
 };
 
 impl Observer {
-    /// A place is new: which of those around it are different for certain, and whether they look like it.
+    /// A place is new: which of those around it are different for certain, and whether they look
+    /// like it.
     ///
-    /// O(a search) a place if looks are used, amortized; where looks have begun to tell more, what is noted is weighed anew.
+    /// O(a search) a place if looks are used, amortized; where looks have begun to tell more, what
+    /// is noted is weighed anew.
     pub(super) fn learn_looks(&mut self, place: PlaceId, view: &Signature, hints: &mut Hints) {
         if self.config.restructuring.look_merge == Use::Off {
             return;

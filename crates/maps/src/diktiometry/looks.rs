@@ -23,20 +23,22 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// How many kinds of looks have to agree before the chance that all of them do by chance is below `error`; `None` if there are not
-    /// as many kinds. O(kinds²).
+    /// How many kinds of looks have to agree before the chance that all of them do by chance is
+    /// below `error`; `None` if there are not as many kinds. O(kinds²).
     ///
-    /// For places whose looks have nothing to do with their neighbours', how often two look alike, p, has a beta distribution by the pairs
-    /// that were seen (Jeffreys' prior), and the chance of k in a row is the mean of pᵏ. Where looks repeat, room for room, those that
-    /// deceive have neighbours that deceive, and it is at least the power of how often that was met.
+    /// For places whose looks have nothing to do with their neighbours', how often two look alike,
+    /// p, has a beta distribution by the pairs that were seen (Jeffreys' prior), and the chance of
+    /// k in a row is the mean of pᵏ. Where looks repeat, room for room, those that deceive have
+    /// neighbours that deceive, and it is at least the power of how often that was met.
     ///
-    /// A true place may be many places of a map that is not yet folded, whose pairs are no evidence of their own: all
-    /// pairs count for as many as the kinds of looks make.
+    /// A true place may be many places of a map that is not yet folded, whose pairs are no evidence
+    /// of their own: all pairs count for as many as the kinds of looks make.
     pub(super) fn enough(&self, error: f64) -> Option<usize> {
         (1..=self.kinds as usize).find(|agreeing| self.chance(*agreeing) < error)
     }
 
-    /// The chance that so many kinds of looks agree at two places; 1 where nothing is known of looks. O(agreeing).
+    /// The chance that so many kinds of looks agree at two places; 1 where nothing is known of
+    /// looks. O(agreeing).
     pub(super) fn chance(&self, agreeing: usize) -> f64 {
         let kinds = f64::from(self.kinds);
         let pairs = f64::from(self.different).min(0.5 * kinds * (kinds - 1.0));
@@ -70,7 +72,8 @@ impl Looks {
 
     /// Counts two places that geometry has told apart.
     ///
-    /// Of two that look alike, `neighbours` says how two look that the same action leads from or to, if any are known.
+    /// Of two that look alike, `neighbours` says how two look that the same action leads from or
+    /// to, if any are known.
     pub(super) fn count(&mut self, look: Similarity, neighbours: Option<Similarity>) {
         self.different = self.different.saturating_add(1);
         if look == Similarity::Unlike {

@@ -7,8 +7,9 @@ use super::{
     ReferenceGraph, SearchLimits, search,
 };
 
-/// "A diktiometric representation (a *diktiometry*) consists of two graphs, a path graph and a reference graph …
-/// connected by reference links, giving the positions of places with respect to particular local reference frames."
+/// "A diktiometric representation (a *diktiometry*) consists of two graphs, a path graph and a
+/// reference graph … connected by reference links, giving the positions of places with respect to
+/// particular local reference frames."
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Diktiometry {
     /// Places and actions.
@@ -28,7 +29,8 @@ pub struct DrawnPlace {
     pub bounds: PointBox,
 }
 
-/// What the two graphs promise and do not keep. [`Diktiometry::check`] finds none, whatever the robot tells.
+/// What the two graphs promise and do not keep. [`Diktiometry::check`] finds none, whatever the
+/// robot tells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Flaw {
@@ -49,7 +51,8 @@ pub enum Flaw {
 }
 
 impl Diktiometry {
-    /// Where `to` lies as seen from `from`, from the relations within `limits`; none where they do not reach. m.
+    /// Where `to` lies as seen from `from`, from the relations within `limits`; none where they do
+    /// not reach. m.
     #[must_use]
     pub fn displacement(
         &self,
@@ -67,14 +70,16 @@ impl Diktiometry {
         Some(there.position + to - from)
     }
 
-    /// Where `to` lies as seen from `from` by the relation between their frames alone, m; none if they are not related.
+    /// Where `to` lies as seen from `from` by the relation between their frames alone, m; none if
+    /// they are not related.
     pub(super) fn related(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
         let [(start, from), (end, to)] = [from, to].map(|place| self.site(place));
         Some(self.reference.known(start, end)? + to - from)
     }
 
-    /// All places that can be reached from `origin` in the reference graph, where they are for the eye: as seen from
-    /// `origin`, which is at (0, 0). By id. O(frames · degree · log frames + places · log places).
+    /// All places that can be reached from `origin` in the reference graph, where they are for the
+    /// eye: as seen from `origin`, which is at (0, 0). By id. O(frames · degree · log frames +
+    /// places · log places).
     #[must_use]
     pub fn layout(&self, origin: PlaceId) -> Vec<DrawnPlace> {
         let Some(origin) = self.paths.resolve(origin) else {
@@ -139,7 +144,8 @@ impl Diktiometry {
         self.add_place(frame, PointBox::ORIGIN)
     }
 
-    /// What the two graphs promise and do not keep; none if all is well. O(places + links · degree + relations · log degree).
+    /// What the two graphs promise and do not keep; none if all is well. O(places + links · degree
+    /// + relations · log degree).
     #[must_use]
     pub fn check(&self, actions: usize) -> Option<Flaw> {
         self.flawed_link(actions)

@@ -2,7 +2,8 @@ use thiserror::Error;
 
 use super::{Config, Journal, JournalError, Observer};
 
-/// An observer as it lies in a file: the journal, from which everything follows to the bit. Any format of serde's will do.
+/// An observer as it lies in a file: the journal, from which everything follows to the bit. Any
+/// format of serde's will do.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MapFile {
     config: Config,

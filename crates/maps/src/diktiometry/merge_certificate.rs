@@ -6,18 +6,18 @@
 //! - *bounds* ([`MergeProof::Bounds`]): routes through the journal bring the two so near to each
 //!   other that no two places are. A proof, as long as the bounds of odometry hold, places are
 //!   δ_sep apart in the sense of [`Apart`](super::Apart), and corridors are as straight as told;
-//! - *looks* ([`MergeProof::Looks`]): the two look alike, and so do the places that the same actions
-//!   lead to. A chance of being wrong, stated.
+//! - *looks* ([`MergeProof::Looks`]): the two look alike, and so do the places that the same
+//!   actions lead to. A chance of being wrong, stated.
 //!
 //! A proof by bounds may lead through places that are one by looks. It is then no surer than these,
 //! and says so ([`MergeCertificate::rests_on_looks`]).
 //!
 //! In a [static](super::WorldKind::Static) world an action leads from a place to one place and its
-//! reverse from there back. What follows from that is known without a route; a move along a way that
-//! was gone before has no certificate.
+//! reverse from there back. What follows from that is known without a route; a move along a way
+//! that was gone before has no certificate.
 //!
-//! [`certify_merges`] goes through a journal and has a certificate for each merge that the map made;
-//! [`verify_merges`] checks certificates against the journal, and knows nothing of the map.
+//! [`certify_merges`] goes through a journal and has a certificate for each merge that the map
+//! made; [`verify_merges`] checks certificates against the journal, and knows nothing of the map.
 
 mod constraints;
 mod identities;
@@ -61,9 +61,9 @@ pub struct MergeCertificate {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum MergeProof {
-    /// Routes from the first visit's place to the second's. The displacement lies in the box of each
-    /// route, and the intersection has no room for two places. A route without spans stays where it
-    /// is: the two are one by the ways of a static world alone.
+    /// Routes from the first visit's place to the second's. The displacement lies in the box of
+    /// each route, and the intersection has no room for two places. A route without spans stays
+    /// where it is: the two are one by the ways of a static world alone.
     Bounds(Vec<Vec<JournalSpan>>),
     /// Looks agree along the same actions.
     Looks(LookEvidence),
@@ -103,7 +103,8 @@ pub struct LookPair {
     pub after: Option<(usize, Action)>,
 }
 
-/// Returns whether each route leads from one visit to another through what is known to be one place.
+/// Returns whether each route leads from one visit to another through what is known to be one
+/// place.
 fn connect(
     [one, other]: [usize; 2],
     routes: &[Vec<JournalSpan>],
@@ -125,8 +126,8 @@ impl JournalSpan {
         }
     }
 
-    /// Returns the box of the displacement between the places at its ends, m; `None` if there are no
-    /// such moves, too many, or one of them was blocked.
+    /// Returns the box of the displacement between the places at its ends, m; `None` if there are
+    /// no such moves, too many, or one of them was blocked.
     fn displacement(self, moves: &[ObservedMove], config: &Config) -> Option<PointBox> {
         if self.end < self.begin {
             return Some(-self.reversed().displacement(moves, config)?);

@@ -6,14 +6,15 @@ use tolman_geom::PoseBox;
 
 use super::{Action, Signature};
 
-/// One move: "a sequence of actions ending with the robot in a distinguished place", told after it ended.
+/// One move: "a sequence of actions ending with the robot in a distinguished place", told after it
+/// ended.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ObservedMove {
     /// The control routine.
     pub action: Action,
-    /// The displacement from where the move began to where it ended, along the axes of the compass (x east, y north), m,
-    /// and the heading by the compass, rad: bounds that hold the truth.
+    /// The displacement from where the move began to where it ended, along the axes of the compass
+    /// (x east, y north), m, and the heading by the compass, rad: bounds that hold the truth.
     ///
     /// A robot whose odometry is in its own axes turns it by its compass:
     /// `PoseBox::new(PointBox::ORIGIN, heading).transform(displacement)`.
@@ -36,8 +37,8 @@ pub enum MoveOutcome {
     Blocked,
 }
 
-/// Which actions the robot sees that it could try. It serves plans, advice and the counts of links; no place is recognized by
-/// it.
+/// Which actions the robot sees that it could try. It serves plans, advice and the counts of links;
+/// no place is recognized by it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Exits {

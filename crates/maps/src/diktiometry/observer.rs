@@ -12,10 +12,11 @@ use super::{
 
 /// The adaptive state-space model: an observer that any robot can feed, and that drives none.
 ///
-/// Each [`step`](Self::step) is the loop of the paper's figure 1: the *estimator* (projector, indexer, matching engine) finds
-/// where every track is, the *adapter* (updater, restructurer) changes the map by it. A planner asks
-/// [`tracks`](Self::tracks), [`predict`](Self::predict), [`plan`](Self::plan) and
-/// [`opportunities`](Self::opportunities), and does with the answers what it likes.
+/// Each [`step`](Self::step) is the loop of the paper's figure 1: the *estimator* (projector,
+/// indexer, matching engine) finds where every track is, the *adapter* (updater, restructurer)
+/// changes the map by it. A planner asks [`tracks`](Self::tracks), [`predict`](Self::predict),
+/// [`plan`](Self::plan) and [`opportunities`](Self::opportunities), and does with the answers what
+/// it likes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observer {
     pub(super) config: Config,
@@ -35,7 +36,8 @@ impl Observer {
     /// An observer of a robot that stands at a place: the map is that place.
     ///
     /// # Errors
-    /// [`StartError`] if the configuration is out of its bounds or the first percept does not fit it.
+    /// [`StartError`] if the configuration is out of its bounds or the first percept does not fit
+    /// it.
     pub fn new(config: Config, start: FirstPlace) -> Result<Self, StartError> {
         config.check()?;
         check_percept(&config, start.percept.as_ref())?;
@@ -97,8 +99,8 @@ impl Observer {
         self.tracks[0].place
     }
 
-    /// Where an action leads from a place, as far as is known, by the link's id. Empty if it was never done there or the
-    /// place is not known.
+    /// Where an action leads from a place, as far as is known, by the link's id. Empty if it was
+    /// never done there or the place is not known.
     #[must_use]
     pub fn predict(&self, place: PlaceId, action: Action) -> Vec<Predicted> {
         let Some(place) = self.map.paths.resolve(place) else {
@@ -117,9 +119,10 @@ impl Observer {
             .collect()
     }
 
-    /// The actions from one place to another that are the likeliest to lead there and few, along links that probably work now
-    /// ([`PathGraph::likely`](super::PathGraph::likely)); the fewest where the world never changed. Empty if both are one, none if no way is known.
-    /// O(places + links · (degree + log links)).
+    /// The actions from one place to another that are the likeliest to lead there and few, along
+    /// links that probably work now ([`PathGraph::likely`](super::PathGraph::likely)); the fewest
+    /// where the world never changed. Empty if both are one, none if no way is known. O(places +
+    /// links · (degree + log links)).
     #[must_use]
     pub fn plan(&self, from: PlaceId, to: PlaceId) -> Option<Vec<PlanStep>> {
         let from = self.map.paths.resolve(from)?;
@@ -212,8 +215,8 @@ impl Observer {
         report.tracks = lines.collect();
     }
 
-    /// Where one place lies as seen from another by what is known of their two frames, m; by a search only if they
-    /// are not related.
+    /// Where one place lies as seen from another by what is known of their two frames, m; by a
+    /// search only if they are not related.
     pub(super) fn motion(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
         self.map
             .related(from, to)

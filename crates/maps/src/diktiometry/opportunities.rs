@@ -1,5 +1,5 @@
-//! Opportunistic mapping: the map advises "the planner of actions that the mapper would find useful". Nothing depends on
-//! whether they are done.
+//! Opportunistic mapping: the map advises "the planner of actions that the mapper would find
+//! useful". Nothing depends on whether they are done.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,7 +9,8 @@ use tolman_planners::{Graph, path_to, steps_from};
 
 use super::{Action, Link, Observer, PlaceId, PlanStep, Use};
 
-/// An opportunity script: a "short, stereotyped sequence of actions designed to help mapping in particular situations".
+/// An opportunity script: a "short, stereotyped sequence of actions designed to help mapping in
+/// particular situations".
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opportunity {
     /// What it is good for.
@@ -24,18 +25,18 @@ pub struct Opportunity {
     pub cost: f64,
 }
 
-/// What a new link is worth where the place may be another, which may have it already: less than a few walks round the loop that would
-/// tell.
+/// What a new link is worth where the place may be another, which may have it already: less than a
+/// few walks round the loop that would tell.
 const IN_DOUBT: f64 = 0.03;
 
 /// The kinds of scripts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OpportunityKind {
-    /// Exploration, "going where no robot has gone before": to the nearest action that was never tried, from a place that is
-    /// certainly no other.
+    /// Exploration, "going where no robot has gone before": to the nearest action that was never
+    /// tried, from a place that is certainly no other.
     GoToUnknown,
-    /// Exploration, "priming the pump": "if you know your current position accurately and you are near a place with high
-    /// positional uncertainty, go to that place".
+    /// Exploration, "priming the pump": "if you know your current position accurately and you are
+    /// near a place with high positional uncertainty, go to that place".
     PrimePump,
     /// Experimentation: back and forth on a link that was hardly gone yet.
     Shuttle,
@@ -64,10 +65,11 @@ impl OpportunityKind {
 }
 
 impl Observer {
-    /// What would help the map, the most worthwhile first: scripts from where the best track is. Nothing depends on whether they are
-    /// done. O(places + links · degree).
+    /// What would help the map, the most worthwhile first: scripts from where the best track is.
+    /// Nothing depends on whether they are done. O(places + links · degree).
     ///
-    /// The opportunity checker "examines the current mapper state to determine if any scripts are applicable".
+    /// The opportunity checker "examines the current mapper state to determine if any scripts are
+    /// applicable".
     #[must_use]
     pub fn opportunities(&self) -> Vec<Opportunity> {
         let used = &self.config.opportunities;
@@ -104,7 +106,8 @@ impl Observer {
     }
 
     fn go_to_unknown(&self) -> Option<Opportunity> {
-        // Whoever explores from a place that may still turn out to be another may explore what is known already.
+        // Whoever explores from a place that may still turn out to be another may explore what is
+        // known already.
         let unknown = |place| !self.untried(place).is_empty();
         let certain = |place| self.map.place(place).notes.is_empty() && unknown(place);
         let sure = self.script_to(certain).map(|way| (way, 1.0));
@@ -163,8 +166,8 @@ impl Observer {
         OpportunityKind::CloseLoop.offer(other, script, gain)
     }
 
-    /// How many walks along a script there would be: the first tells most, and what did not help often will not help, so that no
-    /// script is preferred for ever.
+    /// How many walks along a script there would be: the first tells most, and what did not help
+    /// often will not help, so that no script is preferred for ever.
     fn walks(&self, script: &[Action]) -> f64 {
         let paths = &self.map.paths;
         let links = script.iter().scan(self.place(), |at, action| {
@@ -184,11 +187,13 @@ impl Observer {
         Some((steps.into_iter().map(|step| step.action).collect(), end))
     }
 
-    /// Whether a robot that goes along a link and back is recognized where it began, by geometry alone: after a longer way it might be
-    /// at a place of its own, and going back would make one more place that nobody can tell.
+    /// Whether a robot that goes along a link and back is recognized where it began, by geometry
+    /// alone: after a longer way it might be at a place of its own, and going back would make one
+    /// more place that nobody can tell.
     fn is_proved_by_return(&self, link: &Link) -> bool {
         self.map.related(link.from, link.to).is_some_and(|there| {
-            // Another measurement within the same bounds: there and back are off by the box's width at most.
+            // Another measurement within the same bounds: there and back are off by the box's width
+            // at most.
             let back = there;
             self.config.apart.most(there - back) < self.config.least_alike_distance()
         })
@@ -200,8 +205,9 @@ impl Observer {
     }
 }
 
-/// The ways that scripts take: those a plan may follow and, where the robot came along a link, the action back, if it was never
-/// tried and its end will be recognized. The world may have no such way; a script may fail.
+/// The ways that scripts take: those a plan may follow and, where the robot came along a link, the
+/// action back, if it was never tried and its end will be recognized. The world may have no such
+/// way; a script may fail.
 struct Walkable<'a>(&'a Observer);
 
 impl Walkable<'_> {

@@ -18,7 +18,8 @@ pub struct Place {
     pub frame: FrameId,
     /// Where it is in its frame, m.
     pub position: PointBox,
-    /// The *nominal envelope*: the least box that holds all estimates that its position was updated with, m.
+    /// The *nominal envelope*: the least box that holds all estimates that its position was updated
+    /// with, m.
     pub envelope: PointBox,
     /// Where it seemed to be, weighted, m.
     pub estims: Vec<Estim>,
@@ -65,7 +66,8 @@ impl Place {
         }
     }
 
-    /// Whether an action could be tried here when the robot last was here, by what it saw and what came of it.
+    /// Whether an action could be tried here when the robot last was here, by what it saw and what
+    /// came of it.
     #[must_use]
     pub fn is_open(&self, action: Action) -> bool {
         self.exits.allow(action) && !self.blocked.contains(&action)
@@ -107,7 +109,8 @@ impl Estim {
     }
 }
 
-/// "A note is made of the operation to be performed": a merge that waits for a narrower box or for more looks.
+/// "A note is made of the operation to be performed": a merge that waits for a narrower box or for
+/// more looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MergeNote {
     /// The place that may be the same as the one the note is left at.
@@ -125,7 +128,8 @@ pub enum Ground {
     Look,
 }
 
-/// An action link: the action led from one place to another. Several links may bear the same action.
+/// An action link: the action led from one place to another. Several links may bear the same
+/// action.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Where it begins.
@@ -247,7 +251,8 @@ impl PathGraph {
             .filter(move |(_, link)| link.action == action)
     }
 
-    /// The link that an action took most often from a place, lately more than long ago; of equals the older.
+    /// The link that an action took most often from a place, lately more than long ago; of equals
+    /// the older.
     #[must_use]
     pub fn likeliest(&self, place: PlaceId, action: Action) -> Option<LinkId> {
         let best = self.along(place, action).max_by(|(a, one), (b, other)| {
@@ -264,7 +269,8 @@ impl PathGraph {
         along.find(|(_, link)| link.to == to).map(|(id, _)| id)
     }
 
-    /// The links that a plan may follow from a place: of each action that is open there, the likeliest.
+    /// The links that a plan may follow from a place: of each action that is open there, the
+    /// likeliest.
     pub fn ways(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
         self.outgoing(place).filter(move |(id, link)| {
             let here = &self.places[place.index()];
@@ -272,8 +278,8 @@ impl PathGraph {
         })
     }
 
-    /// The chance that a link leads now where it led: as long as it and the place at its end are constant, by the less likely of both. 0
-    /// for ids never given.
+    /// The chance that a link leads now where it led: as long as it and the place at its end are
+    /// constant, by the less likely of both. 0 for ids never given.
     #[must_use]
     pub fn chance(&self, id: LinkId) -> f64 {
         let Some(link) = self.link(id) else {
@@ -283,8 +289,8 @@ impl PathGraph {
         link.constancy.chance(self.now).min(there)
     }
 
-    /// The links that are most likely to work now, of each action at a place the one; of equals the one that was met more often
-    /// lately, then the older.
+    /// The links that are most likely to work now, of each action at a place the one; of equals the
+    /// one that was met more often lately, then the older.
     pub fn likely(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
         self.outgoing(place).filter(move |(id, link)| {
             let along = self.along(place, link.action);
@@ -304,7 +310,8 @@ impl PathGraph {
         id
     }
 
-    /// Takes a place that stands out of the graph and returns what it knew: the grave keeps its frame and position alone.
+    /// Takes a place that stands out of the graph and returns what it knew: the grave keeps its
+    /// frame and position alone.
     pub(super) fn bury(&mut self, id: PlaceId, fate: Fate) -> Place {
         self.standing -= 1;
         let place = &mut self.places[id.index()];
@@ -365,10 +372,12 @@ impl PathGraph {
     }
 }
 
-/// For planning: from every place, each action along the link that is most likely to work now. The nodes are the ids of places.
+/// For planning: from every place, each action along the link that is most likely to work now. The
+/// nodes are the ids of places.
 ///
-/// A move costs `MOVE`; that it may fail costs as much as going `FAILURE` moves about, for each factor of e by which it makes the
-/// plan less likely to work. Where the world never changed, the cheapest plan has the fewest moves.
+/// A move costs `MOVE`; that it may fail costs as much as going `FAILURE` moves about, for each
+/// factor of e by which it makes the plan less likely to work. Where the world never changed, the
+/// cheapest plan has the fewest moves.
 impl Graph for PathGraph {
     fn node_count(&self) -> usize {
         self.places.len()
@@ -385,7 +394,8 @@ impl Graph for PathGraph {
 /// The cost of a move.
 const MOVE: u32 = 100;
 
-/// A plan that fails is found out half-way and made anew: some dozen moves in worlds of dozens of places.
+/// A plan that fails is found out half-way and made anew: some dozen moves in worlds of dozens of
+/// places.
 const FAILURE: u32 = 20;
 
 /// A chance below this is as good as none.

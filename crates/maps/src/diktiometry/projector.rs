@@ -2,8 +2,8 @@ use tolman_geom::{Interval, Point, PointBox};
 
 use super::{Action, CompassAxis, Config, FrameId, ObservedMove, Observer, PlaceId, Track};
 
-/// Where a track would be after a move, before anything is recognized: the projector "predicts new states given old state
-/// estimates and control inputs".
+/// Where a track would be after a move, before anything is recognized: the projector "predicts new
+/// states given old state estimates and control inputs".
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Projection {
     /// The place that was left.
@@ -41,8 +41,9 @@ impl Observer {
 }
 
 impl Config {
-    /// The displacement between the points of the places at a move's ends: what odometry says, and that a straight corridor leads
-    /// straight. A robot that seems to have left it was carried, and odometry alone counts.
+    /// The displacement between the points of the places at a move's ends: what odometry says, and
+    /// that a straight corridor leads straight. A robot that seems to have left it was carried, and
+    /// odometry alone counts.
     pub(super) fn way(&self, step: &ObservedMove) -> PointBox {
         let way = self.between_places(step.odometry.position);
         let (Some(axis), Ok(line)) = (self.leads(step.action), Interval::about(0.0, self.across))

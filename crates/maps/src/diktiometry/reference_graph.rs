@@ -1,4 +1,5 @@
-//! The reference graph: "nodes represent local coordinate frames, with links giving known geometric relations".
+//! The reference graph: "nodes represent local coordinate frames, with links giving known geometric
+//! relations".
 
 mod search;
 
@@ -9,7 +10,8 @@ use tolman_geom::PointBox;
 use super::{CoverageGrid, FrameId, PlaceId};
 pub(super) use search::{Reached, search};
 
-/// A local frame. All frames lie along the axes of the compass, so that a relation is a displacement.
+/// A local frame. All frames lie along the axes of the compass, so that a relation is a
+/// displacement.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// The places whose position is given in it, by id.
@@ -41,7 +43,8 @@ pub struct Relation {
     pub estimates: u32,
 }
 
-/// Two estimates of one displacement that exclude each other: a bound was broken, or two places were confused.
+/// Two estimates of one displacement that exclude each other: a bound was broken, or two places
+/// were confused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excluded {
     /// What was known, m.
@@ -70,7 +73,8 @@ impl ReferenceGraph {
         frame.find(to).ok().map(|at| &frame.relations[at])
     }
 
-    /// Where the origin of `to` lies in `from` by the relation between the two, m; none if they are not related.
+    /// Where the origin of `to` lies in `from` by the relation between the two, m; none if they are
+    /// not related.
     pub(super) fn known(&self, from: FrameId, to: FrameId) -> Option<PointBox> {
         if from == to {
             return Some(PointBox::ORIGIN);
@@ -97,8 +101,8 @@ impl ReferenceGraph {
         }
     }
 
-    /// Takes in an estimate of where `to` lies in `from`. One that what is known excludes changes nothing but the
-    /// envelope.
+    /// Takes in an estimate of where `to` lies in `from`. One that what is known excludes changes
+    /// nothing but the envelope.
     pub(super) fn relate(
         &mut self,
         from: FrameId,

@@ -21,8 +21,8 @@ pub(super) use transients::elide_place;
 
 /// What a restructurer says of a diagnosis.
 ///
-/// "If a diagnosis of either monotopy or polytopy is proposed by at least one restructurer, and is not rejected by any, we
-/// accept the diagnosis."
+/// "If a diagnosis of either monotopy or polytopy is proposed by at least one restructurer, and is
+/// not rejected by any, we accept the diagnosis."
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Verdict {
     Propose,
@@ -57,7 +57,8 @@ enum Diagnosis {
     },
 }
 
-/// Whether a diagnosis is accepted: proposed by one, rejected by none. Nobody is asked after the first rejection.
+/// Whether a diagnosis is accepted: proposed by one, rejected by none. Nobody is asked after the
+/// first rejection.
 fn accepted(verdicts: impl IntoIterator<Item = Verdict>) -> bool {
     let mut proposed = false;
     for verdict in verdicts {
@@ -87,9 +88,9 @@ impl Hints {
     }
 }
 
-/// Restructures the map where the updater hints at, and where this in turn changes something: "it can be advantageous for
-/// the updater to inform the restructuring module when it performs an update". Places that tracks are at (`occupied`) are
-/// never elided.
+/// Restructures the map where the updater hints at, and where this in turn changes something: "it
+/// can be advantageous for the updater to inform the restructuring module when it performs an
+/// update". Places that tracks are at (`occupied`) are never elided.
 pub(super) fn restructure(
     map: &mut Diktiometry,
     config: &Config,
@@ -98,8 +99,8 @@ pub(super) fn restructure(
     distinctions: &[Distinction],
 ) -> Vec<Restructured> {
     let mut done = Vec::new();
-    // What was just split is not merged in the same breath, so that this ends: every round but the first takes a merge, and
-    // merges use up the places that there were.
+    // What was just split is not merged in the same breath, so that this ends: every round but the
+    // first takes a merge, and merges use up the places that there were.
     let mut born: Vec<PlaceId> = Vec::new();
     while let Some((hint, changed)) = hints.next() {
         let Some(place) = map.paths.resolve(hint) else {
@@ -167,7 +168,8 @@ const RESTRUCTURERS: [Restructurer; 6] = [
     look_agreement::merge,
 ];
 
-/// Places that look different are not one. But what stands where nothing else can looks new, and is the same.
+/// Places that look different are not one. But what stands where nothing else can looks new, and is
+/// the same.
 fn views_differ(map: &Diktiometry, pair: &geometric::Pair, config: &Config) -> Verdict {
     let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
     let settled = || {
@@ -181,8 +183,9 @@ fn views_differ(map: &Diktiometry, pair: &geometric::Pair, config: &Config) -> V
     }
 }
 
-/// What is proposed for a place that is two. Neither restructurer has grounds to reject what the other sees: places at one
-/// point may behave differently, and places that behave alike may be apart.
+/// What is proposed for a place that is two. Neither restructurer has grounds to reject what the
+/// other sees: places at one point may behave differently, and places that behave alike may be
+/// apart.
 fn split_diagnosis(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     geometric::split(map, place, config).or_else(|| local_path::split(map, place, config))
 }

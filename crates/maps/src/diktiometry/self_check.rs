@@ -14,15 +14,15 @@ const COMPARED: usize = 256;
 
 /// What a map says against itself, without any truth: counts of places.
 ///
-/// Beyond the paper. A map that is not folded has places which may be one with others; one in which two
-/// places were confused has ways that lead to two places. See [`Self::certainty`].
+/// Beyond the paper. A map that is not folded has places which may be one with others; one in which
+/// two places were confused has ways that lead to two places. See [`Self::certainty`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SelfCheck {
     /// Places of the map.
     pub places: usize,
-    /// Those of them that may be one with another: the bounds leave room for that, they look alike, and so does all that
-    /// follows along the same actions.
+    /// Those of them that may be one with another: the bounds leave room for that, they look alike,
+    /// and so does all that follows along the same actions.
     pub doubtful: usize,
     /// Those of them from where an action of a static world leads to two places, or not back.
     pub torn: usize,
@@ -43,7 +43,8 @@ pub enum MapState {
     Contradictory,
 }
 
-/// The chance that a map is wrong against which nothing speaks, and that one is right against which something does.
+/// The chance that a map is wrong against which nothing speaks, and that one is right against which
+/// something does.
 const ERROR: f64 = 0.01;
 
 impl SelfCheck {
@@ -89,7 +90,8 @@ impl SelfCheck {
 }
 
 impl Observer {
-    /// Returns what the map says against itself. O(places · a search, and for each pair near each other · ways from both).
+    /// Returns what the map says against itself. O(places · a search, and for each pair near each
+    /// other · ways from both).
     #[must_use]
     pub fn self_check(&self) -> SelfCheck {
         let mut check = SelfCheck::default();

@@ -2,9 +2,9 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
-/// What a place looks like: an image signature, "an array of values, each computed by a measurement function from a
-/// subset of the image". Columns stand side by side around the robot, counter-clockwise from the north or, without a
-/// compass, from wherever the robot looked.
+/// What a place looks like: an image signature, "an array of values, each computed by a measurement
+/// function from a subset of the image". Columns stand side by side around the robot,
+/// counter-clockwise from the north or, without a compass, from wherever the robot looked.
 ///
 /// Source: paper, *Perceptual Indexing*.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,7 +69,8 @@ impl Signature {
     /// A signature of columns of `rows` values each, one column after the other.
     ///
     /// # Errors
-    /// [`SignatureError`] if there are no values, the last column is not full, or a value is not finite.
+    /// [`SignatureError`] if there are no values, the last column is not full, or a value is not
+    /// finite.
     pub fn new(rows: usize, values: Vec<f64>) -> Result<Self, SignatureError> {
         let count = values.len();
         if rows == 0 || count == 0 {
@@ -113,8 +114,8 @@ impl Signature {
         self.values.get(from..from + self.rows).unwrap_or_default()
     }
 
-    /// How many columns differ nowhere by more than `tolerance` from those of `other`, which is turned by `offset`
-    /// columns: column c is compared with column c + offset there.
+    /// How many columns differ nowhere by more than `tolerance` from those of `other`, which is
+    /// turned by `offset` columns: column c is compared with column c + offset there.
     pub(super) fn agreement(&self, other: &Self, offset: usize, tolerance: f64) -> usize {
         let columns = self.columns();
         (0..columns)

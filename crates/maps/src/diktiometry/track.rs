@@ -36,7 +36,8 @@ pub struct TrackEntry {
     pub action: Option<Action>,
     /// Places that "were considered as matches but rejected" and could be the same still.
     pub doubts: Vec<PlaceId>,
-    /// How the robot has moved since, by odometry, m; unbounded if something on the way is doubtful.
+    /// How the robot has moved since, by odometry, m; unbounded if something on the way is
+    /// doubtful.
     pub since: PointBox,
 }
 

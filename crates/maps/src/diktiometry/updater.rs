@@ -1,4 +1,5 @@
-//! The updater: it "adjusts the parameters of states in the representation, for example, the position of a known point".
+//! The updater: it "adjusts the parameters of states in the representation, for example, the
+//! position of a known point".
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
@@ -32,8 +33,8 @@ impl Observer {
         link
     }
 
-    /// An action led nowhere: no plan uses it until it leads somewhere again, and the links it should have gone along were expected
-    /// in vain.
+    /// An action led nowhere: no plan uses it until it leads somewhere again, and the links it
+    /// should have gone along were expected in vain.
     pub(super) fn block(&mut self, from: PlaceId, action: Action) {
         let blocked = &mut self.map.place_mut(from).blocked;
         if !blocked.contains(&action) {
@@ -42,11 +43,12 @@ impl Observer {
         self.expect(from, action, None);
     }
 
-    /// Narrows what is known of two places by an estimate of the displacement between them: the box of the second by that of the
-    /// first (as in the paper) and back.
+    /// Narrows what is known of two places by an estimate of the displacement between them: the box
+    /// of the second by that of the first (as in the paper) and back.
     ///
     /// # Errors
-    /// [`Excluded`] if it contradicts what is known of the two frames; the boxes then stay as they were.
+    /// [`Excluded`] if it contradicts what is known of the two frames; the boxes then stay as they
+    /// were.
     pub(super) fn narrow(
         &mut self,
         from: PlaceId,
@@ -64,7 +66,8 @@ impl Observer {
         Ok(())
     }
 
-    /// The robot saw which actions could be tried at a place: links of all others were expected there in vain.
+    /// The robot saw which actions could be tried at a place: links of all others were expected
+    /// there in vain.
     pub(super) fn see_exits(&mut self, place: PlaceId, exits: &Exits) {
         if *exits == Exits::Unknown {
             return;
@@ -93,8 +96,8 @@ impl Observer {
         self.map.place_mut(place).exits = exits.clone();
     }
 
-    /// Counts that the links of an action, and the places they lead to, were expected, and that one of them, if any, was met: the one
-    /// `taken`, on a way of that displacement.
+    /// Counts that the links of an action, and the places they lead to, were expected, and that one
+    /// of them, if any, was met: the one `taken`, on a way of that displacement.
     fn expect(&mut self, from: PlaceId, action: Action, taken: Option<(LinkId, PointBox)>) {
         let (fading, now) = (self.config.transients.fading, self.map.paths.now);
         let along = self.map.paths.along(from, action);
@@ -115,8 +118,9 @@ impl Observer {
         }
     }
 
-    /// Whether a way from a place ends before another place: two places are δ_sep apart, so that it ends before it, and not there, if it
-    /// is shorter by more than half of that. By the middles of the boxes, along ways that do not turn.
+    /// Whether a way from a place ends before another place: two places are δ_sep apart, so that it
+    /// ends before it, and not there, if it is shorter by more than half of that. By the middles of
+    /// the boxes, along ways that do not turn.
     fn ends_before(&self, from: PlaceId, place: PlaceId, way: PointBox) -> bool {
         let length = |displacement: PointBox| displacement.middle().coords.norm();
         let there = self.map.related(from, place);
@@ -130,8 +134,9 @@ fn contract(place: &mut Place, estimate: PointBox) {
     }
 }
 
-/// Takes an estimate of a place's position into its nominal envelope and, if it is not too wide to tell one place from the next, its
-/// estims: the middle of a wide box is no point where the place was seen.
+/// Takes an estimate of a place's position into its nominal envelope and, if it is not too wide to
+/// tell one place from the next, its estims: the middle of a wide box is no point where the place
+/// was seen.
 fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
     place.envelope = place.envelope.hull(robot);
     if robot.width() > separation {
@@ -144,11 +149,11 @@ fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
     merge_estims(&mut place.estims, separation);
 }
 
-/// "All estims within δ_sep of each other are merged, with new positions gotten by weighted averaging, and new weights
-/// the sum of the component's weights."
+/// "All estims within δ_sep of each other are merged, with new positions gotten by weighted
+/// averaging, and new weights the sum of the component's weights."
 ///
-/// Averaging lets an estim swallow a mode exactly δ_sep away, so estims merge within half of it, the closest pair first, of
-/// equal pairs the older.
+/// Averaging lets an estim swallow a mode exactly δ_sep away, so estims merge within half of it,
+/// the closest pair first, of equal pairs the older.
 pub(super) fn merge_estims(estims: &mut Vec<Estim>, separation: f64) {
     loop {
         let pairs =

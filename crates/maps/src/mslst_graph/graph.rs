@@ -28,15 +28,16 @@ pub struct Node {
     pub edges: Vec<ActionEdge>,
 }
 
-/// "If node A has an east connection to node B …, then node B also has a west connection to node A."
+/// "If node A has an east connection to node B …, then node B also has a west connection to node
+/// A."
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ActionEdge {
     /// The action that leads along it.
     pub action: Direction,
-    /// The node it leads to; `None` where the action failed ("Nodes can also have connections to a dummy node, which
-    /// represent failed actions"). No search passes through the dummy node.
+    /// The node it leads to; `None` where the action failed ("Nodes can also have connections to a
+    /// dummy node, which represent failed actions"). No search passes through the dummy node.
     pub head: Option<u32>,
 }
 
@@ -92,11 +93,12 @@ pub enum GraphError {
 
 /// The finished graph of Phase II. Nodes are numbered from 0 in the order they were made.
 ///
-/// Every edge between nodes is entered both ways with opposite actions. Two edges of a node that bear one
-/// action lead to nodes of different states, so that an action and the state it led to name at most one
-/// edge.
+/// Every edge between nodes is entered both ways with opposite actions. Two edges of a node that
+/// bear one action lead to nodes of different states, so that an action and the state it led to
+/// name at most one edge.
 ///
-/// With the feature `serde` it is saved as its nodes. Reading checks them as [`from_nodes`](Self::from_nodes) does.
+/// With the feature `serde` it is saved as its nodes. Reading checks them as
+/// [`from_nodes`](Self::from_nodes) does.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Saved"))]
@@ -134,8 +136,8 @@ impl MslstGraph {
         Ok(Self::finished(nodes))
     }
 
-    /// "When the graph-building is complete, we calculate the length of the path from each node to the
-    /// nearest destination node … and store it."
+    /// "When the graph-building is complete, we calculate the length of the path from each node to
+    /// the nearest destination node … and store it."
     pub(super) fn finished(nodes: Vec<Node>) -> Self {
         let mut graph = Self {
             nodes,
@@ -190,7 +192,8 @@ impl MslstGraph {
             .is_some_and(|node| node.zone == NodeZone::Destination)
     }
 
-    /// Actions from a node to the nearest destination node; none where the graph has no destination.
+    /// Actions from a node to the nearest destination node; none where the graph has no
+    /// destination.
     #[must_use]
     pub fn distance(&self, id: u32) -> Option<u32> {
         self.distances.get(id as usize).copied().flatten()
@@ -202,13 +205,14 @@ impl MslstGraph {
         follow(&self.nodes, id, action, state)
     }
 
-    /// "A simple breadth first search along the graph, then … a list of the values of the edges connecting
-    /// the source node to the destination node": the actions of a shortest path from a node to the
-    /// nearest destination node, empty at one. Ties go to edges that were entered earlier.
+    /// "A simple breadth first search along the graph, then … a list of the values of the edges
+    /// connecting the source node to the destination node": the actions of a shortest path from a
+    /// node to the nearest destination node, empty at one. Ties go to edges that were entered
+    /// earlier.
     ///
-    /// The path begins with none of the actions that just `failed` ("not allowing the first action to be
-    /// equal to the one that failed (this results in a longer path)"); none if there is no such path.
-    /// O(nodes + edges).
+    /// The path begins with none of the actions that just `failed` ("not allowing the first action
+    /// to be equal to the one that failed (this results in a longer path)"); none if there is no
+    /// such path. O(nodes + edges).
     #[must_use]
     pub fn path_to_destination(&self, id: u32, failed: &[Direction]) -> Option<Vec<Direction>> {
         let view = Without {

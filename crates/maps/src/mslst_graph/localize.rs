@@ -16,14 +16,15 @@ pub struct Localization {
 
 /// Finds the node that fits what the robot remembers (Phase III, *Localization*).
 ///
-/// "The localization algorithm first makes a list of all nodes within the graph that match the current
-/// state of the robot. It then recursively compares the previous action and state in the robot's memory
-/// with the neighbors of each of the nodes in the list … It stops when it reduces its list of nodes to
-/// one, in which case that node is the best match, or when it runs out of states or actions to match to,
-/// in which case it chooses the node from the list with the shortest path to a destination node."
+/// "The localization algorithm first makes a list of all nodes within the graph that match the
+/// current state of the robot. It then recursively compares the previous action and state in the
+/// robot's memory with the neighbors of each of the nodes in the list … It stops when it reduces
+/// its list of nodes to one, in which case that node is the best match, or when it runs out of
+/// states or actions to match to, in which case it chooses the node from the list with the shortest
+/// path to a destination node."
 ///
-/// The search also runs out where the graph matches no further: a comparison that would discard every node
-/// that is left ends it and discards none. Ties go to the node that was made earlier.
+/// The search also runs out where the graph matches no further: a comparison that would discard
+/// every node that is left ends it and discards none. Ties go to the node that was made earlier.
 /// O(nodes + candidates · memory · degree).
 #[must_use]
 pub fn localize(graph: &MslstGraph, memory: &Memory) -> Localization {

@@ -19,8 +19,8 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// A memory of the last `length` pairs of state and action, at least one. The paper uses eight in the
-    /// Large maze and six in the J maze.
+    /// A memory of the last `length` pairs of state and action, at least one. The paper uses eight
+    /// in the Large maze and six in the J maze.
     #[must_use]
     pub fn new(length: usize) -> Self {
         let length = length.max(1);

@@ -12,7 +12,8 @@ pub struct PlaceGraphConfig {
     pub scale_deviation: f64,
     /// Standard deviation of their curvature, rad/m.
     pub curvature_deviation: f64,
-    /// The share of an outline's points that have to lie on surfaces of the map for a fit to be believed.
+    /// The share of an outline's points that have to lie on surfaces of the map for a fit to be
+    /// believed.
     pub least_share: f64,
     /// The robot is lost when so many of its last looks, or so much of them, contradict the map.
     pub most_doubt: f64,
@@ -25,8 +26,8 @@ pub struct PlaceGraphConfig {
 }
 
 impl PlaceGraphConfig {
-    /// Returns our values, for rooms and robots of some metres: tried in arenas of 3 to 7 m, with wheels 3 % out of
-    /// calibration 0.32 m apart.
+    /// Returns our values, for rooms and robots of some metres: tried in arenas of 3 to 7 m, with
+    /// wheels 3 % out of calibration 0.32 m apart.
     #[must_use]
     pub const fn indoors() -> Self {
         Self {
@@ -47,7 +48,8 @@ impl PlaceGraphConfig {
         }
     }
 
-    /// Returns the same for wheels that are out of calibration by up to `share` each, 0 … 1, and stand `track` apart, m.
+    /// Returns the same for wheels that are out of calibration by up to `share` each, 0 … 1, and
+    /// stand `track` apart, m.
     #[must_use]
     pub const fn for_wheels(mut self, share: f64, track: f64) -> Self {
         self.scale_deviation = share;
@@ -56,6 +58,6 @@ impl PlaceGraphConfig {
     }
 }
 
-/// By which share of the error of one wheel the robot curves, as a standard deviation: two wheels err one way each. So 3 % on a track of
-/// 0.32 m are 0.15 rad/m.
+/// By which share of the error of one wheel the robot curves, as a standard deviation: two wheels
+/// err one way each. So 3 % on a track of 0.32 m are 0.15 rad/m.
 const CURVATURE: f64 = 1.6;

@@ -63,7 +63,8 @@ const INDEPENDENT: f64 = 0.3;
 /// An arc, which may be a miss or another's echo, says this much beside a point.
 const ARC_SHARE: f64 = 0.5;
 
-/// One residual: how far a measurement is from the map, in standard deviations, and how that changes with the pose.
+/// One residual: how far a measurement is from the map, in standard deviations, and how that
+/// changes with the pose.
 struct Residual {
     off: f64,
     by_pose: Vector3<f64>,
@@ -71,7 +72,8 @@ struct Residual {
     share: f64,
 }
 
-/// What is left out lies farther than what matters by this much at least, m: no rounding brings it back.
+/// What is left out lies farther than what matters by this much at least, m: no rounding brings it
+/// back.
 const SLACK: f64 = 1e-6;
 
 /// How far from the robot surfaces can matter to an outline, m.
@@ -113,9 +115,11 @@ fn near<'a>(surfaces: &[&'a Surface], pose: Pose, radius: f64) -> Vec<&'a Surfac
     surfaces.filter(is_near).collect()
 }
 
-/// The run of `surfaces` in which are all whose x is within these bounds, m, and some beside. O(log surfaces).
+/// The run of `surfaces` in which are all whose x is within these bounds, m, and some beside. O(log
+/// surfaces).
 ///
-/// They come by column of their grid, and within a column in any order: so the bounds are a column wider.
+/// They come by column of their grid, and within a column in any order: so the bounds are a column
+/// wider.
 fn between<'a, 'b>(surfaces: &'b [&'a Surface], low: f64, high: f64) -> &'b [&'a Surface] {
     let slack = CELL + SLACK;
     let x = |surface: &Surface| surface.position().x;
@@ -125,8 +129,10 @@ fn between<'a, 'b>(surfaces: &'b [&'a Surface], low: f64, high: f64) -> &'b [&'a
     run
 }
 
-/// Returns where a robot is that was predicted at `predicted`, with this covariance, and sees `outline`; `None` if the covariance is
-/// none. `surfaces` come as [`Surfaces::all`](super::surfaces::Surfaces::all) has them. O(rounds · outline · surfaces near each of its points).
+/// Returns where a robot is that was predicted at `predicted`, with this covariance, and sees
+/// `outline`; `None` if the covariance is none. `surfaces` come as
+/// [`Surfaces::all`](super::surfaces::Surfaces::all) has them. O(rounds · outline · surfaces near
+/// each of its points).
 pub(super) fn fit(
     outline: &Outline,
     surfaces: &[&Surface],
@@ -177,7 +183,8 @@ fn residuals(outline: &Outline, surfaces: &[&Surface], pose: Pose, gate: f64) ->
     points.chain(arcs).collect()
 }
 
-/// How far a point lies off the nearest surface of its colour and direction, along the surface's normal.
+/// How far a point lies off the nearest surface of its colour and direction, along the surface's
+/// normal.
 fn of_point(
     point: &OutlinePoint,
     surfaces: &[&Surface],
@@ -291,7 +298,8 @@ fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Optio
     })
 }
 
-/// The least and the greatest x of a sector that opens so far, rad, to either side of `ear` and reaches so far, m.
+/// The least and the greatest x of a sector that opens so far, rad, to either side of `ear` and
+/// reaches so far, m.
 fn extent(ear: Pose, half_width: f64, reach: f64) -> (f64, f64) {
     let axis = ear.heading.radians();
     let [one, other] = [axis - half_width, axis + half_width].map(libm::cos);
@@ -354,7 +362,8 @@ mod tests {
     use super::super::surfaces::Surfaces;
     use super::*;
 
-    /// Walls 2 m away all round, each point looked at from the middle, and a sonar that hears the one ahead.
+    /// Walls 2 m away all round, each point looked at from the middle, and a sonar that hears the
+    /// one ahead.
     fn room() -> Outline {
         let point = |number: u32| {
             let heading = Heading::from_radians(f64::from(number) * 0.26);

@@ -5,10 +5,12 @@ use tolman_robot::Picture;
 
 use super::OutlinePoint;
 
-/// Returns where things stand on the floor in a picture: in each column, the first row from below that does not look like the floor
-/// below it. Points come in order of bearing, in the robot's frame. O(pixels).
+/// Returns where things stand on the floor in a picture: in each column, the first row from below
+/// that does not look like the floor below it. Points come in order of bearing, in the robot's
+/// frame. O(pixels).
 ///
-/// A column whose floor goes on to the horizon, or in which the floor does not show at all, has none.
+/// A column whose floor goes on to the horizon, or in which the floor does not show at all, has
+/// none.
 #[must_use]
 pub fn foot_line(picture: &Picture) -> Vec<OutlinePoint> {
     let columns = (0..picture.width).step_by(picture.width.div_ceil(MOST_COLUMNS).max(1) as usize);
@@ -27,7 +29,8 @@ const COLOUR_ROWS: u32 = 3;
 /// A pixel differs from the floor by this share of its brightness, or it is floor.
 const UNLIKE: f64 = 0.22;
 
-/// A foot has to be seen under at least this angle below the horizon, as a tangent: farther things have too vague a distance.
+/// A foot has to be seen under at least this angle below the horizon, as a tangent: farther things
+/// have too vague a distance.
 const LEAST_DOWN: f64 = 0.09;
 
 /// Nothing stands nearer, m: it would be under the camera.

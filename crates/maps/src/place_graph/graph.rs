@@ -22,11 +22,13 @@ pub struct SeenThere {
     pub rolled: Vec<Odometry>,
     /// What it perceives.
     pub snapshot: Snapshot,
-    /// Whether it was lifted and put down anywhere since it looked before, so that its wheels say nothing.
+    /// Whether it was lifted and put down anywhere since it looked before, so that its wheels say
+    /// nothing.
     pub put_down: bool,
 }
 
-/// Places that a robot has been at, and where they lie; it corrects the robot's pose while it grows.
+/// Places that a robot has been at, and where they lie; it corrects the robot's pose while it
+/// grows.
 ///
 /// The map's frame has its origin where the robot was first put down, looking along x.
 #[derive(Clone, Debug)]
@@ -68,7 +70,8 @@ enum Whereabouts {
 struct Here {
     pose: Pose,
     covariance: Matrix3<f64>,
-    /// The place that the robot was nearest to when it was last recognized, with the way from there, by its wheels alone since then.
+    /// The place that the robot was nearest to when it was last recognized, with the way from
+    /// there, by its wheels alone since then.
     last: u32,
     since: Pose,
     since_covariance: Matrix3<f64>,
@@ -149,8 +152,9 @@ impl PlaceGraph {
         map.put_down(true)
     }
 
-    /// Returns the map with another robot in it, whose wheels are not known and which may be anywhere, and which adds new places
-    /// only if `grows`. An empty map begins where the robot looks first, whether it grows or not.
+    /// Returns the map with another robot in it, whose wheels are not known and which may be
+    /// anywhere, and which adds new places only if `grows`. An empty map begins where the robot
+    /// looks first, whether it grows or not.
     #[must_use]
     pub fn put_down(mut self, grows: bool) -> Self {
         self.wheels =
@@ -197,7 +201,8 @@ impl PlaceGraph {
         &self.wheels
     }
 
-    /// Returns where the robot is in the map's frame: the likeliest pose; `None` if it has not looked yet.
+    /// Returns where the robot is in the map's frame: the likeliest pose; `None` if it has not
+    /// looked yet.
     #[must_use]
     pub fn here(&self) -> Option<Pose> {
         match &self.whereabouts {
@@ -267,7 +272,8 @@ impl PlaceGraph {
         Ok(Whereabouts::Known(here))
     }
 
-    /// Whether a fit is where the robot is: the map shows most of what it sees, and its wheels could have led it there.
+    /// Whether a fit is where the robot is: the map shows most of what it sees, and its wheels
+    /// could have led it there.
     fn believes(&self, outline: &Outline, fit: &Fit) -> bool {
         let tells_little = outline.points.len() < LEAST_POINTS;
         fit.surprise < MOST_SURPRISE && (tells_little || fit.share >= self.config.least_share)
@@ -318,7 +324,8 @@ impl PlaceGraph {
         Ok(())
     }
 
-    /// Notes that the robot went from one place to another, if they lie so near that there was none between them.
+    /// Notes that the robot went from one place to another, if they lie so near that there was none
+    /// between them.
     fn link(&mut self, from: u32, to: u32) {
         let [a, b] = [from, to].map(|id| self.graph.poses()[id as usize].position);
         if from != to && (a - b).norm() < LONGEST_LINK * self.config.place_distance {
@@ -376,7 +383,8 @@ impl PlaceGraph {
         }
     }
 
-    /// Fits every place to what all places together show, which the first saw only in part. O(places · outline · surfaces).
+    /// Fits every place to what all places together show, which the first saw only in part.
+    /// O(places · outline · surfaces).
     fn relax(&mut self) {
         let (distance, turn) = RELAX_WITHIN;
         let variances = Vector3::new(distance * distance, distance * distance, turn * turn);
@@ -438,7 +446,8 @@ impl PlaceGraph {
     }
 }
 
-/// Variances of where a robot is beside a place by which it was recognized, m and rad: fits of neighbouring places err together.
+/// Variances of where a robot is beside a place by which it was recognized, m and rad: fits of
+/// neighbouring places err together.
 const fn beside_a_place() -> Vector3<f64> {
     Vector3::new(0.05 * 0.05, 0.05 * 0.05, 0.04 * 0.04)
 }
@@ -446,13 +455,15 @@ const fn beside_a_place() -> Vector3<f64> {
 /// So much of each look contradicts a map that is right, since light changes and edges are vague.
 const USUAL_CONTRADICTION: f64 = 0.08;
 
-/// A fit that is farther from where the wheels had the robot, in squared standard deviations, is none.
+/// A fit that is farther from where the wheels had the robot, in squared standard deviations, is
+/// none.
 const MOST_SURPRISE: f64 = 16.0;
 
 /// An outline of fewer points says nothing by itself.
 const LEAST_POINTS: usize = 8;
 
-/// The places that saw the surfaces of a fit first, each with its share of the information, the largest first.
+/// The places that saw the surfaces of a fit first, each with its share of the information, the
+/// largest first.
 fn seen_by(fit: &Fit) -> Vec<(u32, f64)> {
     let total: f64 = fit.by_place.values().sum();
     let mut places: Vec<(u32, f64)> = (fit.by_place.iter())

@@ -45,7 +45,8 @@ const FORGETS: f64 = 0.95;
 /// What is seen counts this much of what a right map would make of it.
 const BELIEVES: f64 = 0.3;
 
-/// A look that the map contradicts altogether counts so many natural logarithms against a hypothesis.
+/// A look that the map contradicts altogether counts so many natural logarithms against a
+/// hypothesis.
 const REFUTES: f64 = 6.0;
 
 /// How much likelier the pose that was held is than any other, as a logarithm.
@@ -114,7 +115,8 @@ pub(super) fn weights(hypotheses: &[Hypothesis]) -> Vec<f64> {
 }
 
 impl Hypothesis {
-    /// Where a robot was held to be until it was doubted: likelier than anywhere else to begin with.
+    /// Where a robot was held to be until it was doubted: likelier than anywhere else to begin
+    /// with.
     pub(super) const fn held(pose: Pose, covariance: Matrix3<f64>) -> Self {
         Self {
             pose,

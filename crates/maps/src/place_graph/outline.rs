@@ -23,7 +23,8 @@ pub struct Outline {
 pub struct OutlinePoint {
     /// Where, m.
     pub position: Point,
-    /// The direction in which its surface looks, a unit vector towards the robot; `None` where its neighbours tell none.
+    /// The direction in which its surface looks, a unit vector towards the robot; `None` where its
+    /// neighbours tell none.
     pub normal: Option<Vector>,
     /// Standard deviation of its distance from the robot, m.
     pub deviation: f64,
@@ -111,10 +112,12 @@ fn point_of(beam: &Sounding) -> OutlinePoint {
     }
 }
 
-/// Numbers of neighbours on either side that may make a surface together with a point: the most that lie on one line do.
+/// Numbers of neighbours on either side that may make a surface together with a point: the most
+/// that lie on one line do.
 const BESIDE: [usize; 4] = [16, 10, 6, 3];
 
-/// Neighbours farther apart than this, or than a fifth of their distance, belong to different things, m.
+/// Neighbours farther apart than this, or than a fifth of their distance, belong to different
+/// things, m.
 const GAP: f64 = 0.25;
 
 /// Gives each point the normal of the line through it and its neighbours, if they are on one.
@@ -130,7 +133,8 @@ fn find_normals(points: &mut [OutlinePoint]) {
     }
 }
 
-/// The normal of the line through a point and as many neighbours on either side as belong to it; `None` if they lie on none.
+/// The normal of the line through a point and as many neighbours on either side as belong to it;
+/// `None` if they lie on none.
 fn normal(points: &[OutlinePoint], index: usize, beside: usize) -> Option<Vector> {
     let around = neighbours(points, index, beside)?;
     let line = Line::through(around)?;
@@ -161,7 +165,8 @@ struct Line {
 }
 
 impl Line {
-    /// The line from which the points are the least off, each as much as it is known; `None` of fewer than four.
+    /// The line from which the points are the least off, each as much as it is known; `None` of
+    /// fewer than four.
     fn through(points: &[OutlinePoint]) -> Option<Self> {
         if points.len() < 4 {
             return None;
@@ -183,7 +188,8 @@ impl Line {
         Some(Self { middle, normal })
     }
 
-    /// Whether the points are off the line by no more than they err: each errs along the line of sight.
+    /// Whether the points are off the line by no more than they err: each errs along the line of
+    /// sight.
     fn is_straight(&self, points: &[OutlinePoint]) -> bool {
         let off = |point: &OutlinePoint| {
             let sight = point.position.coords.normalize();
@@ -195,5 +201,6 @@ impl Line {
     }
 }
 
-/// The mean squared distance of points from their line, in what they err by, above which they are on none.
+/// The mean squared distance of points from their line, in what they err by, above which they are
+/// on none.
 const MOST_BENT: f64 = 1.5;

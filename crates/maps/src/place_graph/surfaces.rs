@@ -4,8 +4,8 @@ use tolman_geom::{Point, Pose, Vector};
 
 use super::{Outline, OutlinePoint};
 
-/// What all places together know of the surfaces of things, in the map's frame: little pieces of them, one for each cell of a grid,
-/// direction and colour.
+/// What all places together know of the surfaces of things, in the map's frame: little pieces of
+/// them, one for each cell of a grid, direction and colour.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Surfaces {
     pieces: BTreeMap<Key, Surface>,
@@ -102,7 +102,8 @@ impl Surfaces {
 fn key(position: Vector, normal: Vector, colour: Option<[f64; 2]>) -> Key {
     let cell = |along: f64| libm::floor(along / CELL) as i32;
     let eighth = libm::floor(libm::atan2(normal.y, normal.x) / core::f64::consts::FRAC_PI_4);
-    // Whether there is more red than blue and green, and so on: colours that a change of light does not confuse.
+    // Whether there is more red than blue and green, and so on: colours that a change of light does
+    // not confuse.
     let hue = colour.map_or(0, |[red, green]| {
         let blue = 1.0 - red - green;
         1 + u8::from(red > 0.45) + 2 * u8::from(green > 0.45) + 4 * u8::from(blue > 0.45)

@@ -11,13 +11,14 @@ pub struct PlaceMapConfig {
     pub gng: GngConfig,
     /// What each group of features counts for.
     pub weights: FeatureWeights,
-    /// How often all records are learned, one after the other in their order (default 3: "which was done three times each
-    /// run").
+    /// How often all records are learned, one after the other in their order (default 3: "which was
+    /// done three times each run").
     pub passes: u32,
 }
 
 impl PlaceMapConfig {
-    /// Returns the middle of the optimal ranges of Table 3.1, in the order of Fritzke's steps, and three passes.
+    /// Returns the middle of the optimal ranges of Table 3.1, in the order of Fritzke's steps, and
+    /// three passes.
     ///
     /// ```
     /// use tolman_maps::place_map::PlaceMapConfig;

@@ -17,23 +17,25 @@ pub enum FeatureGroup {
     Odometry,
 }
 
-/// How the values of a group are scaled before its weight counts. One factor serves a whole group, so x and y keep their
-/// ratio and so do the pixels.
+/// How the values of a group are scaled before its weight counts. One factor serves a whole group,
+/// so x and y keep their ratio and so do the pixels.
 ///
-/// The paper does not scale, or does not say so: "the (unmodified) sensor values". Then the unit of a sensor
-/// and the number of its values decide what it counts for, and no weight between 0 and 1 mends it.
+/// The paper does not scale, or does not say so: "the (unmodified) sensor values". Then the unit of
+/// a sensor and the number of its values decide what it counts for, and no weight between 0 and 1
+/// mends it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum FeatureScaling {
-    /// The squared distance of a group has the same mean for all groups: the variances of its values sum up to 1. So a group is
-    /// one feature of equation 3.1, however many values it has: "in the case of a matrix … the distance calculation is a
-    /// Euclidean distance". The weights of Table 3.1, 0.63 for images and 0.33 for odometry, make sense only so.
+    /// The squared distance of a group has the same mean for all groups: the variances of its
+    /// values sum up to 1. So a group is one feature of equation 3.1, however many values it has:
+    /// "in the case of a matrix … the distance calculation is a Euclidean distance". The weights of
+    /// Table 3.1, 0.63 for images and 0.33 for odometry, make sense only so.
     #[default]
     Group,
-    /// The values of a group have a mean variance of 1, so a group counts for as much as it has values: 3600 of an image, 2 of
-    /// the odometry.
+    /// The values of a group have a mean variance of 1, so a group counts for as much as it has
+    /// values: 3600 of an image, 2 of the odometry.
     Value,
     /// Values as they are: metres, and colours of 0 … 1.
     Raw,
@@ -83,7 +85,8 @@ impl Default for FeatureChoice {
     }
 }
 
-/// What each group counts for: the weights w of equation 3.1. Those of groups that are not chosen are not read.
+/// What each group counts for: the weights w of equation 3.1. Those of groups that are not chosen
+/// are not read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -97,7 +100,8 @@ pub struct FeatureWeights {
 }
 
 impl FeatureWeights {
-    /// Returns the middle of the optimal ranges of Table 3.1: image 0.63, odometry 0.3275, sonar 0.25.
+    /// Returns the middle of the optimal ranges of Table 3.1: image 0.63, odometry 0.3275, sonar
+    /// 0.25.
     #[must_use]
     pub const fn paper() -> Self {
         Self {

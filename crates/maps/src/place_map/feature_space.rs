@@ -6,7 +6,8 @@ use tolman_robot::{Picture, PinholeCamera};
 use super::record_span::RecordSpan;
 use super::{FeatureError, FeatureGroup, FeatureWeights, ImageFeature, PlaceRecord};
 
-/// The space in which places are compared: which group of features stands where in a vector, and how it is scaled.
+/// The space in which places are compared: which group of features stands where in a vector, and
+/// how it is scaled.
 ///
 /// A [`FeatureTable`](super::FeatureTable) makes one of records.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,7 +141,8 @@ impl FeatureSpace {
         Some(values.into_iter().map(f64::from).collect())
     }
 
-    /// Returns the image of features as a picture in red, green and blue; `None` where it is not among them.
+    /// Returns the image of features as a picture in red, green and blue; `None` where it is not
+    /// among them.
     #[must_use]
     pub fn picture(&self, features: &[f32]) -> Option<Picture> {
         let (feature, values) = self.image(features)?;

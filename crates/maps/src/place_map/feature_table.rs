@@ -13,11 +13,12 @@ pub enum ImageForm {
     /// By the values of their pixels.
     #[default]
     Pixels,
-    /// By orthonormal coordinates in the span of the images of the table: at most one a record, instead of 3600 or 14400 a
-    /// picture. All distances stay what they are, up to what is left out, and so does every map.
+    /// By orthonormal coordinates in the span of the images of the table: at most one a record,
+    /// instead of 3600 or 14400 a picture. All distances stay what they are, up to what is left
+    /// out, and so does every map.
     Span {
-        /// No image may be farther from the span than this share of the images' mean squared distance from their mean.
-        /// 0 leaves nothing out but the rounding of `f32`.
+        /// No image may be farther from the span than this share of the images' mean squared
+        /// distance from their mean. 0 leaves nothing out but the rounding of `f32`.
         left_out: f64,
     },
 }
@@ -49,7 +50,8 @@ pub struct FeatureTable {
 }
 
 impl FeatureTable {
-    /// Makes the features of records. Let the records that a map is to be asked about be among them.
+    /// Makes the features of records. Let the records that a map is to be asked about be among
+    /// them.
     ///
     /// O(records × values); of images in [`ImageForm::Span`] O(records² × values) once.
     ///
@@ -154,7 +156,8 @@ fn of_all(records: &[PlaceRecord], group: FeatureGroup) -> Result<Vec<Vec<f32>>,
     }
 }
 
-/// What the values of a group are multiplied by. A group that does not vary says nothing and stays as it is.
+/// What the values of a group are multiplied by. A group that does not vary says nothing and stays
+/// as it is.
 fn scale(values: &[Vec<f32>], scaling: FeatureScaling) -> f32 {
     let len = values.first().map_or(0, Vec::len);
     let variance: f64 = (0..len).map(|index| variance(values, index)).sum();

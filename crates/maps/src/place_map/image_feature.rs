@@ -4,10 +4,11 @@ use tolman_robot::Picture;
 
 use super::ColourSpace;
 
-/// How a picture becomes features: made smaller by averaging boxes of pixels, then converted (section 3.4, "Features").
+/// How a picture becomes features: made smaller by averaging boxes of pixels, then converted
+/// (section 3.4, "Features").
 ///
-/// The order is the paper's: "the camera images were reduced in size and converted to hsv". So boxes are averaged in red,
-/// green and blue.
+/// The order is the paper's: "the camera images were reduced in size and converted to hsv". So
+/// boxes are averaged in red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -53,8 +54,9 @@ impl ImageFeature {
         self.len() == 0
     }
 
-    /// Returns the values of a picture, three a pixel, row by row from the top left: the left of the picture stays on the
-    /// left. Boxes that end within a pixel take their share of it. O(pixels of the picture × boxes over each).
+    /// Returns the values of a picture, three a pixel, row by row from the top left: the left of
+    /// the picture stays on the left. Boxes that end within a pixel take their share of it.
+    /// O(pixels of the picture × boxes over each).
     pub(super) fn values(self, picture: &Picture) -> Vec<f32> {
         let columns = boxes(picture.width, self.width);
         let rows = boxes(picture.height, self.height);

@@ -8,10 +8,11 @@ use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Picture, Position}
 
 use super::{FeatureSpace, FeatureTable, PlaceMapConfig, PlaceMapError, PlaceRecord};
 
-/// A map of places: nodes of a growing neural gas, each the prototype of what was seen, heard and rolled at some place, and links
-/// between neighbours (section 3.4, "Learning").
+/// A map of places: nodes of a growing neural gas, each the prototype of what was seen, heard and
+/// rolled at some place, and links between neighbours (section 3.4, "Learning").
 ///
-/// It learns a whole table of records ([`learn`](Self::learn)), or one record at a time as a [`Mapper`].
+/// It learns a whole table of records ([`learn`](Self::learn)), or one record at a time as a
+/// [`Mapper`].
 ///
 /// ```
 /// use rand::SeedableRng;
@@ -53,8 +54,8 @@ pub struct PlaceMap {
 }
 
 impl PlaceMap {
-    /// Makes an empty map, which [`observe`](Mapper::observe) fills. Its space is that of a table of records like those to
-    /// come, since features are scaled by how they vary.
+    /// Makes an empty map, which [`observe`](Mapper::observe) fills. Its space is that of a table
+    /// of records like those to come, since features are scaled by how they vary.
     ///
     /// # Errors
     /// If a parameter or a weight is outside its range.
@@ -76,13 +77,15 @@ impl PlaceMap {
         }
     }
 
-    /// Learns from records of a table, by their numbers, in that order and as often as the configuration says. It begins with two
-    /// different ones of them drawn at random (step 0 of section 3.3).
+    /// Learns from records of a table, by their numbers, in that order and as often as the
+    /// configuration says. It begins with two different ones of them drawn at random (step 0 of
+    /// section 3.3).
     ///
     /// O(passes × records × nodes × values).
     ///
     /// # Errors
-    /// If there are fewer than two records or one is not in the table, or a parameter or a weight is outside its range.
+    /// If there are fewer than two records or one is not in the table, or a parameter or a weight
+    /// is outside its range.
     pub fn learn(
         table: &FeatureTable,
         records: impl IntoIterator<Item = usize>,
@@ -131,7 +134,8 @@ impl PlaceMap {
         features + network.edges().count() * size_of::<Edge>()
     }
 
-    /// Returns the node nearest to a record: where the map takes it to have been recorded. O(nodes × values).
+    /// Returns the node nearest to a record: where the map takes it to have been recorded. O(nodes
+    /// × values).
     ///
     /// # Errors
     /// If the record lacks what places are told by, or the map is empty.
@@ -139,7 +143,8 @@ impl PlaceMap {
         self.nearest_row(&self.space.features(record)?)
     }
 
-    /// Returns the node nearest to features, such as a row of the table it was learned from. O(nodes × values).
+    /// Returns the node nearest to features, such as a row of the table it was learned from.
+    /// O(nodes × values).
     ///
     /// # Errors
     /// If these are no features of its space, or the map is empty.
@@ -147,9 +152,9 @@ impl PlaceMap {
         Ok(self.gng.nearest(features)?.id)
     }
 
-    /// Returns the node whose learned ranges are nearest to those that are known, m, by their squared differences: a
-    /// record of which only a part was sensed. `None` if no range is known, or places are not told by ranges.
-    /// O(nodes × ranges).
+    /// Returns the node whose learned ranges are nearest to those that are known, m, by their
+    /// squared differences: a record of which only a part was sensed. `None` if no range is known,
+    /// or places are not told by ranges. O(nodes × ranges).
     #[must_use]
     pub fn nearest_by_ranges(&self, known: &[Option<f64>]) -> Option<UnitId> {
         let count = known.iter().flatten().count();
@@ -164,22 +169,23 @@ impl PlaceMap {
         nearest.filter(|_| count > 0).map(|(_, node)| node)
     }
 
-    /// Returns where a node lies, m, in the frame of the odometry: its learned odometry (section 3.4, "Learning"). `None` of a
-    /// node that is not there, or where places are not told by odometry.
+    /// Returns where a node lies, m, in the frame of the odometry: its learned odometry (section
+    /// 3.4, "Learning"). `None` of a node that is not there, or where places are not told by
+    /// odometry.
     #[must_use]
     pub fn position(&self, node: UnitId) -> Option<Point> {
         self.space.position(&self.features(node)?)
     }
 
-    /// Returns what a node looks like, in red, green and blue: the image that was learned there. `None` of a node that is not
-    /// there, or where places are not told by images.
+    /// Returns what a node looks like, in red, green and blue: the image that was learned there.
+    /// `None` of a node that is not there, or where places are not told by images.
     #[must_use]
     pub fn picture(&self, node: UnitId) -> Option<Picture> {
         self.space.picture(&self.features(node)?)
     }
 
-    /// Returns the ranges that were learned at a node, m. `None` of a node that is not there, or where places are not told by
-    /// ranges.
+    /// Returns the ranges that were learned at a node, m. `None` of a node that is not there, or
+    /// where places are not told by ranges.
     #[must_use]
     pub fn ranges(&self, node: UnitId) -> Option<Vec<f64>> {
         self.space.ranges(&self.features(node)?)
@@ -196,7 +202,8 @@ impl PlaceMap {
     }
 }
 
-/// Two rows that differ, drawn at random; the last two that were drawn if all that are tried are equal.
+/// Two rows that differ, drawn at random; the last two that were drawn if all that are tried are
+/// equal.
 fn two_of<'a>(rows: &[&'a [f32]], rng: &mut impl Rng) -> Result<[&'a [f32]; 2], PlaceMapError> {
     let found = rows.len();
     let count = u32::try_from(found).unwrap_or(u32::MAX);

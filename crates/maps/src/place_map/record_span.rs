@@ -1,17 +1,20 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A change of basis for vectors that are many values long and few in number: the orthonormal coordinates of the span of some
-/// vectors. Distances between them stay what they are, up to what is left out.
+/// A change of basis for vectors that are many values long and few in number: the orthonormal
+/// coordinates of the span of some vectors. Distances between them stay what they are, up to what
+/// is left out.
 ///
-/// Found by Cholesky's factorization of the vectors' inner products, the vector that is farthest from the span of those chosen
-/// so far being chosen next. So no matrix of principal axes is needed, which would take ten times as long.
+/// Found by Cholesky's factorization of the vectors' inner products, the vector that is farthest
+/// from the span of those chosen so far being chosen next. So no matrix of principal axes is
+/// needed, which would take ten times as long.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RecordSpan {
     mean: Vec<f32>,
     /// The chosen vectors less the mean, one after the other.
     chosen: Vec<f32>,
-    /// Lower triangle: row i has the coordinates of the i-th chosen vector. Rows follow each other, each one longer.
+    /// Lower triangle: row i has the coordinates of the i-th chosen vector. Rows follow each other,
+    /// each one longer.
     factor: Vec<f64>,
     /// How many vectors were chosen, and so how many coordinates there are.
     rank: usize,
@@ -26,8 +29,8 @@ pub(super) struct Spanned {
 }
 
 impl RecordSpan {
-    /// Spans vectors of one length, until none of them is farther from the span than the share `left_out` of their mean squared
-    /// distance from their mean. O(n² (length + n)).
+    /// Spans vectors of one length, until none of them is farther from the span than the share
+    /// `left_out` of their mean squared distance from their mean. O(n² (length + n)).
     pub(super) fn of(vectors: &[Vec<f32>], left_out: f64) -> Spanned {
         let mean = mean(vectors);
         let centred: Vec<Vec<f32>> = vectors
@@ -49,7 +52,8 @@ impl RecordSpan {
         &self.chosen[index * length..(index + 1) * length]
     }
 
-    /// Returns the coordinates of any vector of the length, and so of the nearest point of the span. O(rank (length + rank)).
+    /// Returns the coordinates of any vector of the length, and so of the nearest point of the
+    /// span. O(rank (length + rank)).
     pub(super) fn coordinates(&self, vector: &[f32]) -> Vec<f32> {
         let centred: Vec<f32> = vector.iter().zip(&self.mean).map(|(x, m)| x - m).collect();
         let mut solved: Vec<f64> = Vec::with_capacity(self.rank);
@@ -177,7 +181,8 @@ fn mean(vectors: &[Vec<f32>]) -> Vec<f32> {
     sums.into_iter().map(|sum| (sum / count) as f32).collect()
 }
 
-/// Terms that are summed apart, so that the processor can do them at once; the order is the same everywhere.
+/// Terms that are summed apart, so that the processor can do them at once; the order is the same
+/// everywhere.
 const LANES: usize = 8;
 
 /// Σ a b, summed in `f64`.
@@ -252,7 +257,8 @@ mod tests {
             assert!(squared_distance(&span.vector(coordinates), vector) < 1e-9);
             assert!(squared_distance(&span.coordinates(vector), coordinates) < 1e-9);
         }
-        // Half-way between coordinates lies what is half-way between vectors, as a unit of a network is.
+        // Half-way between coordinates lies what is half-way between vectors, as a unit of a
+        // network is.
         let half = |a: &[f32], b: &[f32]| -> Vec<f32> {
             a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect()
         };

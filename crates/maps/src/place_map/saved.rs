@@ -11,7 +11,8 @@ use super::{FeatureSpace, PlaceMap, PlaceMapConfig, PlaceMapError};
 const FORMAT: &str = "tolman-place-map";
 const VERSION: u32 = 1;
 
-/// A place map as it lies in a file; any format of serde's will do. Images lie there by their pixels.
+/// A place map as it lies in a file; any format of serde's will do. Images lie there by their
+/// pixels.
 ///
 /// [`PlaceMap`] itself is serialized as this, and refuses to be made of what is invalid.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

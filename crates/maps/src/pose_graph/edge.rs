@@ -13,7 +13,8 @@ pub struct PoseEdge {
     pub to: u32,
     /// Where `to` lies as seen from `from`.
     pub measured: Pose,
-    /// The inverse of the measurement's covariance: x and y in m, ahead and to the left of the measured pose, and the heading in rad.
+    /// The inverse of the measurement's covariance: x and y in m, ahead and to the left of the
+    /// measured pose, and the heading in rad.
     pub information: Matrix3<f64>,
     /// Whether it can be wrong altogether.
     pub kind: PoseEdgeKind,
@@ -37,7 +38,8 @@ pub(super) struct Linearized {
 }
 
 impl PoseEdge {
-    /// Returns how far `to` lies from where the measurement has it: x and y, m, and the heading, rad.
+    /// Returns how far `to` lies from where the measurement has it: x and y, m, and the heading,
+    /// rad.
     #[must_use]
     pub fn error(&self, from: Pose, to: Pose) -> Vector3<f64> {
         difference(self.measured, from.between(to))

@@ -72,7 +72,8 @@ impl PoseGraph {
     /// Adds what was measured between two poses.
     ///
     /// # Errors
-    /// If there are no such poses, they are the same, a number is not finite, or the information is not positive definite.
+    /// If there are no such poses, they are the same, a number is not finite, or the information is
+    /// not positive definite.
     pub fn add_edge(&mut self, edge: PoseEdge) -> Result<(), PoseGraphError> {
         let PoseEdge { from, to, .. } = edge;
         let poses = self.poses.len();
@@ -94,7 +95,8 @@ impl PoseGraph {
         Ok(())
     }
 
-    /// Moves a pose to where it is believed to be now. Nothing happens if there is none, or it is the first, which never moves.
+    /// Moves a pose to where it is believed to be now. Nothing happens if there is none, or it is
+    /// the first, which never moves.
     pub fn move_pose(&mut self, id: u32, pose: Pose) {
         if id > 0
             && pose.is_finite()
@@ -104,8 +106,8 @@ impl PoseGraph {
         }
     }
 
-    /// Takes every closure for measured as the poses lie now, since what they were measured by has been looked at again.
-    /// O(edges).
+    /// Takes every closure for measured as the poses lie now, since what they were measured by has
+    /// been looked at again. O(edges).
     pub fn measure_closures_anew(&mut self) {
         for edge in &mut self.edges {
             if edge.kind == PoseEdgeKind::Closure {
@@ -115,8 +117,8 @@ impl PoseGraph {
         }
     }
 
-    /// Returns the squared error of an edge under the poses as they are, weighted by its information; `None` if there is no
-    /// such edge.
+    /// Returns the squared error of an edge under the poses as they are, weighted by its
+    /// information; `None` if there is no such edge.
     #[must_use]
     pub fn squared_error(&self, edge: usize) -> Option<f64> {
         let edge = self.edges.get(edge)?;

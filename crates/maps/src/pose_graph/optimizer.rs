@@ -32,8 +32,8 @@ impl OptimizerConfig {
         }
     }
 
-    /// Returns least squares that doubts closures: one in a thousand right ones of three degrees of freedom has a squared
-    /// error above 16.
+    /// Returns least squares that doubts closures: one in a thousand right ones of three degrees of
+    /// freedom has a squared error above 16.
     #[must_use]
     pub const fn robust() -> Self {
         Self {
@@ -80,8 +80,8 @@ const FIRST_DAMPING: f64 = 1e-6;
 const MOST_DAMPING: f64 = 1e6;
 
 impl PoseGraph {
-    /// Moves all poses but the first to where the edges want them, and returns what came of it. The result does not
-    /// depend on where the first pose lies.
+    /// Moves all poses but the first to where the edges want them, and returns what came of it. The
+    /// result does not depend on where the first pose lies.
     ///
     /// # Complexity
     /// O(steps · iterations · edges).

@@ -24,7 +24,8 @@ const THROUGH_A_WALL: f64 = 0.01;
 const SUSPECT: f64 = 1e-3;
 /// How probable it is at each look that the robot was lifted since the look before.
 const LIFTED: f64 = 1e-7;
-/// How probable it is at each look that a wall is in sight that was not there when the map was learned.
+/// How probable it is at each look that a wall is in sight that was not there when the map was
+/// learned.
 const NEW_WALLS: f64 = 1e-2;
 /// It is sure where it is with so much of its belief so near to the likeliest standpoint, m.
 const SURE: f64 = 0.9;
@@ -74,7 +75,8 @@ impl StandpointBelief {
         near.map(|(_, mass)| f64::from(*mass)).sum()
     }
 
-    /// Returns the same belief on other standpoints, which lie about where those lie that it was made `on`. O(standpoints · log standpoints).
+    /// Returns the same belief on other standpoints, which lie about where those lie that it was
+    /// made `on`. O(standpoints · log standpoints).
     #[must_use]
     pub fn carried_over(&self, on: &Standpoints, to: &Standpoints) -> Self {
         let mut carried = Self {
@@ -90,7 +92,8 @@ impl StandpointBelief {
         carried
     }
 
-    /// Follows a robot that came `moved` along the compass's axes, m, give or take `sd`. O(standpoints believed in).
+    /// Follows a robot that came `moved` along the compass's axes, m, give or take `sd`.
+    /// O(standpoints believed in).
     pub fn moved(&mut self, on: &Standpoints, moved: Vector, sd: Vector) {
         let ground = on.chart().ground();
         let mut after = vec![0.0; self.mass.len()];
@@ -115,9 +118,10 @@ impl StandpointBelief {
         self.mass = after;
     }
 
-    /// Weighs what it believes by what a scan shows; returns what explains it best. Where nothing that it believes in fits, it reckons with
-    /// walls that were not there when the map was learned, and with having been lifted.
-    /// O(standpoints believed in · beams · range); O(standpoints · beams · range) where nothing fits.
+    /// Weighs what it believes by what a scan shows; returns what explains it best. Where nothing
+    /// that it believes in fits, it reckons with walls that were not there when the map was
+    /// learned, and with having been lifted. O(standpoints believed in · beams · range);
+    /// O(standpoints · beams · range) where nothing fits.
     pub fn saw(&mut self, on: &Standpoints, heading: Heading, scan: &Scan) -> Explanation {
         let Some(north) = on.northward(scan, heading) else {
             return Explanation::AsKnown;
@@ -148,7 +152,8 @@ impl StandpointBelief {
         evidence.explanation()
     }
 
-    /// Adds what a scan says if walls are new, and if the robot was lifted. `before` is the belief before the scan.
+    /// Adds what a scan says if walls are new, and if the robot was lifted. `before` is the belief
+    /// before the scan.
     fn doubt(&mut self, on: &Standpoints, north: &[f64], before: &Self, evidence: &mut Evidence) {
         let anywhere = LIFTED / on.len().max(1) as f64;
         // Who is not sure where it is has no say in whether a wall is new.
@@ -167,7 +172,8 @@ impl StandpointBelief {
         }
     }
 
-    /// Weighs what it believes by the landmark of the goal, which the robot does not sense. O(standpoints).
+    /// Weighs what it believes by the landmark of the goal, which the robot does not sense.
+    /// O(standpoints).
     pub fn missed_the_goal(&mut self, on: &Standpoints) {
         for number in on.sensing_goal() {
             if let Some(mass) = self.mass.get_mut(*number as usize) {

@@ -8,7 +8,8 @@ use tolman_robot::{MapLink, MapPlace, MapView};
 
 use super::{Clearings, GroundPlan, ScanMap, ScanPlace, WallGrid};
 
-/// What is left of a [`ScanMap`] when nothing more is learned: its ground, its places, and the ways gone between them.
+/// What is left of a [`ScanMap`] when nothing more is learned: its ground, its places, and the ways
+/// gone between them.
 ///
 /// Navigation needs no more, and a file holds no more.
 #[derive(Clone, Debug, PartialEq)]
@@ -179,7 +180,8 @@ impl ScanChart {
         })
     }
 
-    /// Returns the chart with walls at these points, too, as far as they lie on its ground. O(cells + points).
+    /// Returns the chart with walls at these points, too, as far as they lie on its ground. O(cells
+    /// + points).
     #[must_use]
     pub fn with_walls(&self, at: &[Point]) -> Self {
         Self {
@@ -212,8 +214,8 @@ impl ScanChart {
         Clearings::new(grid, self.radius)
     }
 
-    /// Returns the places along a way of fewest links from one to the nearest of others, both ends included; `None` if none leads there.
-    /// O(places + links).
+    /// Returns the places along a way of fewest links from one to the nearest of others, both ends
+    /// included; `None` if none leads there. O(places + links).
     #[must_use]
     pub fn way(&self, from: u32, to: &[u32]) -> Option<Vec<u32>> {
         let both_ways = |[a, b]: &[u32; 2]| [(*a, *b, 1), (*b, *a, 1)];

@@ -14,7 +14,8 @@ pub struct Clearings<'a> {
     radius: f64,
 }
 
-/// How far it is from everywhere to the nearest place where the robot has not been, as far as it was worked out.
+/// How far it is from everywhere to the nearest place where the robot has not been, as far as it
+/// was worked out.
 #[derive(Debug)]
 pub struct WayToGap<'a> {
     clearings: &'a Clearings<'a>,
@@ -26,7 +27,8 @@ const UNREACHED: u32 = u32::MAX;
 
 /// So many cells beside a point the robot may stand in fact, on either side.
 const BY: i32 = 5;
-/// How many cells farther than the robot the way is worked out: as far as an action may lead it astray.
+/// How many cells farther than the robot the way is worked out: as far as an action may lead it
+/// astray.
 const ASTRAY: u32 = 16;
 
 impl<'a> Clearings<'a> {
@@ -44,7 +46,8 @@ impl<'a> Clearings<'a> {
         self.grid.stands(index_of(at), self.radius)
     }
 
-    /// Returns how far the robot can go straight ahead, up to `most` m, before its body meets a wall or unknown ground.
+    /// Returns how far the robot can go straight ahead, up to `most` m, before its body meets a
+    /// wall or unknown ground.
     #[must_use]
     pub fn straight(&self, from: Point, unit: Vector, most: f64) -> f64 {
         let steps = (most / WallGrid::CELL) as u32;
@@ -53,8 +56,8 @@ impl<'a> Clearings<'a> {
         free.count() as f64 * WallGrid::CELL
     }
 
-    /// Returns the way from about `from` to the nearest ground where the robot could stand and has not been; `None` where
-    /// there is none. O(cells on the way).
+    /// Returns the way from about `from` to the nearest ground where the robot could stand and has
+    /// not been; `None` where there is none. O(cells on the way).
     #[must_use]
     pub fn way_to_gap(&self, from: Point) -> Option<WayToGap<'_>> {
         let starts = self.stands_by(from);
@@ -72,7 +75,8 @@ impl<'a> Clearings<'a> {
         })
     }
 
-    /// Returns whether ground is left, from any of the places, where the robot could stand and has not been. O(cells).
+    /// Returns whether ground is left, from any of the places, where the robot could stand and has
+    /// not been. O(cells).
     #[must_use]
     pub fn has_gap(&self, places: impl IntoIterator<Item = Point>) -> bool {
         let starts: Vec<GridIndex> = places
@@ -83,7 +87,8 @@ impl<'a> Clearings<'a> {
         gap.is_some()
     }
 
-    /// Returns which cells the robot can stand in and come to from any of the places, by slot of the grid. O(cells).
+    /// Returns which cells the robot can stand in and come to from any of the places, by slot of
+    /// the grid. O(cells).
     pub(super) fn reached(&self, places: impl IntoIterator<Item = Point>) -> Vec<bool> {
         let starts = places.into_iter().map(index_of);
         let starts: Vec<GridIndex> = starts
@@ -93,8 +98,8 @@ impl<'a> Clearings<'a> {
         cells.into_iter().map(|cells| cells != UNREACHED).collect()
     }
 
-    /// Spreads from cells over where the robot can stand until `ends` says so; returns the cell where it ended, and the cells gone to
-    /// each.
+    /// Spreads from cells over where the robot can stand until `ends` says so; returns the cell
+    /// where it ended, and the cells gone to each.
     fn flood(
         &self,
         from: &[GridIndex],
@@ -126,8 +131,8 @@ impl<'a> Clearings<'a> {
         (None, cells)
     }
 
-    /// The cells round a point in which the robot can stand, as far as no wall is between: where it is, it stands, whatever the
-    /// map says.
+    /// The cells round a point in which the robot can stand, as far as no wall is between: where it
+    /// is, it stands, whatever the map says.
     fn stands_by(&self, at: Point) -> Vec<GridIndex> {
         let centre = index_of(at);
         let cells = (-BY..=BY)

@@ -3,7 +3,8 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ScanMapConfig {
-    /// The robot stands clear of walls by so much, m: its radius, less what the map's cells are coarse.
+    /// The robot stands clear of walls by so much, m: its radius, less what the map's cells are
+    /// coarse.
     pub radius: f64,
     /// Places lie at least so far apart, m.
     pub spacing_of_places: f64,
@@ -11,7 +12,8 @@ pub struct ScanMapConfig {
     pub reach_of_visit: f64,
     /// Scans that walls are drawn from lie at least so far apart, m.
     pub spacing_of_scans: f64,
-    /// How far from where it is expected a scan is fitted to the walls at most, m; 0 leaves it where it is expected.
+    /// How far from where it is expected a scan is fitted to the walls at most, m; 0 leaves it
+    /// where it is expected.
     pub farthest_fit: f64,
 }
 

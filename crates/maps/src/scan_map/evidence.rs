@@ -21,7 +21,8 @@ pub(super) struct Evidence {
     least: f64,
 }
 
-/// By how much a scan differs from what the map shows at a standpoint: mean squares, in standard deviations of a range.
+/// By how much a scan differs from what the map shows at a standpoint: mean squares, in standard
+/// deviations of a range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Misfit {
     /// Of all beams; none where the map does not say what is seen there.
@@ -30,13 +31,15 @@ pub(super) struct Misfit {
     but_for_new_walls: Option<f64>,
 }
 
-/// By how much a range may differ from what is seen at the nearest standpoint, m (standard deviation).
+/// By how much a range may differ from what is seen at the nearest standpoint, m (standard
+/// deviation).
 const RANGE_SD: f64 = 0.075;
 /// Beyond so many standard deviations a beam met something else; how far off says no more.
 const OUTLIER: f64 = 3.0;
 /// Beams see the same walls, so that all of them together say no more than so many.
 const INDEPENDENT_BEAMS: f64 = 8.0;
-/// A better fit than that tells no more: the map's own errors are as large, and are met at every look.
+/// A better fit than that tells no more: the map's own errors are as large, and are met at every
+/// look.
 const GOOD: f64 = 0.6;
 /// What the map does not show fits as a place does that is not the right one, but like it.
 const UNSHOWN: f64 = 2.0;

@@ -20,7 +20,8 @@ pub(super) struct ScanFit {
 const ELSEWHERE: f64 = 0.15;
 /// Beams see the same walls, so that each says no more than so much of one.
 const SHARE_OF_A_BEAM: f64 = 0.3;
-/// A beam's end is compared where it is expected so near to a known wall, m. What is unknown neither pulls nor pushes.
+/// A beam's end is compared where it is expected so near to a known wall, m. What is unknown
+/// neither pulls nor pushes.
 const COMPARED_WITHIN: f64 = 0.08;
 /// Spacing of the positions tried, m.
 const STEP: f64 = 0.0125;
@@ -35,8 +36,8 @@ const SUREST: f64 = 0.005;
 /// Fewest beams that can be compared.
 const FEWEST: usize = 10;
 
-/// Fits a scan to the walls of `grid`, expected at a position known to `variance` (along each axis, m²), no farther than `farthest` m
-/// from there. O(positions tried · beams).
+/// Fits a scan to the walls of `grid`, expected at a position known to `variance` (along each axis,
+/// m²), no farther than `farthest` m from there. O(positions tried · beams).
 pub(super) fn fit(
     grid: &WallGrid,
     expected: Point,
@@ -92,7 +93,8 @@ fn best_of(centre: Vector, window: Vector, mesh: f64, total: impl Fn(Vector) -> 
     best.1
 }
 
-/// The shift along one axis and its variance, the other shift given: the mean of the posterior, or the prior where the walls tell nothing.
+/// The shift along one axis and its variance, the other shift given: the mean of the posterior, or
+/// the prior where the walls tell nothing.
 fn along(
     score: impl Fn(Vector) -> f64,
     best: Vector,
@@ -161,7 +163,8 @@ fn comparable(grid: &WallGrid, expected: Point, heading: Heading, scan: &Scan) -
 
 /// A beam that passes a known wall so much before its end, m, cannot have come from there.
 const PASSED: f64 = 0.15;
-/// Spacing of the points at which beams are tried for walls, m: no wall is passed unseen but at a corner.
+/// Spacing of the points at which beams are tried for walls, m: no wall is passed unseen but at a
+/// corner.
 const RAY_STEP: f64 = 0.06;
 
 /// Where every other beam passes, beam by beam.

@@ -8,9 +8,11 @@ use super::chart::view;
 use super::fit::fit;
 use super::{Clearings, ScanChart, ScanMapConfig, WallGrid};
 
-/// Places that are merged while the map grows, the links gone between them, and the walls that scans met.
+/// Places that are merged while the map grows, the links gone between them, and the walls that
+/// scans met.
 ///
-/// Positions are in the map's own frame, whose axes are the compass's, and which begins where the robot was put down.
+/// Positions are in the map's own frame, whose axes are the compass's, and which begins where the
+/// robot was put down.
 #[derive(Clone, Debug)]
 pub struct ScanMap {
     config: ScanMapConfig,
@@ -74,8 +76,8 @@ impl ScanMap {
         }
     }
 
-    /// Takes in where the robot came to: corrects its position by the walls, and adds the place, the link and the walls that are
-    /// new. O(cells in range + positions tried · beams + places).
+    /// Takes in where the robot came to: corrects its position by the walls, and adds the place,
+    /// the link and the walls that are new. O(cells in range + positions tried · beams + places).
     pub fn observe(&mut self, seen: &Advance<'_>) {
         let expected = self.position + seen.moved;
         let variance = self.variance + seen.sd.component_mul(&seen.sd);
@@ -98,7 +100,8 @@ impl ScanMap {
         }
     }
 
-    /// Notes that the robot stands at a landmark on its way, `moved` from where it was observed last.
+    /// Notes that the robot stands at a landmark on its way, `moved` from where it was observed
+    /// last.
     pub fn pass(&mut self, moved: Vector, landmark: Landmark) {
         if landmark == Landmark::Goal {
             self.sense_goal(self.position + moved);
@@ -117,7 +120,8 @@ impl ScanMap {
         self.at
     }
 
-    /// Returns how well the last scan met the walls that were known, 0 … 1; 1 where it met none of them.
+    /// Returns how well the last scan met the walls that were known, 0 … 1; 1 where it met none of
+    /// them.
     #[must_use]
     pub const fn agreement(&self) -> f64 {
         self.agreement

@@ -6,7 +6,8 @@ use tolman_robot::Ring;
 use super::wall_grid::GridIndex;
 use super::{GroundKind, GroundPlan, WallGrid};
 
-/// The cells that the beams of a ring pass from the middle of a cell, beam 0 to the north: the same from every cell.
+/// The cells that the beams of a ring pass from the middle of a cell, beam 0 to the north: the same
+/// from every cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Rays {
     cells: Vec<RayCell>,
@@ -63,8 +64,8 @@ impl Rays {
         Self { cells, ends, clear }
     }
 
-    /// The ranges from a cell, beam by beam, in [`RANGE_UNIT`]s: as far as the nearest wall, [`UNKNOWN`] where the beam leaves what is
-    /// known before. O(beams · range).
+    /// The ranges from a cell, beam by beam, in [`RANGE_UNIT`]s: as far as the nearest wall,
+    /// [`UNKNOWN`] where the beam leaves what is known before. O(beams · range).
     pub(super) fn ranges<'a>(
         &'a self,
         ground: &'a GroundPlan,

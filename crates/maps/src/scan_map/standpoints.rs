@@ -9,9 +9,11 @@ use super::rays::{RANGE_UNIT, Rays, UNKNOWN};
 use super::wall_grid::{GridIndex, index_of, middle};
 use super::{Clearings, ScanChart, WallGrid};
 
-/// A lattice of positions where a robot can stand on a map, and what its beams would meet from each.
+/// A lattice of positions where a robot can stand on a map, and what its beams would meet from
+/// each.
 ///
-/// It takes about two bits for each position on the lattice. What is seen from one is worked out when it is asked for.
+/// It takes about two bits for each position on the lattice. What is seen from one is worked out
+/// when it is asked for.
 #[derive(Clone, Debug)]
 pub struct Standpoints {
     chart: ScanChart,
@@ -32,7 +34,8 @@ pub struct Standpoints {
 #[derive(Clone, Debug)]
 pub struct StandpointViews {
     ring: Ring,
-    /// Ranges from each, beam 0 to the north, in [`RANGE_UNIT`]s; [`UNKNOWN`] where the map does not say.
+    /// Ranges from each, beam 0 to the north, in [`RANGE_UNIT`]s; [`UNKNOWN`] where the map does
+    /// not say.
     ranges: Vec<u8>,
 }
 
@@ -126,8 +129,8 @@ impl Standpoints {
         }
     }
 
-    /// Returns the walls that a scan shows from a standpoint and the map does not: points side by side. Empty where the scan fits, or does
-    /// not fit for other reasons. O(beams · range).
+    /// Returns the walls that a scan shows from a standpoint and the map does not: points side by
+    /// side. Empty where the scan fits, or does not fit for other reasons. O(beams · range).
     #[must_use]
     pub fn new_walls(&self, number: u32, heading: Heading, scan: &Scan) -> Vec<Point> {
         let slot = self.stands.slot(number);
@@ -167,7 +170,8 @@ impl Standpoints {
         ]
     }
 
-    /// Returns the numbers of those so near to where the landmark of the goal was sensed that it is sensed there, too.
+    /// Returns the numbers of those so near to where the landmark of the goal was sensed that it is
+    /// sensed there, too.
     pub(super) fn sensing_goal(&self) -> &[u32] {
         &self.sensing_goal
     }
@@ -177,8 +181,8 @@ impl Standpoints {
         self.stands.slots().map(|slot| self.index(slot))
     }
 
-    /// Returns by how much a scan differs from what is seen in a cell. `north` is the scan, beam 0 to the north.
-    /// O(beams · range).
+    /// Returns by how much a scan differs from what is seen in a cell. `north` is the scan, beam 0
+    /// to the north. O(beams · range).
     pub(super) fn misfit(&self, cell: GridIndex, north: &[f64]) -> Misfit {
         Misfit::of(north, self.rays.ranges(self.chart.ground(), cell))
     }
@@ -229,8 +233,9 @@ impl Standpoints {
 }
 
 impl StandpointViews {
-    /// Writes into `scan` what a robot at a standpoint would see that faces along `heading`: nothing in reach where the map does not say.
-    /// The scan's ring must be a full circle of as many beams.
+    /// Writes into `scan` what a robot at a standpoint would see that faces along `heading`:
+    /// nothing in reach where the map does not say. The scan's ring must be a full circle of as
+    /// many beams.
     pub fn scan(&self, number: u32, heading: Heading, scan: &mut Scan) {
         let beams = self.ring.beams as usize;
         let expected = &self.ranges[number as usize * beams..][..beams];

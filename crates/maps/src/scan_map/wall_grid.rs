@@ -9,8 +9,9 @@ use super::GroundKind;
 
 /// Where walls were met and where beams passed, on a square grid that grows.
 ///
-/// A cell is a wall while beams ended in it often enough beside those that passed. Each cell knows how far the nearest
-/// wall is, up to [`REACH`](Self::REACH), so that a robot's clearance and the fit of a scan are look-ups.
+/// A cell is a wall while beams ended in it often enough beside those that passed. Each cell knows
+/// how far the nearest wall is, up to [`REACH`](Self::REACH), so that a robot's clearance and the
+/// fit of a scan are look-ups.
 #[derive(Clone, Debug, Default)]
 pub struct WallGrid {
     /// Column and row of the first cell.
@@ -54,8 +55,8 @@ impl WallGrid {
         size_of_val(self.cells.as_slice())
     }
 
-    /// Adds what a scan shows from a position, its beams turned by `heading`. A beam that met nothing passed all the way.
-    /// O(cells within the ring's range).
+    /// Adds what a scan shows from a position, its beams turned by `heading`. A beam that met
+    /// nothing passed all the way. O(cells within the ring's range).
     pub fn add(&mut self, from: Point, heading: Heading, scan: &Scan) {
         let range = scan.ring.max_range;
         self.cover(from, range + Self::REACH);
@@ -68,8 +69,8 @@ impl WallGrid {
         }
     }
 
-    /// Returns how far `at` is from the nearest wall, m, between cells in proportion; `None` where none stands within
-    /// reach.
+    /// Returns how far `at` is from the nearest wall, m, between cells in proportion; `None` where
+    /// none stands within reach.
     #[must_use]
     pub fn wall_distance(&self, at: Point) -> Option<f64> {
         let scaled = at.coords / Self::CELL - Vector::new(0.5, 0.5);
@@ -109,7 +110,8 @@ impl WallGrid {
         sees(from, to, |at| self.is_wall(at))
     }
 
-    /// Returns a grid of cells between these bounds that hold what `ground` says, each wall as seen once. O(cells).
+    /// Returns a grid of cells between these bounds that hold what `ground` says, each wall as seen
+    /// once. O(cells).
     pub(super) fn of(bounds: [GridIndex; 2], ground: impl Fn(GridIndex) -> GroundKind) -> Self {
         let [first, end] = bounds;
         let [columns, rows] = [0, 1].map(|axis| end[axis] - first[axis]);
@@ -152,7 +154,8 @@ impl WallGrid {
         }
     }
 
-    /// Notes that the robot has been at a point: ground within `reach` m and in sight needs no further visit.
+    /// Notes that the robot has been at a point: ground within `reach` m and in sight needs no
+    /// further visit.
     pub(super) fn visit(&mut self, at: Point, reach: f64) {
         let [low, high] = [-reach, reach].map(|offset| index_of(at + Vector::new(offset, offset)));
         for row in low[1]..=high[1] {
@@ -174,7 +177,8 @@ impl WallGrid {
         self.cells[slot].been
     }
 
-    /// Whether a body of this radius can stand with its middle in a cell that a beam has passed, as far as walls are known.
+    /// Whether a body of this radius can stand with its middle in a cell that a beam has passed, as
+    /// far as walls are known.
     pub(super) fn stands(&self, index: GridIndex, radius: f64) -> bool {
         self.cell(index)
             .is_some_and(|cell| cell.passes > 0 && f64::from(cell.wall) * DISTANCE_UNIT >= radius)

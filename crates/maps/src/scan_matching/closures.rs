@@ -69,8 +69,9 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Holds the keyframes up to `here` against those about `there`, and takes them for the same place if they match and an earlier or
-    /// later match agrees; returns whether they match at all. Nothing matches if no closures are looked for, or there are no such keyframes.
+    /// Holds the keyframes up to `here` against those about `there`, and takes them for the same
+    /// place if they match and an earlier or later match agrees; returns whether they match at all.
+    /// Nothing matches if no closures are looked for, or there are no such keyframes.
     ///
     /// # Errors
     /// If a measurement does not fit the graph.
@@ -93,7 +94,8 @@ impl ScanMatching {
         Ok(matches)
     }
 
-    /// Returns how far from where the map has it a keyframe may be, m: as far as places are looked for.
+    /// Returns how far from where the map has it a keyframe may be, m: as far as places are looked
+    /// for.
     #[must_use]
     pub fn doubt(&self, keyframe: usize) -> f64 {
         let config = self.config.closures.as_ref();
@@ -139,8 +141,8 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Looks for all closures again, on the map as it is, and makes it agree, until the same ones are found twice or the rounds are over; then
-    /// the map does not change any more.
+    /// Looks for all closures again, on the map as it is, and makes it agree, until the same ones
+    /// are found twice or the rounds are over; then the map does not change any more.
     ///
     /// # Errors
     /// If a measurement does not fit the graph.

@@ -90,13 +90,14 @@ pub struct ClosureConfig {
     pub turn_sd: f64,
     /// The squared error at which a closure counts a quarter.
     pub doubt: f64,
-    /// How often all closures are looked for again at the end at most, each time on the map that they made.
+    /// How often all closures are looked for again at the end at most, each time on the map that
+    /// they made.
     pub most_rounds: u32,
 }
 
 impl ScanMatchingConfig {
-    /// Returns the values for a laser of indoor ranges and wheels of any quality, found on four buildings; closures are
-    /// looked for.
+    /// Returns the values for a laser of indoor ranges and wheels of any quality, found on four
+    /// buildings; closures are looked for.
     #[must_use]
     pub fn indoor() -> Self {
         Self {
@@ -165,7 +166,8 @@ impl ClosureConfig {
         }
     }
 
-    /// Returns the values for places that somebody names: a few metres apart, so that matches which agree are.
+    /// Returns the values for places that somebody names: a few metres apart, so that matches which
+    /// agree are.
     #[must_use]
     pub fn places() -> Self {
         Self {

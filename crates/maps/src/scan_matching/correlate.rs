@@ -1,6 +1,7 @@
 //! The best of all poses in a window, by branch and bound: no pose is missed, and few are tried.
 //!
-//! Source: E. Olson: Real-Time Correlative Scan Matching, 2009; W. Hess et al.: Real-Time Loop Closure in 2D LIDAR SLAM, 2016.
+//! Source: E. Olson: Real-Time Correlative Scan Matching, 2009; W. Hess et al.: Real-Time Loop
+//! Closure in 2D LIDAR SLAM, 2016.
 
 use alloc::collections::BinaryHeap;
 use alloc::vec::Vec;
@@ -69,8 +70,8 @@ impl Pyramid {
     }
 }
 
-/// Returns the pose in the window about `expected` at which the outline lies best on the grid. O(headings · points · (reach / width)²)
-/// and what bounds leave.
+/// Returns the pose in the window about `expected` at which the outline lies best on the grid.
+/// O(headings · points · (reach / width)²) and what bounds leave.
 pub(super) fn best(
     grid: &LikelihoodGrid,
     pyramid: &Pyramid,

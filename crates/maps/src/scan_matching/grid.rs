@@ -4,7 +4,8 @@ use tolman_geom::{Point, Pose, Vector};
 
 use super::outline::ScanOutline;
 
-/// How likely a beam ends where, by beams that ended there before: a picture of surfaces, each as wide as beams err.
+/// How likely a beam ends where, by beams that ended there before: a picture of surfaces, each as
+/// wide as beams err.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LikelihoodGrid {
     cell: f64,
@@ -81,7 +82,8 @@ impl Stamp {
 }
 
 impl LikelihoodGrid {
-    /// Draws outlines, each seen from its pose, and leaves `margin` m free around. O(points + cells).
+    /// Draws outlines, each seen from its pose, and leaves `margin` m free around. O(points +
+    /// cells).
     pub(super) fn draw<'a>(
         &mut self,
         stamp: &Stamp,
@@ -160,7 +162,8 @@ impl LikelihoodGrid {
         }
     }
 
-    /// Returns the likelihood at a point, 0 … 1, between cells in proportion, and how it grows along the axes, 1/m.
+    /// Returns the likelihood at a point, 0 … 1, between cells in proportion, and how it grows
+    /// along the axes, 1/m.
     pub(super) fn slope(&self, at: Point) -> (f64, Vector) {
         let scaled = at.coords / self.cell - Vector::new(0.5, 0.5);
         let corner = scaled.map(libm::floor);
@@ -180,7 +183,8 @@ impl LikelihoodGrid {
         self.cell
     }
 
-    /// Returns a grid whose cells hold the greatest value of the `width` × `width` cells that begin there. O(cells · log width).
+    /// Returns a grid whose cells hold the greatest value of the `width` × `width` cells that begin
+    /// there. O(cells · log width).
     pub(super) fn pooled(&self, width: usize) -> Self {
         let mut pooled = self.clone();
         // Each pass doubles how far a cell sees.

@@ -16,7 +16,8 @@ use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
 /// What came since the scan before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanStep {
-    /// How far the wheels came since the scan before: its pose as seen from there. Of the first scan it means nothing.
+    /// How far the wheels came since the scan before: its pose as seen from there. Of the first
+    /// scan it means nothing.
     pub moved: Pose,
     /// The scan.
     pub scan: Scan,

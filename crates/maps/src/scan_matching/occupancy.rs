@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_robot::Scan;
 
-/// Where beams passed and where they ended, on a square grid of fixed bounds: the map that others' programs navigate on.
+/// Where beams passed and where they ended, on a square grid of fixed bounds: the map that others'
+/// programs navigate on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OccupancyGrid {
     /// Side of a cell, m.
@@ -23,8 +24,8 @@ pub struct OccupancyGrid {
 const MOST_CELLS: f64 = 20_000.0;
 
 impl OccupancyGrid {
-    /// Returns an empty grid that holds all of the points, in cells of `cell` m. Points that are not finite, and those that would need more
-    /// than 20000 cells, are left out.
+    /// Returns an empty grid that holds all of the points, in cells of `cell` m. Points that are
+    /// not finite, and those that would need more than 20000 cells, are left out.
     #[must_use]
     pub fn around(points: impl Iterator<Item = Point>, cell: f64) -> Self {
         let finite = points.filter(|point| point.coords.iter().all(|part| part.is_finite()));
@@ -48,7 +49,8 @@ impl OccupancyGrid {
         }
     }
 
-    /// Adds a scan from where its laser was. Beams longer than `farthest` m pass up to there and end nowhere. O(beams · range / cell).
+    /// Adds a scan from where its laser was. Beams longer than `farthest` m pass up to there and
+    /// end nowhere. O(beams · range / cell).
     pub fn add(&mut self, scan: &Scan, map_from_laser: Pose, farthest: f64) {
         let most = farthest.min(scan.ring.max_range);
         for (index, range) in (0..).zip(&scan.ranges) {
@@ -83,9 +85,9 @@ impl OccupancyGrid {
         }
     }
 
-    /// Returns how many beams of a scan end on the map, and how many of these end where the map has floor: in a cell that, like all
-    /// beside it, was more often passed than hit, by a share of hits below `wall`. Where walls stand twice, many do.
-    /// O(beams).
+    /// Returns how many beams of a scan end on the map, and how many of these end where the map has
+    /// floor: in a cell that, like all beside it, was more often passed than hit, by a share of
+    /// hits below `wall`. Where walls stand twice, many do. O(beams).
     #[must_use]
     pub fn contradicted(
         &self,
@@ -126,8 +128,8 @@ impl OccupancyGrid {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// Returns how likely each cell is occupied, row by row from the south-west: the share of beams that ended there; `None` where none
-    /// has reached.
+    /// Returns how likely each cell is occupied, row by row from the south-west: the share of beams
+    /// that ended there; `None` where none has reached.
     pub fn occupancy(&self) -> impl Iterator<Item = Option<f64>> + '_ {
         self.counts.iter().map(|(hits, passes)| {
             let all = u32::from(*hits) + u32::from(*passes);

@@ -19,8 +19,8 @@ pub(super) struct SurfacePoint {
     pub(super) goes_on: bool,
 }
 
-/// Ends of neighbouring beams that are this many times farther apart than beams that meet a surface at right angles belong to
-/// two surfaces.
+/// Ends of neighbouring beams that are this many times farther apart than beams that meet a surface
+/// at right angles belong to two surfaces.
 const SLANT: f64 = 6.0;
 /// Nearer than that no beam ends but on the robot itself, m.
 const NEAREST: f64 = 0.1;
@@ -58,8 +58,8 @@ impl ScanOutline {
         }
     }
 
-    /// Which way its surfaces run: the sum of unit vectors at four times the heading of each, since quarter turns
-    /// are the same.
+    /// Which way its surfaces run: the sum of unit vectors at four times the heading of each, since
+    /// quarter turns are the same.
     pub(super) fn axis(&self) -> Vector {
         let told = self.points.iter().step_by(AXIS_POINTS);
         let told = told.filter(|point| point.normal != Vector::zeros());

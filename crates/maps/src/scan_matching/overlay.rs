@@ -1,4 +1,5 @@
-//! Where another map of the same building lies on this one, when nothing is known of how they are to each other.
+//! Where another map of the same building lies on this one, when nothing is known of how they are
+//! to each other.
 
 use alloc::vec::Vec;
 use core::f64::consts::FRAC_PI_2;
@@ -19,7 +20,8 @@ pub struct MapOverlay {
     pub pose: Pose,
     /// How well its surfaces meet those of this one: the mean likelihood of its points, 0 … 1.
     pub score: f64,
-    /// The same of the best overlay that lies elsewhere; 0 if there is none. Near `score`, it is not known which is right.
+    /// The same of the best overlay that lies elsewhere; 0 if there is none. Near `score`, it is
+    /// not known which is right.
     pub rival: f64,
 }
 
@@ -27,7 +29,8 @@ pub struct MapOverlay {
 const STRETCHES: usize = 8;
 /// Keyframes to either side of a stretch's middle.
 const HALF: usize = 15;
-/// Points of a stretch that are looked for, and points of the whole map that are held against this one.
+/// Points of a stretch that are looked for, and points of the whole map that are held against this
+/// one.
 const SEARCHED_POINTS: usize = 150;
 const REFINED_POINTS: usize = 1500;
 /// Axes of buildings are told so surely, rad.
@@ -36,9 +39,9 @@ const AXIS_TURN: f64 = 0.07;
 const SAME: (f64, f64) = (1.0, 0.1);
 
 impl ScanMatching {
-    /// Looks for where another map of the same building lies on this one: stretches of its way, put down anywhere and turned by
-    /// any quarter, since both buildings' axes are known; the one is kept on which the whole map lies best. `None` if a map
-    /// is empty.
+    /// Looks for where another map of the same building lies on this one: stretches of its way, put
+    /// down anywhere and turned by any quarter, since both buildings' axes are known; the one is
+    /// kept on which the whole map lies best. `None` if a map is empty.
     ///
     /// O(stretches · cells of the grid), by branch and bound.
     #[must_use]

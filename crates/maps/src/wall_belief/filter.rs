@@ -18,7 +18,8 @@ pub struct PoseFilterConfig {
     pub slip: f64,
     /// Standard deviation of the turn that nobody asked for, rad per metre. ≥ 0.
     pub drift: f64,
-    /// Standard deviation of where a particle is after a step, whatever was asked for, m: it keeps particles apart. ≥ 0.
+    /// Standard deviation of where a particle is after a step, whatever was asked for, m: it keeps
+    /// particles apart. ≥ 0.
     pub spread: f64,
     /// How the range sensors err.
     pub sensor: RangeModel,
@@ -34,11 +35,12 @@ pub struct FilterError {
     pub value: f64,
 }
 
-/// Where a mouse is, as a cloud of particles: Monte Carlo localization (Probabilistic robotics, table 8.2), with the low
-/// variance sampler of table 4.4 whenever half of the particles no longer count.
+/// Where a mouse is, as a cloud of particles: Monte Carlo localization (Probabilistic robotics,
+/// table 8.2), with the low variance sampler of table 4.4 whenever half of the particles no longer
+/// count.
 ///
-/// A ray is expected to end at any wall that may stand on its way ([`WallBelief::meetings`]); an unknown one stops it as
-/// often as not.
+/// A ray is expected to end at any wall that may stand on its way ([`WallBelief::meetings`]); an
+/// unknown one stops it as often as not.
 #[derive(Clone, Debug)]
 pub struct PoseFilter {
     config: PoseFilterConfig,
@@ -88,7 +90,8 @@ impl PoseFilter {
         self.particles.fill(Particle { pose, weight });
     }
 
-    /// The mouse was told to drive `distance` metres and to turn by `turn` radians meanwhile. O(particles).
+    /// The mouse was told to drive `distance` metres and to turn by `turn` radians meanwhile.
+    /// O(particles).
     pub fn drive(&mut self, distance: f64, turn: f64, rng: &mut impl Rng) {
         let config = self.config;
         for particle in &mut self.particles {
@@ -165,7 +168,8 @@ impl PoseFilter {
     }
 }
 
-/// How likely a reading is for a mouse at `pose`, up to a factor; `nothing` is its density where no wall is met.
+/// How likely a reading is for a mouse at `pose`, up to a factor; `nothing` is its density where no
+/// wall is met.
 fn likelihood<const N: usize>(
     sensor: &RangeModel,
     walls: &WallBelief<N>,

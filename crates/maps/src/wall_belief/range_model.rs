@@ -9,7 +9,8 @@ pub struct RangeModel {
     pub absolute: f64,
     /// The same as a share of the range. ≥ 0.
     pub relative: f64,
-    /// The share of readings that have nothing to do with the walls in the map, such as those that meet a post. Within 0 … 1.
+    /// The share of readings that have nothing to do with the walls in the map, such as those that
+    /// meet a post. Within 0 … 1.
     pub outliers: f64,
 }
 

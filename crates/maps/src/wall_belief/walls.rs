@@ -10,9 +10,10 @@ use super::RangeModel;
 
 /// What speaks for and against every wall of a maze of at most `N` × `N` cells, drawn to scale.
 ///
-/// Every wall has its log-odds to stand. A reading that meets a wall speaks for it, one that passes speaks against it, each by as much as
-/// the sensor can be trusted at that range. A wall is believed in, or taken for open, beyond [`WallBelief::CONVINCED`]; it is unknown
-/// before and may be again.
+/// Every wall has its log-odds to stand. A reading that meets a wall speaks for it, one that passes
+/// speaks against it, each by as much as the sensor can be trusted at that range. A wall is
+/// believed in, or taken for open, beyond [`WallBelief::CONVINCED`]; it is unknown before and may
+/// be again.
 ///
 /// ```
 /// use tolman_geom::{Heading, Point, Pose};
@@ -74,7 +75,8 @@ impl<const N: usize> WallBelief<N> {
     /// What a single reading says at most: two of one stop err by the same pose.
     const MOST_AT_ONCE: f64 = 1.6;
 
-    /// Nothing is believed but the border. `pitch` is from the middle of a cell to the next, `thickness` that of a wall, m.
+    /// Nothing is believed but the border. `pitch` is from the middle of a cell to the next,
+    /// `thickness` that of a wall, m.
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
@@ -114,11 +116,11 @@ impl<const N: usize> WallBelief<N> {
         self.grid.contains(cell).then_some(cell)
     }
 
-    /// Takes in one reading that `sensor` made at `pose`. One that is far from parallel to both axes says nothing. O(n²) for n cells
-    /// along the ray.
+    /// Takes in one reading that `sensor` made at `pose`. One that is far from parallel to both
+    /// axes says nothing. O(n²) for n cells along the ray.
     ///
-    /// By Bayes' rule, each wall on the ray by itself: how likely is the reading if it stands, and if it does not, where the others stand
-    /// as likely as is believed so far?
+    /// By Bayes' rule, each wall on the ray by itself: how likely is the reading if it stands, and
+    /// if it does not, where the others stand as likely as is believed so far?
     pub fn observe(&mut self, pose: Pose, reading: RangeReading, sensor: &RangeModel) {
         let heading = pose.heading.turned(reading.bearing);
         let unit = heading.unit();
@@ -153,7 +155,8 @@ impl<const N: usize> WallBelief<N> {
         }
     }
 
-    /// Makes all walls that are believed in, or half so, less certain: something is wrong, and nobody knows what.
+    /// Makes all walls that are believed in, or half so, less certain: something is wrong, and
+    /// nobody knows what.
     pub fn doubt_walls(&mut self) {
         for odds in self.odds.iter_mut().filter(|odds| **odds > 0.0) {
             *odds *= Self::DOUBT;
@@ -195,8 +198,8 @@ impl<const N: usize> WallBelief<N> {
         (line.distance - self.thickness / 2.0 / line.slope).max(0.0)
     }
 
-    /// Where a ray from `origin` may end that reaches `max_range`: at the lines of the grid that it crosses where a wall may
-    /// stand, the nearest first, up to the first that is believed in.
+    /// Where a ray from `origin` may end that reaches `max_range`: at the lines of the grid that it
+    /// crosses where a wall may stand, the nearest first, up to the first that is believed in.
     pub fn meetings(
         &self,
         origin: Point,
@@ -216,8 +219,8 @@ impl<const N: usize> WallBelief<N> {
         meetings.filter(|meeting| meeting.known != Knowledge::Open)
     }
 
-    /// The sides of cells that a ray crosses, the nearest first (Amanatides and Woo, "A fast voxel traversal algorithm for
-    /// ray tracing", 1987).
+    /// The sides of cells that a ray crosses, the nearest first (Amanatides and Woo, "A fast voxel
+    /// traversal algorithm for ray tracing", 1987).
     fn crossings(
         &self,
         origin: Point,
@@ -303,7 +306,8 @@ struct Chance {
 }
 
 impl Chance {
-    /// How likely a reading is that ends at the first wall that stands, and with `nothing` where none does.
+    /// How likely a reading is that ends at the first wall that stands, and with `nothing` where
+    /// none does.
     fn met(ray: impl Iterator<Item = Self>, nothing: f64) -> f64 {
         let (density, passes) = ray.fold((0.0, 1.0), |(density, passes), wall| {
             let ends = passes * wall.stands;

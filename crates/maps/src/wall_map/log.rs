@@ -1,7 +1,7 @@
 use tolman_maze::Wall;
 
-/// The walls learned last, so that they can be forgotten again: a ring of at most `LOG` walls. When it is
-/// full the oldest entries give way.
+/// The walls learned last, so that they can be forgotten again: a ring of at most `LOG` walls. When
+/// it is full the oldest entries give way.
 #[derive(Clone, Copy, Debug, Eq)]
 pub(super) struct Log<const LOG: usize> {
     entries: [Entry; LOG],

@@ -6,7 +6,8 @@ use super::{CellRay, RayEnd};
 
 /// What a mouse knows of a maze of at most `N` × `N` cells, `N` ≤ 32, and where it has been.
 ///
-/// The last `LOG` walls learned can be forgotten again. Cells that do not lie on the grid are walled in.
+/// The last `LOG` walls learned can be forgotten again. Cells that do not lie on the grid are
+/// walled in.
 ///
 /// ```
 /// use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
@@ -164,9 +165,9 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         })
     }
 
-    /// Takes in what is seen from `cell` at one moment, every ray along its whole length, and tells how many
-    /// walls that were unknown are known now. Of two rays in one direction the first counts.
-    /// O(cells along the rays).
+    /// Takes in what is seen from `cell` at one moment, every ray along its whole length, and tells
+    /// how many walls that were unknown are known now. Of two rays in one direction the first
+    /// counts. O(cells along the rays).
     ///
     /// # Errors
     /// If a ray says the contrary of what is known, or leaves the maze; then nothing is taken in.
@@ -196,8 +197,8 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         Ok(learned)
     }
 
-    /// Forgets what the last `observations` that told anything new have told, inferences included, and says
-    /// of how many: fewer where the map no longer remembers. Visits stay.
+    /// Forgets what the last `observations` that told anything new have told, inferences included,
+    /// and says of how many: fewer where the map no longer remembers. Visits stay.
     pub fn undo(&mut self, observations: usize) -> usize {
         for undone in 0..observations {
             if !self.log.holds_last() {
@@ -378,7 +379,8 @@ impl<const N: usize, const LOG: usize> Walls for WallMap<N, LOG> {
     }
 }
 
-/// Returns the wall on a side of a cell as that in the east or north of a cell; `None` on the border and beyond.
+/// Returns the wall on a side of a cell as that in the east or north of a cell; `None` on the
+/// border and beyond.
 fn inner_wall(grid: Grid, cell: Cell, side: Direction) -> Option<(Cell, Direction)> {
     let beyond = grid.neighbour(cell, side).filter(|_| grid.contains(cell))?;
     Some(match side {

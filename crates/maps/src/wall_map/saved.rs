@@ -31,8 +31,8 @@ pub struct SavedWallMap {
     pub open: Vec<Wall>,
     /// The walls known to stand, likewise. Those of the border are left out.
     pub standing: Vec<Wall>,
-    /// The observations that can be forgotten again, the oldest first, each with the walls that it told of. A map
-    /// with a shorter memory drops the oldest.
+    /// The observations that can be forgotten again, the oldest first, each with the walls that it
+    /// told of. A map with a shorter memory drops the oldest.
     pub remembered: Vec<Vec<Wall>>,
     /// Visits to each cell, row by row from the south; 255 stands for all greater numbers.
     pub visits: Vec<Vec<u8>>,

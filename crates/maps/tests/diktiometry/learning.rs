@@ -1,4 +1,5 @@
-//! What is learned of worlds in which every place looks the same, of worlds that are painted, and after a kidnapping.
+//! What is learned of worlds in which every place looks the same, of worlds that are painted, and
+//! after a kidnapping.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -45,7 +46,8 @@ fn a_random_walk_teaches_a_world_of_alike_places() {
     assert!(by_map < 0.5 * by_odometry, "{by_map} {by_odometry}");
 }
 
-/// The defect that the paper's restructurers are there for: whoever takes boxes that meet for the same place confuses places.
+/// The defect that the paper's restructurers are there for: whoever takes boxes that meet for the
+/// same place confuses places.
 #[test]
 fn boxes_that_merely_meet_confuse_places() {
     let mut config = alike();
@@ -163,7 +165,8 @@ fn looks_close_loops_that_are_too_wide_for_geometry() {
     assert!(looks.kinds > 20 && looks.different > 200, "{looks:?}");
 }
 
-/// What a robot that went to and fro unfolded before it had seen enough is folded once the map around it is known.
+/// What a robot that went to and fro unfolded before it had seen enough is folded once the map
+/// around it is known.
 #[test]
 fn no_double_is_left_of_a_corridor_gone_to_and_fro() {
     for seed in [6, 8, 11, 17] {
@@ -173,7 +176,8 @@ fn no_double_is_left_of_a_corridor_gone_to_and_fro() {
     }
 }
 
-/// Looks tell nothing where all look alike, and the map learns that they tell nothing where rooms are furnished alike.
+/// Looks tell nothing where all look alike, and the map learns that they tell nothing where rooms
+/// are furnished alike.
 #[test]
 fn looks_that_deceive_confuse_no_places() {
     let room = |place: u32| (place / 9 % 3) * 9 + place % 9 % 3;
@@ -212,7 +216,8 @@ fn the_view_set_of_a_place_that_looks_new_grows() {
     assert_eq!(views(&walk), 27);
 }
 
-/// Doors shut and open for good, one after the other: the map follows, and plans lead where they say.
+/// Doors shut and open for good, one after the other: the map follows, and plans lead where they
+/// say.
 #[test]
 fn doors_that_move_are_followed() {
     let doors = [
@@ -239,7 +244,8 @@ fn doors_that_move_are_followed() {
     assert_eq!(walk.score(), perfect(25));
 }
 
-/// A door that was seen shut is not planned through, long before the link is elided; it is once it was seen open.
+/// A door that was seen shut is not planned through, long before the link is elided; it is once it
+/// was seen open.
 #[test]
 fn no_plan_leads_through_a_door_that_was_seen_shut() {
     let mut walk = Walk::new(open(2), ODOMETRY, alike(), 1);
@@ -266,7 +272,8 @@ fn no_plan_leads_through_a_door_that_was_seen_shut() {
     assert_eq!(steps(&walk), 1);
 }
 
-/// A door that comes and goes is planned through just after it was seen open; later, a way round that never changed is better.
+/// A door that comes and goes is planned through just after it was seen open; later, a way round
+/// that never changed is better.
 #[test]
 fn plans_lead_round_a_door_that_may_have_moved() {
     let mut walk = Walk::new(open(2), ODOMETRY, alike(), 1);
@@ -298,8 +305,8 @@ fn plans_lead_round_a_door_that_may_have_moved() {
     assert_eq!(steps(&walk), 3);
 }
 
-/// A door that opens into the side of a corridor makes a place there; the one behind it is where it was. One that the robot goes past is
-/// gone.
+/// A door that opens into the side of a corridor makes a place there; the one behind it is where it
+/// was. One that the robot goes past is gone.
 #[test]
 fn a_place_that_appears_hides_none_behind_it() {
     let at = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0)];

@@ -122,7 +122,8 @@ fn observer_and_moves(
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
-    /// No input breaks it, and after every move the two graphs keep their promises and there is a best track at a place.
+    /// No input breaks it, and after every move the two graphs keep their promises and there is a
+    /// best track at a place.
     #[test]
     fn nothing_breaks_it(seed in any::<u32>(), moves in prop::collection::vec(any_move(), 0..60)) {
         let config = config(seed);
@@ -211,8 +212,8 @@ proptest! {
         }
     }
 
-    /// While the bounds hold, no place is confused with another, and every relation holds the truth: whether the robot follows
-    /// the advice, ignores it, or follows some of it.
+    /// While the bounds hold, no place is confused with another, and every relation holds the
+    /// truth: whether the robot follows the advice, ignores it, or follows some of it.
     #[test]
     fn relations_hold_the_truth(seed in any::<u64>(), obedience in 0_u32..=4, stop in 0_u32..2) {
         let mut config = Config::new(Config::compass_actions(), 1.0);

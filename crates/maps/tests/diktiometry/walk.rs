@@ -20,7 +20,8 @@ pub(crate) const ODOMETRY: MoveNoise = MoveNoise {
     ..MoveNoise::NONE
 };
 
-/// The simulated robot of the offices goes past the middle of an opening and back: on 4 m it drives a good metre more.
+/// The simulated robot of the offices goes past the middle of an opening and back: on 4 m it drives
+/// a good metre more.
 pub(crate) const ROUGH: MoveNoise = MoveNoise {
     distance: 0.13,
     compass: 1.3 * ODOMETRY.compass,
@@ -51,8 +52,8 @@ pub(crate) fn open(side: u16) -> AbstractWorld {
     AbstractWorld::from_maze(&Maze::open(Grid::new(side, side)), 1.0)
 }
 
-/// Corridors between blocks: a square grid in which a share of the inner walls stands, but for those that would cut a cell
-/// off.
+/// Corridors between blocks: a square grid in which a share of the inner walls stands, but for
+/// those that would cut a cell off.
 pub(crate) fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
     let grid = Grid::new(side, side);
     let mut maze = Maze::open(grid);
@@ -219,7 +220,8 @@ impl Walk {
     }
 }
 
-/// A planner that walks at random but for this share of its decisions, in which it begins the best script that is advised.
+/// A planner that walks at random but for this share of its decisions, in which it begins the best
+/// script that is advised.
 pub(crate) struct Scripted {
     heed: f64,
     script: VecDeque<Action>,
@@ -266,8 +268,8 @@ pub(crate) fn exits(robot: &AbstractRobot) -> Exits {
     Exits::Seen(exits.map(|direction| Action(direction as u32)).collect())
 }
 
-/// A walk of 1500 moves, with scripts, in the corridors of a braided maze of 6 × 6 cells, with walls of so many colours; merges by
-/// looks are on.
+/// A walk of 1500 moves, with scripts, in the corridors of a braided maze of 6 × 6 cells, with
+/// walls of so many colours; merges by looks are on.
 pub(crate) fn braided_corridors(colours: u32, seed: u64) -> Walk {
     let shape = Braided {
         width: 6,

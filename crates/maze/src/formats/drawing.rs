@@ -1,4 +1,5 @@
-//! The drawing of posts and walls that the `mazefiles` collection, mms and tolman's own files share.
+//! The drawing of posts and walls that the `mazefiles` collection, mms and tolman's own files
+//! share.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -11,8 +12,8 @@ use crate::{Cell, CheckError, Direction, Grid, Maze};
 /// Characters from one post to the next.
 const PITCH: usize = 4;
 
-/// Whether a drawing begins with this line, which has no blanks before it. Double borders are no walls,
-/// but meant as a drawing.
+/// Whether a drawing begins with this line, which has no blanks before it. Double borders are no
+/// walls, but meant as a drawing.
 pub(super) fn begins(line: &str) -> bool {
     let mut chars = line.chars();
     chars.next().is_some_and(is_post) && chars.next().is_none_or(|c| matches!(c, '-' | ' ' | '='))
@@ -63,7 +64,8 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
         start: None,
         goals: Vec::new(),
     };
-    // Row y of the cells is line 2 · (height - 1 - y) + 1; the posts to its north are the line before.
+    // Row y of the cells is line 2 · (height - 1 - y) + 1; the posts to its north are the line
+    // before.
     let rows_of_cells = rows[1..].chunks(2).zip((0..grid.height()).rev());
     reader.posts(first, grid.height() - 1, Direction::North)?;
     for (pair, y) in rows_of_cells {
@@ -224,7 +226,8 @@ fn rows<'a>(lines: &mut Lines<'a>) -> Result<Vec<Row<'a>>, MazeError> {
         if text.starts_with('\t') {
             return Err(line.fault(indent, MazeFault::Tab));
         }
-        // A remark below the drawing may begin with an o, too: `begins` looks at the next character.
+        // A remark below the drawing may begin with an o, too: `begins` looks at the next
+        // character.
         if begins(text) || text.starts_with(['|', ' ']) {
             rows.push(Row { line, indent });
             *lines = ahead;

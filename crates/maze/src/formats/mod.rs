@@ -50,8 +50,9 @@ pub struct MazeFile {
 }
 
 impl MazeFile {
-    /// The narrowest and the widest corridor that is read or written, m: what no robot drives through
-    /// is a slip of the keyboard, and widths far beyond break the arithmetic of whoever builds a world.
+    /// The narrowest and the widest corridor that is read or written, m: what no robot drives
+    /// through is a slip of the keyboard, and widths far beyond break the arithmetic of whoever
+    /// builds a world.
     pub const CORRIDOR_WIDTHS: (f64, f64) = (0.001, 1000.0);
 }
 
@@ -66,20 +67,20 @@ impl From<Maze> for MazeFile {
     }
 }
 
-/// A text format of mazes. Its name (`numbers`, `mazefiles`, `num`, `tolman`) is what it displays as
-/// and parses from.
+/// A text format of mazes. Its name (`numbers`, `mazefiles`, `num`, `tolman`) is what it displays
+/// as and parses from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Format {
-    /// The numbers of the micromouse paper's test program. Line 1 is the size n, an even number; then
-    /// line x has n comma-separated numbers, item y of it the sum of the open sides of the cell in
-    /// column x from the west and row y from the south: 1 north, 2 east, 4 south, 8 west. Squares
-    /// only; the start is the south-west cell, looking north; the goal is the middle 2 × 2.
+    /// The numbers of the micromouse paper's test program. Line 1 is the size n, an even number;
+    /// then line x has n comma-separated numbers, item y of it the sum of the open sides of the
+    /// cell in column x from the west and row y from the south: 1 north, 2 east, 4 south, 8 west.
+    /// Squares only; the start is the south-west cell, looking north; the goal is the middle 2 × 2.
     Numbers,
     /// A drawing as in the `mazefiles` collection: 2h + 1 lines of 4w + 1 characters, north first;
     /// posts `o` or `+`, walls `---` and `|`, marks `S` and `G`. Without an `S` the start is the
-    /// south-west cell; it looks north. The drawing ends at the first line that starts with neither a
-    /// post, a wall nor a blank; what follows is ignored.
+    /// south-west cell; it looks north. The drawing ends at the first line that starts with neither
+    /// a post, a wall nor a blank; what follows is ignored.
     Mazefiles,
     /// The `.num` files of the simulator mms: a line `X Y N E S W` for each cell, 1 where a wall
     /// stands. The start is the south-west cell, looking north; the goal is the middle.
@@ -116,8 +117,8 @@ impl Format {
     }
 
     /// The format that `text` is in, by its first line that is not blank: a `key = value` or a
-    /// comment is [`Format::Tolman`], a post [`Format::Mazefiles`], one number (or numbers parted by
-    /// commas) [`Format::Numbers`], several parted by blanks [`Format::Num`].
+    /// comment is [`Format::Tolman`], a post [`Format::Mazefiles`], one number (or numbers parted
+    /// by commas) [`Format::Numbers`], several parted by blanks [`Format::Num`].
     ///
     /// # Errors
     /// [`MazeFault::Empty`], or [`MazeFault::UnknownFormat`] with the line.
@@ -195,8 +196,8 @@ pub fn read_as(text: &str, format: Format) -> Result<MazeFile, MazeError> {
     parsed(text, format)?.checked()
 }
 
-/// Reads a maze file of any [`Format`], whether or not its maze can be solved: for tools that show or
-/// repair mazes. Everything else goes through [`read`].
+/// Reads a maze file of any [`Format`], whether or not its maze can be solved: for tools that show
+/// or repair mazes. Everything else goes through [`read`].
 ///
 /// # Errors
 /// The first fault of the text, with its line and column: nothing is guessed.
@@ -277,7 +278,8 @@ impl Parsed {
     }
 }
 
-/// Whether start and goals are those of classic competitions; formats that leave them unsaid can hold no others.
+/// Whether start and goals are those of classic competitions; formats that leave them unsaid can
+/// hold no others.
 fn expect_classic(maze: &Maze, format: Format) -> Result<(), WriteError> {
     let mut goals: Vec<Cell> = maze.grid().middle().collect();
     goals.sort_unstable();

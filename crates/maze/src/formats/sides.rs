@@ -23,8 +23,8 @@ pub(super) fn open_sides(maze: &Maze, cell: Cell) -> u8 {
     Direction::ALL.into_iter().map(bit).sum()
 }
 
-/// The maze of which `sides` tells every cell, by [`Grid::index`], with start and goals where classic competitions have
-/// them.
+/// The maze of which `sides` tells every cell, by [`Grid::index`], with start and goals where
+/// classic competitions have them.
 pub(super) fn parsed(grid: Grid, sides: &[Sides]) -> Result<Parsed, MazeError> {
     let mut maze = maze(grid, sides)?;
     maze.set_start(Some(CLASSIC_START));

@@ -54,7 +54,8 @@ pub(super) fn write(file: &MazeFile) -> Result<String, WriteError> {
         }
         text.push_str(&format!("{CORRIDOR_WIDTH} = {width}\n"));
     }
-    // The drawing marks start and destination; the header adds the heading the mark does not stand for.
+    // The drawing marks start and destination; the header adds the heading the mark does not stand
+    // for.
     if let Some((cell, heading)) = file.maze.start()
         && heading != Direction::North
     {

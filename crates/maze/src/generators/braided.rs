@@ -39,8 +39,8 @@ impl Braided {
         self.generate_where(rng, |_, _| true)
     }
 
-    /// Generates a maze of corridors alone: no four cells make an open square. A dead end that could be
-    /// opened to such a square only stays. O(cells).
+    /// Generates a maze of corridors alone: no four cells make an open square. A dead end that
+    /// could be opened to such a square only stays. O(cells).
     ///
     /// # Errors
     /// As [`generate`](Self::generate).

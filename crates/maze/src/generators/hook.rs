@@ -7,9 +7,9 @@ use crate::{Cell, Direction, Maze};
 
 /// A letter J of corridors: a stem, a serif to its left, a hook that turns up again.
 ///
-/// The goal lies in the bottom right corner, where the stem meets the hook. Serif and tail are drawn: the serif from
-/// none to the hook's width, the tail from one cell up to one less than the stem. No start is marked, and cells off the
-/// letter are closed. O(cells).
+/// The goal lies in the bottom right corner, where the stem meets the hook. Serif and tail are
+/// drawn: the serif from none to the hook's width, the tail from one cell up to one less than the
+/// stem. No start is marked, and cells off the letter are closed. O(cells).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hook {
     /// Columns: the width of the hook, cells, at least 2.

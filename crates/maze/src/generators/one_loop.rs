@@ -8,10 +8,10 @@ use crate::{Cell, Direction, Grid, Maze};
 
 /// A small maze of corridors with one loop, one four-way crossing and several dead ends.
 ///
-/// Junctions, bends and dead ends lie on lines of a lattice, two or three cells apart; over it grows a random tree, by one
-/// random corridor at a time, and one more corridor closes the loop. Trees are drawn until one has what is
-/// asked for. The goal lies in the bottom right corner; no start is marked, and cells between the corridors
-/// are closed. O(tries · cells).
+/// Junctions, bends and dead ends lie on lines of a lattice, two or three cells apart; over it
+/// grows a random tree, by one random corridor at a time, and one more corridor closes the loop.
+/// Trees are drawn until one has what is asked for. The goal lies in the bottom right corner; no
+/// start is marked, and cells between the corridors are closed. O(tries · cells).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OneLoop {
     /// Columns, at least 3.
@@ -20,8 +20,8 @@ pub struct OneLoop {
     pub height: u16,
     /// The fewest dead ends.
     pub dead_ends: usize,
-    /// How long a corridor may be to count as short, cells from one bend, junction or dead end to the next. Three quarters of
-    /// all corridors are.
+    /// How long a corridor may be to count as short, cells from one bend, junction or dead end to
+    /// the next. Three quarters of all corridors are.
     pub short: u32,
 }
 
@@ -32,8 +32,8 @@ impl OneLoop {
     /// Generates the maze that `rng` leads to.
     ///
     /// # Errors
-    /// [`GenerateError::Size`]; [`GenerateError::Features`] when no tree has the dead ends, the crossing and
-    /// the short corridors.
+    /// [`GenerateError::Size`]; [`GenerateError::Features`] when no tree has the dead ends, the
+    /// crossing and the short corridors.
     ///
     /// ```
     /// use rand::SeedableRng;
@@ -86,7 +86,8 @@ fn lines(side: u16, rng: &mut impl Rng) -> Vec<u16> {
     lines
 }
 
-/// A tree over all crossings of the lines that grows by a random opening at a time, and one opening more.
+/// A tree over all crossings of the lines that grows by a random opening at a time, and one opening
+/// more.
 fn tree_with_loop(columns: &[u16], rows: &[u16], rng: &mut impl Rng) -> Maze {
     let grid = Grid::new(columns.len() as u16, rows.len() as u16);
     let mut maze = Maze::solid(grid);

@@ -45,8 +45,9 @@ impl Perfect {
     }
 }
 
-/// The recursive backtracker from `start` through every cell it can reach over cells that belong to no
-/// region yet; all of them then belong to `region`. `regions` is by [`Grid::index`](crate::Grid::index).
+/// The recursive backtracker from `start` through every cell it can reach over cells that belong to
+/// no region yet; all of them then belong to `region`. `regions` is by
+/// [`Grid::index`](crate::Grid::index).
 ///
 /// In the south-west corner it leaves to the north, so that this cell keeps three walls, as the
 /// competition rules want it.

@@ -84,7 +84,8 @@ proptest! {
         let before = perfect.dead_ends().count() - 1;
         let after = maze.dead_ends().count() - 1;
         let wanted = ((1.0 - share) * before as f64 + 0.5) as usize;
-        // The last one opened can take a second with it; a corner beside the start may be walled in.
+        // The last one opened can take a second with it; a corner beside the start may be walled
+        // in.
         prop_assert!(after <= wanted + 1 && after + 1 >= wanted, "{before} -> {after}, not {wanted}");
         prop_assert_eq!(maze.degree(maze.start().expect("marked").0), 1);
     }
@@ -100,8 +101,8 @@ proptest! {
 
     #[test]
     fn rooms_are_open_inside(seed: u64) {
-        // One room of 3 × 3 and no loops but its own: four 2 × 2 blocks in it, so four openings more
-        // than a tree has.
+        // One room of 3 × 3 and no loops but its own: four 2 × 2 blocks in it, so four openings
+        // more than a tree has.
         let rooms = Rooms { width: 9, height: 7, attempts: 1, smallest: 3, largest: 3, extra_doors: 0 };
         let maze = rooms.generate(&mut rng(seed)).expect("fit sizes");
         let grid = maze.grid();

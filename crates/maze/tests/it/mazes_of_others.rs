@@ -1,5 +1,6 @@
-//! Hundreds of mazes other people drew, where they are at hand: the folder named by `TOLMAN_DATA`, or
-//! `../shared/data` beside the checkout. They carry no licence, so they are not part of the project.
+//! Hundreds of mazes other people drew, where they are at hand: the folder named by `TOLMAN_DATA`,
+//! or `../shared/data` beside the checkout. They carry no licence, so they are not part of the
+//! project.
 
 use std::fs;
 use std::io::{self, Write as _};

@@ -1,5 +1,5 @@
-//! Every system in every kind of world, judged by one truth: what each learns, whether it knows that, whether it finds out where
-//! it was put down, and whether it gets to the goal.
+//! Every system in every kind of world, judged by one truth: what each learns, whether it knows
+//! that, whether it finds out where it was put down, and whether it gets to the goal.
 
 mod figures;
 mod records;
@@ -166,7 +166,8 @@ fn no_row(job: &Job<'_>) -> BoxError {
     format!("there is no row {:?} of {}", job.row, job.table).into()
 }
 
-/// Which contest a row's run is, of `worlds` kinds of worlds: run n of the row of all is of kind n modulo their number.
+/// Which contest a row's run is, of `worlds` kinds of worlds: run n of the row of all is of kind n
+/// modulo their number.
 const fn of_all(run: u32, worlds: u32) -> (u32, u32) {
     (run % worlds, run / worlds)
 }

@@ -11,13 +11,16 @@ record! {
     pub(super) struct LearnRun {
         /// Whether it said, before it drove, that it cannot work there.
         abstained: bool => neither("abstained"),
-        /// Whether its map is one to one the graph of the true places and ways, with at least 95 % of those that there are. Who abstained has none.
+        /// Whether its map is one to one the graph of the true places and ways, with at least 95 %
+        /// of those that there are. Who abstained has none.
         right: bool => higher("right"),
-        /// Whether its map is one to one the graph of the true ways that it has gone and what it saw beside.
+        /// Whether its map is one to one the graph of the true ways that it has gone and what it
+        /// saw beside.
         right_of_visited: bool => higher("right of visited"),
         /// Share of the visits of its places that were to the cell which that place was most often.
         purity: Option<f64> => higher("purity").share().decimals(3),
-        /// Places of its map over true places; what has two ways and no landmark is a part of a way.
+        /// Places of its map over true places; what has two ways and no landmark is a part of a
+        /// way.
         places: Option<f64> => neither("places / true").decimals(2),
         /// Share of the links of its map that are true ways, each once.
         link_precision: Option<f64> => higher("link precision").share().decimals(3),
@@ -31,7 +34,8 @@ record! {
         undecided: Option<bool> => lower("undecided"),
         /// Whether the map is right, where there is one.
         map_right: Option<bool> => higher("right maps"),
-        /// Squared error of how likely the system took its map to be right: what it says if it weighs that, else 1, if it was done; 0 if it gave up; a half if it did not say.
+        /// Squared error of how likely the system took its map to be right: what it says if it
+        /// weighs that, else 1, if it was done; 0 if it gave up; a half if it did not say.
         brier: Option<f64> => lower("Brier"),
         /// Metres driven over the length of all corridors.
         driven: Option<f64> => lower("metres / corridors"),
@@ -71,12 +75,14 @@ record! {
         abstained: bool => neither("abstained"),
         /// On a map that is right, or the true one: whether it said where it is, and was there.
         right_on_right_map: Option<bool> => higher("right on right maps"),
-        /// How likely an observer with the true map that mistakes nothing would be right about the cell after the same drive.
+        /// How likely an observer with the true map that mistakes nothing would be right about the
+        /// cell after the same drive.
         ceiling: Option<f64> => neither("passive ceiling").percent().decimals(1),
         /// The same on maps that are right.
         ceiling_on_right_map: Option<f64> => neither("passive ceiling, on right maps").percent().decimals(1),
-        /// On maps that are right: whether the same system on the same robot finds itself there by the true map, which it learned without errors. None
-        /// where it learned a wrong one even so.
+        /// On maps that are right: whether the same system on the same robot finds itself there by
+        /// the true map, which it learned without errors. None where it learned a wrong one even
+        /// so.
         with_true_map: Option<bool> => neither("active ceiling, on right maps"),
         /// Why it did not say.
         why: String => neither("why not"),

@@ -139,7 +139,8 @@ impl Arena {
     }
 }
 
-/// Worlds of each kind for a contestant: as many as the caller asks for, else the experiment's own number, or `slow` for who takes seconds in each.
+/// Worlds of each kind for a contestant: as many as the caller asks for, else the experiment's own
+/// number, or `slow` for who takes seconds in each.
 fn runs_of(contestant: Contestant, options: &Options, slow: u32) -> u32 {
     match contestant {
         Contestant::GngSlamBetter => options.runs_else(slow, slow),

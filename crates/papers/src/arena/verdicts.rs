@@ -1,4 +1,5 @@
-//! Maps by which a system's own verdict on them is judged: right and wrong ones, as many of each as it takes.
+//! Maps by which a system's own verdict on them is judged: right and wrong ones, as many of each as
+//! it takes.
 
 use tolman_arena::contest::{Claim, Condition, ContestRecord};
 use tolman_arena::family::FamilySize;
@@ -37,8 +38,9 @@ impl Rung {
 
 /// Maps of one system, drawn until there are enough right and enough wrong ones.
 ///
-/// Each [round](Self::round) is a fresh world of every family. While there are more right maps than wrong ones the next round is harder, else
-/// easier; so both kinds grow alike, and the worlds depend on nothing but the seed and what came of the rounds before.
+/// Each [round](Self::round) is a fresh world of every family. While there are more right maps than
+/// wrong ones the next round is harder, else easier; so both kinds grow alike, and the worlds
+/// depend on nothing but the seed and what came of the rounds before.
 #[derive(Clone, Debug)]
 pub struct VerdictPool {
     seed: u64,
@@ -87,7 +89,8 @@ pub struct PoolJudgement {
     pub false_alarm_percent: Option<f64>,
     /// Of all maps, those of which it said nothing.
     pub undecided_percent: Option<f64>,
-    /// How much better it tells right maps from wrong ones than their share does: 1 always knows. `None` if all are alike.
+    /// How much better it tells right maps from wrong ones than their share does: 1 always knows.
+    /// `None` if all are alike.
     pub brier_skill: Option<f64>,
     /// How hard the worlds were, the easiest first.
     pub drawn: Vec<RungJudgement>,
@@ -111,7 +114,8 @@ pub struct RungJudgement {
 }
 
 impl VerdictPool {
-    /// Returns a pool without maps, which is full once it has `enough` right and `enough` wrong ones, or after `most_rounds` rounds.
+    /// Returns a pool without maps, which is full once it has `enough` right and `enough` wrong
+    /// ones, or after `most_rounds` rounds.
     #[must_use]
     pub const fn new(worlds: Vec<ArenaWorld>, seed: u64, enough: u32, most_rounds: u32) -> Self {
         Self {

@@ -103,7 +103,8 @@ impl ArenaWorld {
         }
     }
 
-    /// Returns drawing `number` under a master seed: of a family a small one if that is even, else a middle one.
+    /// Returns drawing `number` under a master seed: of a family a small one if that is even, else
+    /// a middle one.
     ///
     /// # Errors
     /// If the family cannot draw it.

@@ -1,8 +1,8 @@
 //! The baselines of MSLST: what wandering and wall-following reach without any map.
 //!
-//! Tables 2 and 3 of "Maze Solving by Learning State Topologies" for its two simple brains, with a random
-//! one as the floor and an oracle as the ceiling; competition mazes, or any others, as further tables; and
-//! how often the corridor detector takes each kind of place for a corridor.
+//! Tables 2 and 3 of "Maze Solving by Learning State Topologies" for its two simple brains, with a
+//! random one as the floor and an oracle as the ceiling; competition mazes, or any others, as
+//! further tables; and how often the corridor detector takes each kind of place for a corridor.
 
 mod detector;
 mod figures;

@@ -1,4 +1,5 @@
-//! The worlds of the baselines: the paper's, competition mazes where they are found, or the caller's.
+//! The worlds of the baselines: the paper's, competition mazes where they are found, or the
+//! caller's.
 
 use std::path::PathBuf;
 

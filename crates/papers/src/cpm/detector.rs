@@ -1,4 +1,5 @@
-//! How well junctions and dead ends are told by one sweep: section 4.1, with what each step of ours adds to it.
+//! How well junctions and dead ends are told by one sweep: section 4.1, with what each step of ours
+//! adds to it.
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -267,7 +268,8 @@ fn sweep_all(
     Ok(())
 }
 
-/// The robot walks every fragment both ways; what is told of the place at its end counts, and a place that it does not come to is missed.
+/// The robot walks every fragment both ways; what is told of the place at its end counts, and a
+/// place that it does not come to is missed.
 fn walk(course: &Course, seed: u64, tally: &mut DetectorRun) -> Result<(), BoxError> {
     let config = walker_config(&epuck(), course.corridor_width)?;
     for walk in survey(course, &epuck(), &config, seed)? {

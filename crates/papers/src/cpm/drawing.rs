@@ -44,8 +44,9 @@ const fn series(id: FragmentId) -> Series {
     Series(1 + id.0 % (Series::COLOURS - 1))
 }
 
-/// A map over the maze it was learned in: each fragment along the corridor it stands for, in a colour of its own, with its name and its signs;
-/// junctions as squares. Dashed stubs are ports nobody has been through.
+/// A map over the maze it was learned in: each fragment along the corridor it stands for, in a
+/// colour of its own, with its name and its signs; junctions as squares. Dashed stubs are ports
+/// nobody has been through.
 #[must_use]
 pub fn over_maze(map: &CpMap, course: &Course) -> Drawing {
     let plan = plan_with(map, course);
@@ -136,8 +137,9 @@ fn add(graph: &mut GraphPicture, node: GraphNode) {
     }
 }
 
-/// The map by itself, as the paper's figure 8: fragment nodes as discs, junction nodes as squares, each edge with the sign of the
-/// fragment's end and the port of the junction. Nodes lie as they do in the maze.
+/// The map by itself, as the paper's figure 8: fragment nodes as discs, junction nodes as squares,
+/// each edge with the sign of the fragment's end and the port of the junction. Nodes lie as they do
+/// in the maze.
 #[must_use]
 pub fn graph(map: &CpMap, course: &Course) -> Drawing {
     let world = &course.world;
@@ -289,7 +291,8 @@ pub fn middle_of(cells: &[Cell], world: &World) -> Point {
     point_along(&centres(cells, world), 0.5)
 }
 
-/// A point along a way from which straight lines to both its ends pass no node: the middle, or as near to it as may be.
+/// A point along a way from which straight lines to both its ends pass no node: the middle, or as
+/// near to it as may be.
 fn free(points: &[Point], graph: &GraphPicture) -> Point {
     let (Some(start), Some(end)) = (points.first(), points.last()) else {
         return Point::origin();

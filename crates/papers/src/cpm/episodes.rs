@@ -1,5 +1,5 @@
-//! One episode of CPM against many of Q-learning and of a random walk: what the paper claims over reinforcement learning, without a
-//! figure (sections 1 and 2).
+//! One episode of CPM against many of Q-learning and of a random walk: what the paper claims over
+//! reinforcement learning, without a figure (sections 1 and 2).
 
 use alloc::collections::BTreeMap;
 

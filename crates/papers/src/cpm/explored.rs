@@ -1,4 +1,5 @@
-//! Mazes explored to their end: how far from the best the robot's walk is, and Theorem 1's bound with the times it took.
+//! Mazes explored to their end: how far from the best the robot's walk is, and Theorem 1's bound
+//! with the times it took.
 
 use tolman_systems::cpm::Done;
 
@@ -10,7 +11,8 @@ use tolman_experiment::{BoxError, Fields, Options, Record, Table, record, requir
 /// The name of the table.
 pub(super) const EXPLORED: &str = "explored";
 
-/// Runs of a row: of a walk that is half as long again as the best one, the mean is known to within a thirtieth then.
+/// Runs of a row: of a walk that is half as long again as the best one, the mean is known to within
+/// a thirtieth then.
 const RUNS: u32 = 40;
 
 /// As many for a first look.

@@ -1,4 +1,5 @@
-//! Figure 9's times, and figure 8: the map, by itself and over its maze, and the ways of both episodes.
+//! Figure 9's times, and figure 8: the map, by itself and over its maze, and the ways of both
+//! episodes.
 
 use tolman_geom::Point;
 
@@ -70,7 +71,8 @@ fn times(row: &str, name: &str, runs: &[(&Run, TrialRun)]) -> Figure {
     .table(FIGURE_9)
 }
 
-/// The paper's figure 8, (b) and (c): the ways of both episodes in the trial whose first took longest.
+/// The paper's figure 8, (b) and (c): the ways of both episodes in the trial whose first took
+/// longest.
 fn ways(course: &Course, record: &TrialRecord, row: &str, name: &str) -> Figure {
     let mut plan = drawing::plan_of(course);
     let positions: Vec<Point> = record.path.iter().map(|pose| pose.position).collect();
@@ -95,7 +97,8 @@ fn ways(course: &Course, record: &TrialRecord, row: &str, name: &str) -> Figure 
     .table(FIGURE_9)
 }
 
-/// The paper's figure 8 (a): the map that the first episode ended with, over the maze and by itself.
+/// The paper's figure 8 (a): the map that the first episode ended with, over the maze and by
+/// itself.
 fn maps(course: &Course, record: &TrialRecord, row: &str, name: &str) -> [Figure; 2] {
     let over = drawing::over_maze(&record.map, course);
     let graph = drawing::graph(&record.map, course);

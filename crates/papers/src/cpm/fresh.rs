@@ -93,7 +93,8 @@ record! {
     struct FreshRun {
         /// Whether the goal is on the map, and the map right and whole.
         solved: bool => higher("solved"),
-        /// Whether the map is one to one the true junctions, dead ends, start and goal and the ways between them, with 95 % of all at least.
+        /// Whether the map is one to one the true junctions, dead ends, start and goal and the ways
+        /// between them, with 95 % of all at least.
         right: bool => higher("map right"),
         /// Whether the goal is on the map.
         goal_found: bool => higher("goal found"),
@@ -101,7 +102,8 @@ record! {
         abstained: bool => neither("abstained"),
         /// Whether a place of the map stands for two true ones.
         false_merge: Option<bool> => lower("false merges"),
-        /// Whether what the system says of its own map is so: that it is done, of a right one, or that it gave up, of another.
+        /// Whether what the system says of its own map is so: that it is done, of a right one, or
+        /// that it gave up, of another.
         verdict_right: Option<bool> => higher("own verdict right"),
         /// Of a wrong map: whether the system called it right.
         false_right: Option<bool> => lower("wrong maps called right"),

@@ -1,4 +1,5 @@
-//! A robot that knows several mazes is put down in mid-fragment of one of them: section 8, "the start point is changed", and layer 4.
+//! A robot that knows several mazes is put down in mid-fragment of one of them: section 8, "the
+//! start point is changed", and layer 4.
 
 use std::sync::OnceLock;
 
@@ -21,13 +22,15 @@ const ATTEMPTS: u32 = 20;
 /// Runs of a row: a share of 90 % is known to within 6 % then.
 const RUNS: u32 = 100;
 
-/// So many maps of each maze are learned, which runs share in turn; aliased mazes have one each run.
+/// So many maps of each maze are learned, which runs share in turn; aliased mazes have one each
+/// run.
 const MAPS: usize = 20;
 
 /// As many for a first look.
 const QUICK_RUNS: u32 = 5;
 
-/// The row of mazes with fragments that look alike, another one each run, of which the robot knows that one alone.
+/// The row of mazes with fragments that look alike, another one each run, of which the robot knows
+/// that one alone.
 const ALIASED: &str = "Aliased";
 
 /// What follows the name of a maze in a row of robots that turn round where they are not sure.

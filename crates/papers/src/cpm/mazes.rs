@@ -41,7 +41,8 @@ fn read(text: &str) -> Result<Course, BoxError> {
     Ok(epuck_course("", tolman_maze::read(text)?)?)
 }
 
-/// The mazes that the caller names; the later of two of one name gets a number, and so does one whose name is that of another's row.
+/// The mazes that the caller names; the later of two of one name gets a number, and so does one
+/// whose name is that of another's row.
 pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Course>, BoxError> {
     let mut courses: Vec<Course> = Vec::new();
     for path in files {
@@ -57,8 +58,9 @@ pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Course>, BoxError> {
     Ok(courses)
 }
 
-/// A random maze whose fragments are short and alike, without rooms: a way behind every other dead end opened, start in the south-west,
-/// goal in the dead end farthest from it. Drawn again until two fragments of it bend alike.
+/// A random maze whose fragments are short and alike, without rooms: a way behind every other dead
+/// end opened, start in the south-west, goal in the dead end farthest from it. Drawn again until
+/// two fragments of it bend alike.
 pub(super) fn aliased(seed: u64) -> Result<Course, BoxError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     loop {

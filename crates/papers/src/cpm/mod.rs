@@ -1,6 +1,7 @@
-//! CPM: figures 9 and 11 of "Reasoning on the Self-Organizing Incremental Associative Memory for Online Robot Path Planning" (Kawewong
-//! and others), the same with our own reading of loops, mazes that the paper's robot cannot tell apart, and what lies beneath: how
-//! well junctions are told, how many patterns there are, what other learners need.
+//! CPM: figures 9 and 11 of "Reasoning on the Self-Organizing Incremental Associative Memory for
+//! Online Robot Path Planning" (Kawewong and others), the same with our own reading of loops, mazes
+//! that the paper's robot cannot tell apart, and what lies beneath: how well junctions are told,
+//! how many patterns there are, what other learners need.
 
 mod detector;
 mod dictionary;

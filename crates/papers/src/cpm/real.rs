@@ -1,4 +1,5 @@
-//! The pair of figure 11: the maze of the real robot, walked to the goal and back, and driven again.
+//! The pair of figure 11: the maze of the real robot, walked to the goal and back, and driven
+//! again.
 
 use std::sync::OnceLock;
 
@@ -21,7 +22,8 @@ pub(super) const FIGURE_11: &str = "11";
 /// "The learning time of 90 min (5400 s) is provided" (section 7).
 const LESSON: Lesson = Lesson::Seconds(5400.0);
 
-/// How long the robot drives from one observation to the next, s: "20 CPs (*ca.* 121 s)" are 6 s each, of which a sweep takes 3.3.
+/// How long the robot drives from one observation to the next, s: "20 CPs (*ca.* 121 s)" are 6 s
+/// each, of which a sweep takes 3.3.
 const STRIDE_S: f64 = 2.7;
 
 /// The real robot's maze, and what such a robot learned before.

@@ -20,7 +20,8 @@ const ALIASED_MAZES: u32 = 200;
 /// As many for a first look.
 const ALIASED_QUICK: u32 = 20;
 
-/// Fragments after which the paper's system gives up in an aliased maze, which has some seven. On a map that is wrong it may go round for ever.
+/// Fragments after which the paper's system gives up in an aliased maze, which has some seven. On a
+/// map that is wrong it may go round for ever.
 const ALIASED_PATIENCE: u32 = 500;
 
 /// What follows the name of a maze in a row of the paper's offline system.
@@ -48,7 +49,8 @@ pub(super) struct Trials {
 #[derive(Debug)]
 pub(super) struct Setting {
     row: String,
-    /// The maze that the robot runs in; `None`: another one with fragments that look alike each run.
+    /// The maze that the robot runs in; `None`: another one with fragments that look alike each
+    /// run.
     course: Option<Course>,
     mode: Mode,
 }
@@ -260,7 +262,8 @@ record! {
     /// Both episodes in one maze.
     #[check(TrialRun::relations)]
     pub(super) struct TrialRun {
-        /// Whether the goal was found, and found again by a way as short as any that could be known.
+        /// Whether the goal was found, and found again by a way as short as any that could be
+        /// known.
         solved: bool => higher("solved"),
         /// Whether that way was as short as any over the same fragments as they truly lie.
         shortest_as_it_lies: bool => higher("shortest on true map"),

@@ -1,4 +1,5 @@
-//! Errors against moves, as the paper's figures 3(b) and 3(c), and learned maps over their worlds, as figures 3(a) and 4.
+//! Errors against moves, as the paper's figures 3(b) and 3(c), and learned maps over their worlds,
+//! as figures 3(a) and 4.
 
 use super::SurveyRun;
 use super::drawing::map_over_world;

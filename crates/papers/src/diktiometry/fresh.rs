@@ -188,7 +188,8 @@ record! {
     /// A walk through a world drawn for it, and the map at its end.
     #[check(FreshRun::relations)]
     struct FreshRun {
-        /// Whether the map is one to one the world: all places and ways that were seen, no others, and 95 % of all at least.
+        /// Whether the map is one to one the world: all places and ways that were seen, no others,
+        /// and 95 % of all at least.
         right: bool => higher("map right"),
         /// The same without asking how much was seen.
         right_of_visited: bool => higher("right of what was visited"),
@@ -335,7 +336,8 @@ impl FreshRow {
 }
 
 impl FreshRun {
-    /// Counts what is proven of the map's merges, once it has been checked, and what of that is false.
+    /// Counts what is proven of the map's merges, once it has been checked, and what of that is
+    /// false.
     fn certified(self, survey: &Survey) -> Result<Self, BoxError> {
         let config = survey.observer().config();
         let journal = survey.observer().journal().ok_or("no journal is kept")?;

@@ -1,4 +1,5 @@
-//! The figures of "Maps Considered as Adaptive Planning Resources" as tables: how a robot that walks an office learns its map.
+//! The figures of "Maps Considered as Adaptive Planning Resources" as tables: how a robot that
+//! walks an office learns its map.
 
 mod ablations;
 pub mod drawing;

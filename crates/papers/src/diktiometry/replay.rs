@@ -18,8 +18,9 @@ use tolman_systems::diktiometry::Reason;
 
 /// Only every so many time steps of the simulator become steps of the replay.
 const COARSE: usize = 12;
-/// Nodes that moved less than this are left where they are, m: a quarter of a corridor's width. Most moves of the robot
-/// shift most of the map a little, which nobody could see and every replay would have to carry.
+/// Nodes that moved less than this are left where they are, m: a quarter of a corridor's width.
+/// Most moves of the robot shift most of the map a little, which nobody could see and every replay
+/// would have to carry.
 const STILL: f64 = 0.3;
 
 pub(super) fn of(
@@ -69,7 +70,8 @@ struct Watch {
     start: Point,
     home: PlaceId,
     nodes: BTreeMap<PlaceId, MapNode>,
-    /// By link and its ends: a merge of places gives a link other ends, which makes it another edge.
+    /// By link and its ends: a merge of places gives a link other ends, which makes it another
+    /// edge.
     edges: BTreeMap<(LinkId, PlaceId, PlaceId), MapEdge>,
     belief: Belief,
     places: TimeSeries,

@@ -83,8 +83,8 @@ pub(super) enum Subject {
     Odometry,
 }
 
-/// The paper draws its worlds in figures that no text describes. Ours are corridors between blocks; a share of the
-/// passages is walled up.
+/// The paper draws its worlds in figures that no text describes. Ours are corridors between blocks;
+/// a share of the passages is walled up.
 fn office(side: u16, seed: u64, furniture: &OfficeConfig) -> Result<Arc<Office>, BoxError> {
     let maze = blocks(side, WALLED_UP, &mut ChaCha8Rng::seed_from_u64(seed));
     Ok(Arc::new(Office::new(&maze, furniture)?))

@@ -1,4 +1,5 @@
-//! The search for good parameters: "a method, based on Simulated Annealing" (section 3.4, "Finding good parameter values").
+//! The search for good parameters: "a method, based on Simulated Annealing" (section 3.4, "Finding
+//! good parameter values").
 
 use rand::Rng;
 use tolman_experiment::BoxError;
@@ -18,7 +19,8 @@ pub(super) struct Tried<T> {
     pub(super) score: f64,
 }
 
-/// A search under way: map after map, each with parameters near those of the better of the two before.
+/// A search under way: map after map, each with parameters near those of the better of the two
+/// before.
 #[derive(Debug)]
 pub(super) struct Annealing<T> {
     /// How many maps the window shrinks over.
@@ -34,8 +36,8 @@ impl<T: Copy> Annealing<T> {
         }
     }
 
-    /// Returns the map of a number, making those before it if need be. `rng` gives the random numbers of a map's
-    /// parameters, and `learn` makes the map of a number with parameters.
+    /// Returns the map of a number, making those before it if need be. `rng` gives the random
+    /// numbers of a map's parameters, and `learn` makes the map of a number with parameters.
     pub(super) fn map<R: Rng>(
         &mut self,
         number: u32,
@@ -70,7 +72,8 @@ impl<T: Copy> Annealing<T> {
         }
     }
 
-    /// How wide the window of a step is, as a share of the search space: each step narrows it by the same factor.
+    /// How wide the window of a step is, as a share of the search space: each step narrows it by
+    /// the same factor.
     fn share(&self, step: u32) -> f64 {
         let last = self.steps.saturating_sub(1).max(1);
         libm::pow(LAST, f64::from(step.min(last)) / f64::from(last))

@@ -162,7 +162,8 @@ fn axis(title: &str) -> Axis {
     Axis::linear(title).between(-0.5, 9.5)
 }
 
-/// Turns the pitch, whose yellow goal lies in the west, as the paper draws it: the yellow goal up, the windows on the right.
+/// Turns the pitch, whose yellow goal lies in the west, as the paper draws it: the yellow goal up,
+/// the windows on the right.
 fn upright(at: Point) -> Point {
     Point::new(at.y, f64::from(CellGrid::SIDE) - at.x)
 }

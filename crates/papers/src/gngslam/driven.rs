@@ -26,7 +26,8 @@ const NEAR: f64 = 1.0;
 record! {
     /// Drives by one map.
     struct DrivenFields {
-        /// Mean distance from where the record was truly taken to where the robot truly was at the end of a drive.
+        /// Mean distance from where the record was truly taken to where the robot truly was at the
+        /// end of a drive.
         error_m: f64 => lower("error at the goal").unit("m").decimals(2),
         /// The same at the beginning of a drive.
         start_m: f64 => neither("distance at the start").unit("m").decimals(2),

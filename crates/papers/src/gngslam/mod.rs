@@ -1,5 +1,5 @@
-//! GNG-SLAM: Tables 3.1 and 4.1 with their figures. Place maps are learned from six sets of features, their parameters annealed;
-//! and the system that corrects its pose while it learns.
+//! GNG-SLAM: Tables 3.1 and 4.1 with their figures. Place maps are learned from six sets of
+//! features, their parameters annealed; and the system that corrects its pose while it learns.
 
 mod annealing;
 pub mod drawing;
@@ -98,15 +98,18 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
 record! {
     /// A map, or as many guesses as a map is asked for.
     pub(super) struct MapRun {
-        /// Mean over a random fifth of the records of 1 where the nearest node lies in the record's cell, else 0.5 / distance to its
-        /// middle, in cells (equation 3.2). None where both goals are nearest to one node: those count as 0 in the search
-        /// and are left out here, as in the paper.
+        /// Mean over a random fifth of the records of 1 where the nearest node lies in the record's
+        /// cell, else 0.5 / distance to its middle, in cells (equation 3.2). None where both goals
+        /// are nearest to one node: those count as 0 in the search and are left out here, as in the
+        /// paper.
         score: Option<f64> => higher("score").share().decimals(3).tolerance(MAP_SCORE),
         /// The same with 0.5 / (0.5 + distance to the cell), which the paper wishes for.
         border_score: Option<f64> => higher("score to the border").share().decimals(3),
-        /// Whether both goals are nearest to one node, so that the map cannot be turned and has no score.
+        /// Whether both goals are nearest to one node, so that the map cannot be turned and has no
+        /// score.
         useless: bool => lower("useless maps"),
-        /// Whether the map is a mirror image of the pitch: what is counter-clockwise there is clockwise in it.
+        /// Whether the map is a mirror image of the pitch: what is counter-clockwise there is
+        /// clockwise in it.
         mirrored: Option<bool> => lower("mirrored maps"),
         /// Nodes of the map.
         nodes: Option<usize> => neither("nodes").decimals(1),

@@ -26,7 +26,8 @@ const WHEELS: &str = "wheels wrong by up to 10 %";
 const TAKEN_FOR_GOOD: &str = "taken for 3 %";
 const KNOWN_TO_BE_BAD: &str = "known to be 10 %";
 
-/// The arenas of that table begin with this one, and how far the wheels are out of calibration in them.
+/// The arenas of that table begin with this one, and how far the wheels are out of calibration in
+/// them.
 const FIRST_BAD: u64 = 101;
 const BAD_RUNS: u32 = 5;
 const BADLY: f64 = 0.1;
@@ -57,7 +58,8 @@ const CALIBRATION: f64 = 0.03;
 record! {
     /// A run in an arena.
     struct OnlineFields {
-        /// Mean over the looks of a run that the map was not learned from, of 0.5 / (0.5 + distance to the true cell), in cells of 8 × 8.
+        /// Mean over the looks of a run that the map was not learned from, of 0.5 / (0.5 + distance
+        /// to the true cell), in cells of 8 × 8.
         score: Option<f64> => higher("score to the border").share().decimals(3),
         /// Root-mean-square distance of that run's positions from the true ones.
         tried_error_m: Option<f64> => lower("error on a run not learned from").unit("m").decimals(3),

@@ -57,7 +57,8 @@ impl Parameters {
         }))
     }
 
-    /// Draws values from a window around these, `share` of the search space wide and cut off where that ends.
+    /// Draws values from a window around these, `share` of the search space wide and cut off where
+    /// that ends.
     pub(super) fn near(&self, share: f64, rng: &mut impl Rng) -> Self {
         let mut drawn = *self;
         for (value, parameter) in drawn.0.iter_mut().zip(TABLE_3_1) {
@@ -74,7 +75,8 @@ impl Parameters {
         self
     }
 
-    /// Returns the map's configuration; counts are rounded. Where the sonar is no feature, it has no weight.
+    /// Returns the map's configuration; counts are rounded. Where the sonar is no feature, it has
+    /// no weight.
     pub(super) fn config(&self, with_sonar: bool) -> PlaceMapConfig {
         let [
             age,

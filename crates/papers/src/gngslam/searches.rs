@@ -15,7 +15,8 @@ use super::places::Places;
 use super::search_space::Parameters;
 use super::sets::{SETTINGS, SOURCES, Setting, settings};
 
-/// Maps of a search: the paper's n. Runs 0 to 99 of a row are its first search, runs 100 to 199 its second, and so on.
+/// Maps of a search: the paper's n. Runs 0 to 99 of a row are its first search, runs 100 to 199 its
+/// second, and so on.
 pub(super) const MAPS: u32 = 100;
 
 /// The searches of all rows.
@@ -136,7 +137,8 @@ fn record(tried: &Tried<Learned>) -> MapRun {
     }
 }
 
-/// One of the streams of random numbers of a run: 0 for parameters, 1 for learning, 2 for the records that are asked about.
+/// One of the streams of random numbers of a run: 0 for parameters, 1 for learning, 2 for the
+/// records that are asked about.
 fn stream(seed: u64, number: u64) -> ChaCha8Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(number);

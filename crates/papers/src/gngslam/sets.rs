@@ -29,7 +29,8 @@ const SMALL_HSV: ImageFeature = ImageFeature::small(ColourSpace::Hsv);
 const SMALL_RGB: ImageFeature = ImageFeature::small(ColourSpace::Rgb);
 const LARGE_HSV: ImageFeature = ImageFeature::large(ColourSpace::Hsv);
 
-/// The images of the sets, and so the tables of features: a set without sonar is one with a weight of 0.
+/// The images of the sets, and so the tables of features: a set without sonar is one with a weight
+/// of 0.
 pub(super) const IMAGES: [ImageFeature; 3] = [SMALL_HSV, SMALL_RGB, LARGE_HSV];
 
 /// Sets 1 to 6.
@@ -74,8 +75,8 @@ pub(super) struct Source {
     pub(super) scaling: FeatureScaling,
 }
 
-/// Wheels that slip by 2 % a step, and count rightly but for that. The paper says that its odometry "suffers from an
-/// accumulated noise", not how much.
+/// Wheels that slip by 2 % a step, and count rightly but for that. The paper says that its odometry
+/// "suffers from an accumulated noise", not how much.
 const PAPER: Source = Source {
     calibration: 0.0,
     scaling: FeatureScaling::Group,

@@ -97,7 +97,8 @@ fn dead_ends(map: &WallMap<SIDE>) -> Figure {
         .table(TABLE)
 }
 
-/// The moment in our search when the run that can be hoped for differs most from the one that is certain.
+/// The moment in our search when the run that can be hoped for differs most from the one that is
+/// certain.
 fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     let Some((start, _)) = maze.start() else {
         return Ok(None);

@@ -1,9 +1,10 @@
-//! The micromouse of "Plot and Navigate a Virtual Maze" (Wang): its tables 1 to 4, and our search on whole sets of
-//! mazes.
+//! The micromouse of "Plot and Navigate a Virtual Maze" (Wang): its tables 1 to 4, and our search
+//! on whole sets of mazes.
 //!
-//! The searches of tables 1 to 3 that leave things to chance have as many runs as the caller asks for, all others
-//! make the same run each time and have one. In the tables `sets` and `competition` a run is a maze of the set; the
-//! latter is of the competition model, which the paper does not know. The table `noise` is the paper's outlook.
+//! The searches of tables 1 to 3 that leave things to chance have as many runs as the caller asks
+//! for, all others make the same run each time and have one. In the tables `sets` and `competition`
+//! a run is a maze of the set; the latter is of the competition model, which the paper does not
+//! know. The table `noise` is the paper's outlook.
 
 mod comparisons;
 mod competition;

@@ -1,4 +1,5 @@
-//! The paper's outlook (section 6): the same search, without rollouts, with thick walls, wheels that slip and noisy sensors.
+//! The paper's outlook (section 6): the same search, without rollouts, with thick walls, wheels
+//! that slip and noisy sensors.
 
 use tolman_maze::{Braided, Maze};
 

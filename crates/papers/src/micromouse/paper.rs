@@ -60,7 +60,8 @@ const RANDOM: &str = "random exploration";
 const MAZE_1: &str = "udacity/test_maze_01.txt";
 const MAZE_2: &str = "udacity/test_maze_02.txt";
 const MAZE_3: &str = "udacity/test_maze_03.txt";
-/// Candidates for the maze of table 4, which the paper calls that of the "2016 micromouse worldchampionship".
+/// Candidates for the maze of table 4, which the paper calls that of the "2016 micromouse
+/// worldchampionship".
 const TAIWAN: &str = "classic/taiwan2016f.txt";
 const APEC: &str = "classic/apec2016.txt";
 

@@ -74,7 +74,8 @@ impl MazeSet {
             match tolman_maze::read(&text) {
                 Ok(file) if fits(&file.maze) => set.mazes.push((maze_file::stem(path), file.maze)),
                 Ok(_) => set.left_out.no_fit += 1,
-                // A maze nobody can solve is in many collections, as a test of the mouse; it has no score.
+                // A maze nobody can solve is in many collections, as a test of the mouse; it has no
+                // score.
                 Err(_) if tolman_maze::parse(&text).is_ok() => set.left_out.no_way += 1,
                 Err(_) => set.left_out.no_maze += 1,
             }

@@ -1,4 +1,5 @@
-//! The classic set, three seeds a maze, by when the mouse stops to explore: with a proof, or when looking on no longer pays.
+//! The classic set, three seeds a maze, by when the mouse stops to explore: with a proof, or when
+//! looking on no longer pays.
 
 use tolman_arena::micromouse::{Judgement, MouseTrial, brief};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table};

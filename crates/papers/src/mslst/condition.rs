@@ -8,7 +8,8 @@ use tolman_sim::robots::{LaserPioneerConfig, StuckBeam};
 
 use crate::venue::Venue;
 
-/// What is wrong with a robot or its world while the better system drives, and but for the last two while it learns.
+/// What is wrong with a robot or its world while the better system drives, and but for the last two
+/// while it learns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Condition {
     AsJudged,

@@ -294,11 +294,12 @@ impl Competitor {
     }
 }
 
-/// Counts how often a robot goes back and forth between two ways ("this process of bouncing between two
-/// possible routes").
+/// Counts how often a robot goes back and forth between two ways ("this process of bouncing between
+/// two possible routes").
 ///
-/// To turn back once is no bouncing: every dead end asks for it. What counts is an action that takes back the
-/// one before it, no more than [`Bounces::SOON`] completed actions after the last such.
+/// To turn back once is no bouncing: every dead end asks for it. What counts is an action that
+/// takes back the one before it, no more than [`Bounces::SOON`] completed actions after the last
+/// such.
 #[derive(Debug, Default)]
 struct Bounces {
     last: Option<Direction>,

@@ -24,12 +24,12 @@ pub fn states(learned: &Learned) -> Drawing {
     tiles.drawing(format!("The {count} states of a map."))
 }
 
-/// How many actions of Phase II a picture of the graph shows: a part of it, as the paper's, since all
-/// of it would be a blot.
+/// How many actions of Phase II a picture of the graph shows: a part of it, as the paper's, since
+/// all of it would be a blot.
 pub const SHOWN_ACTIONS: u32 = 500;
 
-/// The paper's figure 4, over the maze: each node of the first [`SHOWN_ACTIONS`] where the robot truly was when
-/// it was made, those of the destination filled.
+/// The paper's figure 4, over the maze: each node of the first [`SHOWN_ACTIONS`] where the robot
+/// truly was when it was made, those of the destination filled.
 #[must_use]
 pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
     let mut graph = GraphPicture::new().radius(2.0);

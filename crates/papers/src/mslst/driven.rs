@@ -17,7 +17,8 @@ record! {
         success_percent: f64 => higher("success").unit("%").percent(),
         /// Mean time steps; a run that does not arrive counts its limit.
         steps: f64 => lower("steps").at_least(0),
-        /// Mean time steps of the Unlocalized oracle from the same starts, whose robot is as calibrated.
+        /// Mean time steps of the Unlocalized oracle from the same starts, whose robot is as
+        /// calibrated.
         oracle_steps: f64 => neither("Unlocalized oracle's steps").at_least(0),
     }
 }
@@ -42,7 +43,8 @@ impl DrivenRun {
 /// Starts by a map at least.
 const LEAST_STARTS: u32 = 5;
 
-/// Shares `runs` starts out: returns how many maps are learned, at most `most`, and how many starts each has.
+/// Shares `runs` starts out: returns how many maps are learned, at most `most`, and how many starts
+/// each has.
 pub(super) fn shared_out(runs: u32, most: u32) -> (u32, u32) {
     let maps = (runs / LEAST_STARTS).clamp(1, most);
     (maps, (runs / maps).max(LEAST_STARTS))
@@ -59,8 +61,8 @@ pub(super) struct Driver<'a> {
 }
 
 impl Driver<'_> {
-    /// Drives from every start; `lifted` says of each whether the robot is put elsewhere on the way, `watch` sees each episode and
-    /// the oracle's.
+    /// Drives from every start; `lifted` says of each whether the robot is put elsewhere on the
+    /// way, `watch` sees each episode and the oracle's.
     pub(super) fn drive(
         &self,
         lifted: impl Fn(u32) -> Option<Lifted>,

@@ -1,4 +1,5 @@
-//! The states of Phase I, the graph of Phase II over its maze, and where the runs of Phase III went.
+//! The states of Phase I, the graph of Phase II over its maze, and where the runs of Phase III
+//! went.
 
 use tolman_geom::Point;
 use tolman_maps::mslst_graph::Node;

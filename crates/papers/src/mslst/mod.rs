@@ -1,9 +1,10 @@
-//! MSLST itself: tables 1 to 3 of "Maze Solving by Learning State Topologies", and all tests of significance.
+//! MSLST itself: tables 1 to 3 of "Maze Solving by Learning State Topologies", and all tests of
+//! significance.
 //!
-//! In a paper's world every brain meets the same starts and the same noise. MSLST learns `MAPS` maps of each
-//! world and navigates by map number (run mod `MAPS`): a thousand runs by each map twenty times. The tables *one map* are the
-//! paper's 25 runs. One drawing says little of what the paper's would have shown: `families` plays all entrants over
-//! many.
+//! In a paper's world every brain meets the same starts and the same noise. MSLST learns `MAPS`
+//! maps of each world and navigates by map number (run mod `MAPS`): a thousand runs by each map
+//! twenty times. The tables *one map* are the paper's 25 runs. One drawing says little of what the
+//! paper's would have shown: `families` plays all entrants over many.
 
 mod condition;
 mod contest;

@@ -1,4 +1,5 @@
-//! The better system where something is wrong, and without each of its parts, over drawings of Large.
+//! The better system where something is wrong, and without each of its parts, over drawings of
+//! Large.
 //!
 //! A run is a drawing with some starts, so that the spread is that between mazes.
 

@@ -1,4 +1,5 @@
-//! The drawings of MSLST's mazes: which of a seeded sequence are kept, and for what the others are rejected.
+//! The drawings of MSLST's mazes: which of a seeded sequence are kept, and for what the others are
+//! rejected.
 //!
 //! Run n is drawing n of the sequence, whatever the master seed. MSLST has no part in it.
 
@@ -25,8 +26,8 @@ const MOST_DRAWINGS: u32 = 2000;
 const DRAWINGS: [Drawing; 2] = [Drawing::J, Drawing::Large];
 
 record! {
-    /// A drawing and why it is kept or not. What no run was made for is not there: where the loop alone rules a drawing
-    /// out.
+    /// A drawing and why it is kept or not. What no run was made for is not there: where the loop
+    /// alone rules a drawing out.
     #[check(DrawingRun::relations)]
     struct DrawingRun {
         /// Whether it meets all conditions.

@@ -1,8 +1,8 @@
-//! What the paper had no time for: MSLST under other thresholds, training times, memories and noises, and in other
-//! worlds.
+//! What the paper had no time for: MSLST under other thresholds, training times, memories and
+//! noises, and in other worlds.
 //!
-//! A run learns a map of its own and plays [`STARTS`] starts by it, so that the spread over runs is that
-//! between maps. All rows of a table share the seeds of maps and starts.
+//! A run learns a map of its own and plays [`STARTS`] starts by it, so that the spread over runs is
+//! that between maps. All rows of a table share the seeds of maps and starts.
 
 mod figures;
 mod settings;

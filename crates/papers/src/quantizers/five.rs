@@ -21,7 +21,8 @@ pub(super) const CHOSEN: &str = "SOINN";
 const POINTS: u32 = 100_000;
 const NOISE: f64 = 0.1;
 
-/// Other streams than the paper's: the row, the order of the regions, the share of noise, the number of points.
+/// Other streams than the paper's: the row, the order of the regions, the share of noise, the
+/// number of points.
 const STREAMS: [(&str, Order, f64, u32); 6] = [
     ("no noise", Order::Stationary, 0.0, POINTS),
     ("5 % noise", Order::Stationary, 0.05, POINTS),

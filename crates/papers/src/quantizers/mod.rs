@@ -1,4 +1,5 @@
-//! The quantizers by themselves: table 1 of MSLST, SOINN's five clusters, and what else tells them apart.
+//! The quantizers by themselves: table 1 of MSLST, SOINN's five clusters, and what else tells them
+//! apart.
 
 mod any;
 mod figures;

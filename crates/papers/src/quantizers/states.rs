@@ -109,7 +109,8 @@ record! {
     }
 }
 
-/// What the decay is chosen by: it gives the paper's 26 states in Large 50, the median of runs; the others are predictions.
+/// What the decay is chosen by: it gives the paper's 26 states in Large 50, the median of runs; the
+/// others are predictions.
 pub(super) fn decay_table() -> Table {
     let fields = [DecayRun::large_50, DecayRun::j_100, DecayRun::large_20];
     let table = Table::of::<DecayRun>(DECAY, "Table 1 by the decay of errors, medians")

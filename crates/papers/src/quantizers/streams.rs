@@ -23,8 +23,9 @@ pub(super) const REGIONS: u32 = 5;
 /// The sides of the square that the regions and the noise lie in.
 const SIDE: f64 = 10.0;
 
-/// The artificial data of Shen and Hasegawa 2006: two Gaussians, two concentric rings and a sine curve, and noise evenly over the whole
-/// square, a share of all points. Their figure has no scales; the gaps here are a tenth of the square and more.
+/// The artificial data of Shen and Hasegawa 2006: two Gaussians, two concentric rings and a sine
+/// curve, and noise evenly over the whole square, a share of all points. Their figure has no
+/// scales; the gaps here are a tenth of the square and more.
 pub(super) fn five_clusters(
     order: Order,
     noise: f64,

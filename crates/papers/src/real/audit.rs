@@ -59,15 +59,17 @@ record! {
         false_supported: u32 => lower("false supported").decimals(2),
         /// Right closures that are said to be refuted.
         true_refuted: u32 => lower("right refuted").decimals(2),
-        /// Certificates whose cycle is beyond its bound though all its closures but the one in question are replaced by the truth: right closures that
-        /// are refuted, and witnesses that err by more than their bounds.
+        /// Certificates whose cycle is beyond its bound though all its closures but the one in
+        /// question are replaced by the truth: right closures that are refuted, and witnesses that
+        /// err by more than their bounds.
         bounds_broken: u32 => lower("bounds broken").decimals(2),
         /// False closures that are refuted.
         false_refuted_percent: f64 => higher("false refuted").percent().decimals(1),
         /// Right closures that are supported; none where there are none.
         true_supported_percent: Option<f64> => higher("right supported").percent().decimals(1),
-        /// Time of the audit over that of GTSAM's graduated non-convexity on the same graph, with the same standard deviations, in the same run. GTSAM
-        /// is ended after ten minutes, or when it has taken 40 times as long and a minute: the ratio is at most this then.
+        /// Time of the audit over that of GTSAM's graduated non-convexity on the same graph, with
+        /// the same standard deviations, in the same run. GTSAM is ended after ten minutes, or when
+        /// it has taken 40 times as long and a minute: the ratio is at most this then.
         seconds_over_gtsam: Option<f64> => lower("time over GTSAM's").at_least(0).decimals(3),
         /// False closures that GTSAM keeps; none where it did not end.
         gtsam_false_kept: Option<u32> => lower("GTSAM keeps false").decimals(2),

@@ -74,7 +74,8 @@ impl MapPicture {
         }
     }
 
-    /// Returns what speaks against the map, in a sentence without a full stop; `None` if nothing does.
+    /// Returns what speaks against the map, in a sentence without a full stop; `None` if nothing
+    /// does.
     #[must_use]
     pub fn doubt(&self) -> Option<String> {
         let percent = 100.0 * self.contradicted;
@@ -85,7 +86,8 @@ impl MapPicture {
         })
     }
 
-    /// Returns the picture, `width` user units wide: occupancy below, what the wheels say as a dashed line, the way found above.
+    /// Returns the picture, `width` user units wide: occupancy below, what the wheels say as a
+    /// dashed line, the way found above.
     ///
     /// # Errors
     /// If the occupancy is larger than a picture can be.

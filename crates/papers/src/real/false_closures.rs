@@ -1,7 +1,8 @@
 //! False loop closures of the kinds of which the literature speaks, each from its seed.
 //!
-//! Source of the kinds: N. Sünderhauf, P. Protzel: Towards a Robust Back-End for Pose Graph SLAM, 2012. Deviations: groups agree within
-//! themselves, since the pairs after the first follow from odometry, and *local* means near in the true map, not by number.
+//! Source of the kinds: N. Sünderhauf, P. Protzel: Towards a Robust Back-End for Pose Graph SLAM,
+//! 2012. Deviations: groups agree within themselves, since the pairs after the first follow from
+//! odometry, and *local* means near in the true map, not by number.
 
 use alloc::collections::BTreeSet;
 
@@ -22,7 +23,8 @@ pub(super) enum Kind {
     RandomGroups,
     /// 10 to 20 consecutive pairs from two poses within 5 m on, which agree with each other.
     LocalGroups,
-    /// Two poses of which the measurement is off by less than 1 m and 20°, but by more than its bound.
+    /// Two poses of which the measurement is off by less than 1 m and 20°, but by more than its
+    /// bound.
     Near,
 }
 

@@ -1,4 +1,5 @@
-//! The replay of a log: the way found beside what the wheels say, what the laser read, and the map as it grew.
+//! The replay of a log: the way found beside what the wheels say, what the laser read, and the map
+//! as it grew.
 
 use tolman_geom::Point;
 use tolman_maps::scan_matching::OccupancyGrid;

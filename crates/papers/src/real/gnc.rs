@@ -1,6 +1,7 @@
 //! GTSAM's graduated non-convexity on the same graph, in a Python that has it.
 //!
-//! Source: H. Yang, P. Antonante, V. Tzoumas, L. Carlone: Graduated Non-Convexity for Robust Spatial Perception, 2020.
+//! Source: H. Yang, P. Antonante, V. Tzoumas, L. Carlone: Graduated Non-Convexity for Robust
+//! Spatial Perception, 2020.
 
 use core::time::Duration;
 use std::env;
@@ -18,7 +19,8 @@ const SCRIPT: &str = include_str!("gnc.py");
 /// When it is ended at the latest, s.
 const CAP: f64 = 600.0;
 
-/// When it is ended because it is slower by far: so many times as long as the audit, and so many seconds at least.
+/// When it is ended because it is slower by far: so many times as long as the audit, and so many
+/// seconds at least.
 const TIMES: f64 = 40.0;
 const LEAST: f64 = 60.0;
 
@@ -47,7 +49,8 @@ impl Gnc {
         found.then_some(Self { python })
     }
 
-    /// Runs it on a graph whose edges from `right` on are false, with standard deviations × `scale`. `ours` is what the audit took, s.
+    /// Runs it on a graph whose edges from `right` on are false, with standard deviations ×
+    /// `scale`. `ours` is what the audit took, s.
     pub(super) fn run(
         &self,
         graph: &G2o,

@@ -9,12 +9,14 @@ use tolman_formats::{G2o, G2oError};
 use tolman_geom::Pose;
 use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
 
-/// A pose graph with the file it was read from. Pose n of the graph is pose n of the file in the order of ids; edge n is edge n.
+/// A pose graph with the file it was read from. Pose n of the graph is pose n of the file in the
+/// order of ids; edge n is edge n.
 #[derive(Clone, Debug)]
 pub struct GraphFile {
     /// What the file says.
     pub file: G2o,
-    /// The same as a graph: an edge between neighbours in the order of ids is odometry, the first of each pair, and any other is a closure.
+    /// The same as a graph: an edge between neighbours in the order of ids is odometry, the first
+    /// of each pair, and any other is a closure.
     pub graph: PoseGraph,
 }
 

@@ -1,4 +1,5 @@
-//! A map of landmarks that a robot recognizes, made of dead reckoning and of how far and which way they were seen.
+//! A map of landmarks that a robot recognizes, made of dead reckoning and of how far and which way
+//! they were seen.
 
 use alloc::collections::BTreeMap;
 
@@ -15,7 +16,8 @@ const ROUND: usize = 60;
 /// A range errs by so much, m, and a bearing by so much, rad (standard deviations).
 const RANGE_ERROR: f64 = 0.15;
 const BEARING_ERROR: f64 = 0.05;
-/// Dead reckoning errs in each step by so much, m and rad, and by a share of the way and of the turn.
+/// Dead reckoning errs in each step by so much, m and rad, and by a share of the way and of the
+/// turn.
 const STEP_ERROR: [f64; 2] = [0.01, 0.01];
 const WAY_ERROR: f64 = 0.1;
 /// Which way a landmark looks means nothing.
@@ -31,7 +33,8 @@ pub(super) struct LandmarkMap {
 }
 
 impl LandmarkMap {
-    /// Maps what a robot noted: poses and landmarks are those of a pose graph that agree best with wheels and sightings.
+    /// Maps what a robot noted: poses and landmarks are those of a pose graph that agree best with
+    /// wheels and sightings.
     pub(super) fn of(
         odometry: &[LogVelocity],
         sightings: &[BarcodeSighting],
@@ -146,7 +149,8 @@ fn see(
     })
 }
 
-/// The information of what errs by so much: ahead and left, m, and heading, rad (standard deviations).
+/// The information of what errs by so much: ahead and left, m, and heading, rad (standard
+/// deviations).
 pub(super) fn information(errors: [f64; 3]) -> Matrix3<f64> {
     Matrix3::from_diagonal(&Vector3::from(errors).map(|error| 1.0 / (error * error)))
 }

@@ -57,7 +57,8 @@ pub struct MappedLog {
     pub places: MapView,
     /// The scan at which each place was first come to, by its id.
     pub founded: BTreeMap<u32, usize>,
-    /// The places that the robot came to, each by the keyframe in its middle and, if the map knows it, its id.
+    /// The places that the robot came to, each by the keyframe in its middle and, if the map knows
+    /// it, its id.
     pub visits: Vec<(usize, Option<u32>)>,
     /// How likely the mapper takes its map to be right; `None` if it does not weigh that.
     pub certainty: Option<f64>,
@@ -144,8 +145,8 @@ impl RobotLog {
         odometry.iter().map(|pose| over.compose(*pose)).collect()
     }
 
-    /// Finds the way of the robot by `system`, with `odometry` for what the wheels say; `see` is told after each scan how many there
-    /// were.
+    /// Finds the way of the robot by `system`, with `odometry` for what the wheels say; `see` is
+    /// told after each scan how many there were.
     ///
     /// # Errors
     /// If a scan is none.
@@ -267,7 +268,8 @@ impl MappedLog {
         }
     }
 
-    /// Returns the keyframes of the last visit before and of each visit to a place where the robot had been, by the map. O(visits · log places).
+    /// Returns the keyframes of the last visit before and of each visit to a place where the robot
+    /// had been, by the map. O(visits · log places).
     #[must_use]
     pub fn recognized(&self) -> Vec<[usize; 2]> {
         let mut last = BTreeMap::new();

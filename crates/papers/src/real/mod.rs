@@ -1,5 +1,5 @@
-//! Logs and graphs of real robots, and a small log of the project's own simulator: how right the ways are that are found in logs, and audits of
-//! pose graphs with false closures.
+//! Logs and graphs of real robots, and a small log of the project's own simulator: how right the
+//! ways are that are found in logs, and audits of pose graphs with false closures.
 
 mod audit;
 mod drawing;
@@ -60,7 +60,8 @@ struct Config {
 /// Says which logs and graphs are here and sets the tables up.
 ///
 /// # Errors
-/// If the caller names mazes, which have no place here, or a log or graph that is here cannot be read.
+/// If the caller names mazes, which have no place here, or a log or graph that is here cannot be
+/// read.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
     if !options.mazes.is_empty() {
         return Err("logs know no mazes: leave --maze out".into());

@@ -24,8 +24,8 @@ const PUBLISHED_TIMES: f64 = 976_052_857.34;
 
 /// A closure is wrong if the dense map has it farther off, m.
 const WRONG_M: f64 = 0.5;
-/// Two visits that a map takes for the same place are not if the dense map has them farther apart, m.
-/// A room or a crossing of corridors is as wide, and a robot stands anywhere in it.
+/// Two visits that a map takes for the same place are not if the dense map has them farther apart,
+/// m. A room or a crossing of corridors is as wide, and a robot stands anywhere in it.
 const ELSEWHERE_M: f64 = 4.0;
 /// The row whose wheels are made worse.
 const MADE_WORSE: &str = "intel dense, wheels made worse";
@@ -70,9 +70,11 @@ pub(super) fn missing() -> Option<String> {
 record! {
     /// A way through the Intel lab.
     struct RelationRun {
-        /// Mean distance of the second pose of a relation, seen from the first, from where it was verified to be.
+        /// Mean distance of the second pose of a relation, seen from the first, from where it was
+        /// verified to be.
         error_m: f64 => lower("error, all relations").unit("m").at_least(0).decimals(3),
-        /// The same over relations whose times lie more than 30 s apart: the robot has come back in between.
+        /// The same over relations whose times lie more than 30 s apart: the robot has come back in
+        /// between.
         error_over_30s_m: f64 => lower("error, over 30 s").unit("m").at_least(0).decimals(3),
         /// Relations that lie on the way.
         relations: usize => neither("relations").decimals(0),

@@ -30,7 +30,8 @@ pub(super) struct Small {
 record! {
     /// A way through the simulated office.
     struct SmallRun {
-        /// Root of the mean squared distance of a scan's position from the true one, once a turn and a shift are undone.
+        /// Root of the mean squared distance of a scan's position from the true one, once a turn
+        /// and a shift are undone.
         rms_m: f64 => lower("error, root mean square").unit("m").at_least(0).decimals(3),
         /// Greatest of these distances.
         largest_m: f64 => lower("largest error").unit("m").at_least(0).decimals(3),

@@ -62,7 +62,8 @@ impl Wear {
 record! {
     /// A way through a building.
     struct TrajectoryRun {
-        /// Root of the mean squared distance of a scan's position from that in the corrected log, once a turn and a shift are undone.
+        /// Root of the mean squared distance of a scan's position from that in the corrected log,
+        /// once a turn and a shift are undone.
         rms_m: f64 => lower("error, root mean square").unit("m").at_least(0).decimals(3),
         /// Greatest of these distances.
         largest_m: f64 => lower("largest error").unit("m").at_least(0).decimals(3),

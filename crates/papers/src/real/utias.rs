@@ -1,4 +1,5 @@
-//! A place map of what one robot saw, by which others find where they are: the score of GNG-SLAM's paper on real robots.
+//! A place map of what one robot saw, by which others find where they are: the score of GNG-SLAM's
+//! paper on real robots.
 
 use std::path::PathBuf;
 
@@ -41,7 +42,8 @@ const NODES: usize = 128;
 record! {
     /// A robot that says where it is by the map of another.
     struct UtiasRun {
-        /// Mean score of its records: 1 inside the true cell of 8 × 8, else 0.5 / distance to its middle in cells.
+        /// Mean score of its records: 1 inside the true cell of 8 × 8, else 0.5 / distance to its
+        /// middle in cells.
         score: f64 => higher("score").decimals(3),
         /// Mean distance from where it truly was, m.
         error_m: f64 => lower("error").unit("m").at_least(0).decimals(2),
@@ -178,8 +180,8 @@ fn in_cells(cells: &CellGrid, point: Point) -> Point {
     Point::from(from_corner.component_div(&cells.size()))
 }
 
-/// At each second at which enough landmarks are known, how far each is, m: those seen a moment ago from where the robot is by
-/// now.
+/// At each second at which enough landmarks are known, how far each is, m: those seen a moment ago
+/// from where the robot is by now.
 fn sensed(
     odometry: &[LogVelocity],
     sightings: &[BarcodeSighting],

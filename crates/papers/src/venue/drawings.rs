@@ -1,8 +1,9 @@
-//! The rule by which the paper's two mazes are drawn: a sequence of random drawings with the features that it names, of which
-//! those are kept that meet what its own figures imply.
+//! The rule by which the paper's two mazes are drawn: a sequence of random drawings with the
+//! features that it names, of which those are kept that meet what its own figures imply.
 //!
-//! MSLST has no part in the rule. The drawings of the paper are lost; what they must have been is that the two
-//! baselines came out as they did, and that a robot which knows the maze is faster than the paper's MSLST was.
+//! MSLST has no part in the rule. The drawings of the paper are lost; what they must have been is
+//! that the two baselines came out as they did, and that a robot which knows the maze is faster
+//! than the paper's MSLST was.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -29,7 +30,8 @@ const PAPER_RUNS: u32 = 25;
 /// The normal quantile of a 95 % interval.
 const Z: f64 = 1.96;
 
-/// The tours that an exact Wall-follow may lose on the loop, per cent: the 95 % interval of the paper's 28 % of 25.
+/// The tours that an exact Wall-follow may lose on the loop, per cent: the 95 % interval of the
+/// paper's 28 % of 25.
 const TRAPPED: (f64, f64) = (12.0, 49.0);
 
 /// Which of the paper's mazes a drawing stands for.
@@ -44,8 +46,8 @@ pub(crate) enum Drawing {
 /// The number of the first J drawing that is kept: `mazes/j.maze`.
 const J_DRAWING: u32 = 4;
 
-/// The numbers of the first Large drawings that are kept, as `tolman experiment mslst-drawings` finds them. The first is
-/// `mazes/large.maze`.
+/// The numbers of the first Large drawings that are kept, as `tolman experiment mslst-drawings`
+/// finds them. The first is `mazes/large.maze`.
 pub(crate) const LARGE_DRAWINGS: [u32; 50] = [
     0, 17, 21, 31, 37, 43, 49, 52, 63, 69, 76, 93, 109, 110, 114, 130, 143, 156, 163, 170, 175,
     202, 214, 218, 230, 231, 243, 247, 248, 252, 259, 267, 279, 288, 292, 297, 312, 325, 326, 327,
@@ -144,8 +146,8 @@ impl Drawing {
         }
     }
 
-    /// The most steps of the Oracle, on average. In Large those of the paper's MSLST 20 in the runs in which it arrived; in J
-    /// the upper end of what its MSLST 100 may have needed.
+    /// The most steps of the Oracle, on average. In Large those of the paper's MSLST 20 in the runs
+    /// in which it arrived; in J the upper end of what its MSLST 100 may have needed.
     const fn oracle_steps(self) -> f64 {
         match self {
             Self::J => 47.0,
@@ -153,8 +155,8 @@ impl Drawing {
         }
     }
 
-    /// What a drawing must meet. In J success is no condition: no such letter was ever seen in which our Wall-follow misses the
-    /// destination as often as the paper's.
+    /// What a drawing must meet. In J success is no condition: no such letter was ever seen in
+    /// which our Wall-follow misses the destination as often as the paper's.
     pub(crate) const fn conditions(self) -> &'static [Condition] {
         match self {
             Self::J => &[
@@ -173,7 +175,8 @@ impl Drawing {
         }
     }
 
-    /// Judges the drawing of this number by [`RUNS`] runs of each agent; none where its loop alone rules it out.
+    /// Judges the drawing of this number by [`RUNS`] runs of each agent; none where its loop alone
+    /// rules it out.
     pub(crate) fn judged(self, number: u32) -> Result<Option<Judged>, BoxError> {
         let venue = self.venue(number)?;
         let trapped_percent = right_hand::trapped_percent(&venue.course.maze);
@@ -230,7 +233,8 @@ impl Judged {
         conditions.any(|judgement| judgement.condition == condition && judgement.excess > 0.0)
     }
 
-    /// By how much it misses all conditions, in shares of their bounds; 0 of a drawing that is kept.
+    /// By how much it misses all conditions, in shares of their bounds; 0 of a drawing that is
+    /// kept.
     pub(crate) fn summed_excess(&self) -> f64 {
         self.conditions
             .iter()

@@ -8,7 +8,8 @@ use tolman_arena::course::Course;
 use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
 
-/// The worlds of these files, each under a name of its own that is none of those `taken` by other tables.
+/// The worlds of these files, each under a name of its own that is none of those `taken` by other
+/// tables.
 pub(crate) fn from_files(files: &[PathBuf], taken: &[&str]) -> Result<Vec<Venue>, BoxError> {
     let mut venues: Vec<Venue> = Vec::new();
     for path in files {

@@ -92,8 +92,8 @@ pub(super) fn large_like(course: Course) -> Venue {
     Venue::new("3 (Large)", "The Large maze", course, paper::LARGE_STEPS).known(paper::TABLE_3)
 }
 
-/// The first Large maze, drawn when steps per action still had a say in it: too long for the paper's figures, and a hard one
-/// for whoever navigates.
+/// The first Large maze, drawn when steps per action still had a say in it: too long for the
+/// paper's figures, and a hard one for whoever navigates.
 pub(super) fn large_hard() -> Result<Venue, BoxError> {
     let course = built_in("Large, hard", include_str!("../../mazes/large-hard.maze"))?;
     let title = "The first Large maze, which is too long to be the paper's";
@@ -217,7 +217,8 @@ impl Venue {
     }
 }
 
-/// Plays a run as it can be watched; `nodes` says where the nodes of the robot's map lie, if it has one.
+/// Plays a run as it can be watched; `nodes` says where the nodes of the robot's map lie, if it has
+/// one.
 pub(super) fn replay(
     job: &Job<'_>,
     trial: &Trial<'_>,

@@ -1,7 +1,7 @@
 use tolman_maze::Cell;
 
-/// A set of cells of a maze of up to `N` × `N`, `N` ≤ 32: one word a row, so that a whole row is moved or compared at
-/// once.
+/// A set of cells of a maze of up to `N` × `N`, `N` ≤ 32: one word a row, so that a whole row is
+/// moved or compared at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct CellSet<const N: usize> {
     /// By y; bit x.

@@ -10,7 +10,8 @@ use crate::{TooLarge, Unknown};
 
 /// What is known of a maze, and how long runs through it can be.
 ///
-/// Walls can be [learned](Self::look) one after the other; the maps follow, and only as far as they change.
+/// Walls can be [learned](Self::look) one after the other; the maps follow, and only as far as they
+/// change.
 #[derive(Clone, Debug)]
 pub(super) struct Chart<const N: usize> {
     pub(super) start: Cell,
@@ -68,8 +69,8 @@ impl<const N: usize> Chart<N> {
         self.hoped.contains(cell, side) && !self.certain.contains(cell, side)
     }
 
-    /// The steps of the best run from the start to the goal that drives over the `side` of `cell`. At most
-    /// six leaps do, each in both directions.
+    /// The steps of the best run from the start to the goal that drives over the `side` of `cell`.
+    /// At most six leaps do, each in both directions.
     pub(super) fn run_through(&self, cell: Cell, side: Direction) -> Option<u16> {
         let mut best: Option<u16> = None;
         self.hoped.leaps_over(cell, side, |one, other| {
@@ -85,8 +86,8 @@ impl<const N: usize> Chart<N> {
         best
     }
 
-    /// A way of fewest steps from `at` to `target` on known ground; none if none leads there. Of such ways it is one with much to
-    /// see at its last stops.
+    /// A way of fewest steps from `at` to `target` on known ground; none if none leads there. Of
+    /// such ways it is one with much to see at its last stops.
     pub(super) fn course(&self, target: Cell, at: Cell) -> Option<Course> {
         let mut course = Course::to(target);
         if self.leap_to(target, at).is_some() {
@@ -125,7 +126,8 @@ impl<const N: usize> Chart<N> {
         leaps.find(|leap| leap.end == end)
     }
 
-    /// Drives from `at` towards `target` through a maze with the open sides `truth`, until there is something new to see.
+    /// Drives from `at` towards `target` through a maze with the open sides `truth`, until there is
+    /// something new to see.
     pub(super) fn drive(&mut self, truth: &Sides<N>, target: Cell, at: Cell) -> Option<Driven> {
         let mut driven = Driven { steps: 0, at };
         while driven.at != target {
@@ -141,7 +143,8 @@ impl<const N: usize> Chart<N> {
         Some(driven)
     }
 
-    /// Whether what is across a side is a goal, or leads on: a run over a side that is certain only now has to go on from there.
+    /// Whether what is across a side is a goal, or leads on: a run over a side that is certain only
+    /// now has to go on from there.
     fn joins(&self, at: Cell, side: Direction) -> bool {
         let Some(across) = at.beyond(side) else {
             return false;

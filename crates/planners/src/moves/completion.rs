@@ -6,10 +6,11 @@ use super::split_mix::SplitMix;
 
 /// Draws mazes at random among those that agree with all that is known.
 ///
-/// The unknown sides are drawn one after the other, in an order by chance, each given those around it that are known or
-/// drawn already. The log-odds that a side is open are a sum of terms for its two ends, the posts, and for its two cells. By far the
-/// strongest is a rule of the competitions: no post stands without a wall. The terms were fitted by logistic regression on
-/// every second of the classic mazes, all sides of each revealed in an order by chance.
+/// The unknown sides are drawn one after the other, in an order by chance, each given those around
+/// it that are known or drawn already. The log-odds that a side is open are a sum of terms for its
+/// two ends, the posts, and for its two cells. By far the strongest is a rule of the competitions:
+/// no post stands without a wall. The terms were fitted by logistic regression on every second of
+/// the classic mazes, all sides of each revealed in an order by chance.
 pub(super) struct Completions<'a, const N: usize> {
     chart: &'a Chart<N>,
     /// The unknown sides, as many as there are.
@@ -27,7 +28,8 @@ enum Entrance {
     Known,
 }
 
-/// Terms for a post, by the side across it (unknown, open, wall) and the two lateral ones, as [`term`] orders them.
+/// Terms for a post, by the side across it (unknown, open, wall) and the two lateral ones, as
+/// [`term`] orders them.
 const POST: [[f32; 6]; 3] = [
     [0.00, -0.20, -0.56, 0.36, 0.22, 0.62],
     [0.22, -0.32, -2.78, 0.43, -0.06, 0.79],

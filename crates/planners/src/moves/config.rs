@@ -2,34 +2,37 @@ use thiserror::Error;
 
 /// How a [`MoveExplorer`](super::MoveExplorer) weighs what it could do next.
 ///
-/// None of this touches the proof: whatever the weights, the explorer stops only when no better run is
-/// possible.
+/// None of this touches the proof: whatever the weights, the explorer stops only when no better run
+/// is possible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct MoveExplorerConfig {
-    /// While no way to the goal is known: how much a step on known ground counts against a step of the way
-    /// that is hoped for beyond it. > 0.
+    /// While no way to the goal is known: how much a step on known ground counts against a step of
+    /// the way that is hoped for beyond it. > 0.
     pub known_step: f32,
-    /// While no way to the goal is known: steps that each unknown wall on the hoped-for way counts as. ≥ 0.
+    /// While no way to the goal is known: steps that each unknown wall on the hoped-for way counts
+    /// as. ≥ 0.
     pub unknown_wall: f32,
-    /// While no way to the goal is known: steps that seeing one more unknown side of a cell is worth. ≥ 0.
+    /// While no way to the goal is known: steps that seeing one more unknown side of a cell is
+    /// worth. ≥ 0.
     pub sight: f32,
-    /// While no way to the goal is known: what a stop must tell, divided by its distance, to come before the
-    /// way to the goal. ≥ 0.
+    /// While no way to the goal is known: what a stop must tell, divided by its distance, to come
+    /// before the way to the goal. ≥ 0.
     pub early_proof: f32,
-    /// Once a way is known: by how much less a wall counts for each step that the best run hoped for
-    /// through it is longer than the best of all. Within 0 … 1.
+    /// Once a way is known: by how much less a wall counts for each step that the best run hoped
+    /// for through it is longer than the best of all. Within 0 … 1.
     pub patience: f32,
-    /// What every wall on a run better than the known one counts at least, where those on the best run
-    /// count 1. ≥ 0.
+    /// What every wall on a run better than the known one counts at least, where those on the best
+    /// run count 1. ≥ 0.
     pub base: f32,
     /// The power of the distance in steps that what a stop would tell is divided by. > 0.
     pub nearness: f32,
 }
 
 impl MoveExplorerConfig {
-    /// The one configuration that all our figures are made with. How it was chosen: `docs/micromouse.md`.
+    /// The one configuration that all our figures are made with. How it was chosen:
+    /// `docs/micromouse.md`.
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
@@ -72,7 +75,8 @@ pub struct MoveExplorerConfigError {
 }
 
 impl MoveExplorerConfigError {
-    /// Of fields with their values, and whether those are in range, the first that is not or is not finite.
+    /// Of fields with their values, and whether those are in range, the first that is not or is not
+    /// finite.
     pub(super) fn check(
         fields: impl IntoIterator<Item = (&'static str, f32, bool)>,
     ) -> Result<(), Self> {

@@ -10,26 +10,30 @@ use crate::TooLarge;
 
 /// Explores a maze until the best run is known for certain.
 ///
-/// The paper's *open path* takes all unknown walls for open, its *close path* for walls (section 3.3.2); when both
-/// are equally long nothing better can turn up. Here both are counted in steps of the run that will be made, so
-/// that the proof holds for that run; in the paper they are counted in cells.
+/// The paper's *open path* takes all unknown walls for open, its *close path* for walls (section
+/// 3.3.2); when both are equally long nothing better can turn up. Here both are counted in steps of
+/// the run that will be made, so that the proof holds for that run; in the paper they are counted
+/// in cells.
 ///
 /// Which wall to look at next is our own:
 ///
-/// - Walls matter that lie on a run better than the best known one. The mouse looks first at those that the best
-///   runs of all depend on (they have to be looked at whatever else turns up), and at near ones before far ones.
-/// - While no way to the goal is known, it does so only where it is as good as on its way; else it makes for the
-///   goal by the way that takes fewest steps if all unknown walls are open. Where it could stop and look on the way,
-///   unknown sides that it would see are worth a detour.
-/// - As soon as a way is known the mouse drives to the goal, where it has to be once anyway; only then it looks at the rest.
+/// - Walls matter that lie on a run better than the best known one. The mouse looks first at those
+///   that the best runs of all depend on (they have to be looked at whatever else turns up), and at
+///   near ones before far ones.
+/// - While no way to the goal is known, it does so only where it is as good as on its way; else it
+///   makes for the goal by the way that takes fewest steps if all unknown walls are open. Where it
+///   could stop and look on the way, unknown sides that it would see are worth a detour.
+/// - As soon as a way is known the mouse drives to the goal, where it has to be once anyway; only
+///   then it looks at the rest.
 ///
-/// It always ends: each stop it makes for shows a wall nobody has looked at, and on the way there that stop only gets more
-/// attractive.
+/// It always ends: each stop it makes for shows a wall nobody has looked at, and on the way there
+/// that stop only gets more attractive.
 ///
-/// [`Rollouts`](super::Rollouts) choose better among the stops that it weighs for the proof, and take longer.
+/// [`Rollouts`](super::Rollouts) choose better among the stops that it weighs for the proof, and
+/// take longer.
 ///
-/// The explorer remembers nothing but whether it has been at the goal; it compares everything else with `walls` at each
-/// call, so walls may be forgotten again at any time.
+/// The explorer remembers nothing but whether it has been at the goal; it compares everything else
+/// with `walls` at each call, so walls may be forgotten again at any time.
 ///
 /// `N` is at most 32.
 #[derive(Clone, Debug)]
@@ -54,14 +58,14 @@ pub enum MoveDecision {
     Drive(Leap),
     /// Turn right on the spot, to see what lies behind.
     Turn,
-    /// The mouse was at a goal, and no run from the start takes fewer steps than the best known one, whatever
-    /// the walls nobody has looked at. It takes so many:
+    /// The mouse was at a goal, and no run from the start takes fewer steps than the best known
+    /// one, whatever the walls nobody has looked at. It takes so many:
     Finished {
         /// Steps.
         moves: u16,
     },
-    /// The mouse was at a goal, and to look on is expected to cost more than it gains ([`WorthConfig`](super::WorthConfig)).
-    /// The best known run takes so many:
+    /// The mouse was at a goal, and to look on is expected to cost more than it gains
+    /// ([`WorthConfig`](super::WorthConfig)). The best known run takes so many:
     Enough {
         /// Steps.
         moves: u16,
@@ -76,7 +80,8 @@ pub(super) enum Task {
     Decided(MoveDecision),
     /// To drive there.
     DriveTo(Cell),
-    /// The mouse was at the goal and knows a run of so many steps: to look at what might make a better one.
+    /// The mouse was at the goal and knows a run of so many steps: to look at what might make a
+    /// better one.
     Prove {
         /// Steps.
         closed: u16,
@@ -84,7 +89,8 @@ pub(super) enum Task {
 }
 
 impl Task {
-    /// Returns what it comes to in the cell `at`; `prove` chooses the stop to drive to where a run is to be proved.
+    /// Returns what it comes to in the cell `at`; `prove` chooses the stop to drive to where a run
+    /// is to be proved.
     pub(super) fn decide<const N: usize>(
         self,
         chart: &Chart<N>,
@@ -116,7 +122,8 @@ impl<const N: usize> MoveExplorer<N> {
         })
     }
 
-    /// Returns what to do in the cell `at`, once what is seen from there is in `walls`, to reach one of `goals`. O(N²).
+    /// Returns what to do in the cell `at`, once what is seen from there is in `walls`, to reach
+    /// one of `goals`. O(N²).
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
@@ -149,8 +156,8 @@ impl<const N: usize> MoveExplorer<N> {
             return Task::Decided(MoveDecision::Stuck);
         };
         if chart.unknown_sides(at).next().is_some() {
-            // Only at the start has the mouse not seen what lies behind it: from then on it has seen, before
-            // it drives along a row of cells, how far that row goes to both sides.
+            // Only at the start has the mouse not seen what lies behind it: from then on it has
+            // seen, before it drives along a row of cells, how far that row goes to both sides.
             return Task::Decided(MoveDecision::Turn);
         }
         let target = match (chart.closed, self.goal) {
@@ -191,7 +198,8 @@ impl<const N: usize> MoveExplorer<N> {
         stops.best()
     }
 
-    /// What to look at for the proof, the best first, when runs of `limit` steps and more do not matter.
+    /// What to look at for the proof, the best first, when runs of `limit` steps and more do not
+    /// matter.
     pub(super) fn proofs<const K: usize>(
         &self,
         chart: &Chart<N>,
@@ -229,8 +237,8 @@ impl<const N: usize> MoveExplorer<N> {
     /// What a look around from `cell` tells about runs of less than `limit` steps.
     fn told(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> f32 {
         let mut told = 0.0;
-        // A leap over one of the sides begins or ends at the cell or drives over it, so a run with it is shorter by
-        // one step at most than a run that stops at the cell.
+        // A leap over one of the sides begins or ends at the cell or drives over it, so a run with
+        // it is shorter by one step at most than a run that stops at the cell.
         let stopping = chart.from_start.moves(cell).zip(chart.to_goal.moves(cell));
         if stopping.is_none_or(|(before, after)| before + after > limit) {
             return told;

@@ -7,8 +7,8 @@ use super::cell_set::CellSet;
 use super::sides::Sides;
 use crate::Passages;
 
-/// The fewest steps from every cell of a maze of up to `N` × `N`, `N` ≤ 32, to the nearest of some cells, and to come
-/// from there: a leap can be driven back.
+/// The fewest steps from every cell of a maze of up to `N` × `N`, `N` ≤ 32, to the nearest of some
+/// cells, and to come from there: a leap can be driven back.
 #[derive(Clone, Debug)]
 pub struct MoveMap<const N: usize> {
     moves: [[u16; N]; N],
@@ -30,7 +30,8 @@ impl<const N: usize> MoveMap<N> {
         stale: None,
     };
 
-    /// Breadth-first search from `targets`, leap by leap; those outside of `N` × `N` cells are left out. O(N²).
+    /// Breadth-first search from `targets`, leap by leap; those outside of `N` × `N` cells are left
+    /// out. O(N²).
     ///
     /// A target counts only where a leap ends, as the goal does in the paper's rules.
     #[must_use]
@@ -53,7 +54,8 @@ impl<const N: usize> MoveMap<N> {
         map
     }
 
-    /// Numbers the cells, from the front of `wave` on, until all that was put in doubt is certain again.
+    /// Numbers the cells, from the front of `wave` on, until all that was put in doubt is certain
+    /// again.
     fn spread(
         &mut self,
         sides: &Sides<N>,
@@ -69,7 +71,8 @@ impl<const N: usize> MoveMap<N> {
             within += wave.front.fill(&mut self.moves, wave.moves);
             let as_before = wave.moves < self.levels && self.within(wave.moves) == within;
             if as_before && wave.moves >= last {
-                // As many cells as before are so near, so it is the same ones, and all beyond is as it was.
+                // As many cells as before are so near, so it is the same ones, and all beyond is as
+                // it was.
                 return;
             }
             let slot = self.within.as_flattened_mut();
@@ -92,7 +95,8 @@ impl<const N: usize> MoveMap<N> {
         slot.copied().unwrap_or(0)
     }
 
-    /// Takes note that one of the `sides` was closed. The map is out of date until it is [mended](Self::mend).
+    /// Takes note that one of the `sides` was closed. The map is out of date until it is
+    /// [mended](Self::mend).
     pub(super) fn side_closed(&mut self, sides: &Sides<N>, cell: Cell, side: Direction) {
         sides.leaps_over(cell, side, |tail, head| {
             let (near, far) = match self.moves_or_never(tail).cmp(&self.moves_or_never(head)) {
@@ -100,7 +104,8 @@ impl<const N: usize> MoveMap<N> {
                 Ordering::Equal => return,
                 Ordering::Greater => (head, tail),
             };
-            // The farther one was a step farther than the nearer one by this leap. It still is, if by another, too.
+            // The farther one was a step farther than the nearer one by this leap. It still is, if
+            // by another, too.
             let before = self.moves_or_never(near);
             let mut leaps = sides.leaps(far);
             if leaps.any(|leap| self.moves_or_never(leap.end) == before) {
@@ -115,8 +120,9 @@ impl<const N: usize> MoveMap<N> {
         });
     }
 
-    /// Brings the map up to date with `sides`, if fewer than `limit` steps anywhere are in doubt; what is farther away than that
-    /// then may be as good as out of reach. O(levels that change × N).
+    /// Brings the map up to date with `sides`, if fewer than `limit` steps anywhere are in doubt;
+    /// what is farther away than that then may be as good as out of reach. O(levels that change ×
+    /// N).
     pub(super) fn mend(&mut self, sides: &Sides<N>, limit: u16) {
         let Some((first, _)) = self.stale.filter(|(first, _)| *first < limit) else {
             return;
@@ -144,8 +150,9 @@ impl<const N: usize> MoveMap<N> {
         moves.copied().unwrap_or(NEVER)
     }
 
-    /// A way of fewest steps from `cell` to a target, on the passages the map was made for. Nothing, where no
-    /// way leads to one or the cell is one. Of equally good leaps the first of [`Leap::all`] is taken.
+    /// A way of fewest steps from `cell` to a target, on the passages the map was made for.
+    /// Nothing, where no way leads to one or the cell is one. Of equally good leaps the first of
+    /// [`Leap::all`] is taken.
     #[must_use]
     pub const fn way<'a>(&'a self, passages: &'a Passages<N>, cell: Cell) -> Way<'a, N> {
         Way {

@@ -3,7 +3,8 @@ use tolman_maze::{Cell, Direction};
 use super::cell_set::CellSet;
 use super::chart::Chart;
 
-/// How many walls nobody has looked at the hoped-for way to the goal drives over, at least, from every cell.
+/// How many walls nobody has looked at the hoped-for way to the goal drives over, at least, from
+/// every cell.
 pub(super) struct Outlook<const N: usize> {
     unknown: [[u8; N]; N],
 }
@@ -17,7 +18,8 @@ impl<const N: usize> Outlook<N> {
         for goal in chart.goals.iter() {
             outlook.lower(goal, 0);
         }
-        // Step by step away from the goal: all cells one step nearer are done before a cell's turn comes.
+        // Step by step away from the goal: all cells one step nearer are done before a cell's turn
+        // comes.
         let mut front = chart.goals;
         while !front.is_empty() {
             let mut next = CellSet::EMPTY;

@@ -8,7 +8,8 @@ pub(super) struct Stage {
     pub(super) learned: u64,
 }
 
-/// The stages of the explorer's own play, and after how many steps it came to each; the first of them.
+/// The stages of the explorer's own play, and after how many steps it came to each; the first of
+/// them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Play {
     stages: [Option<(Stage, f32)>; Self::MOST],

@@ -18,16 +18,19 @@ use crate::TooLarge;
 pub struct RolloutConfig {
     /// At most so many mazes are drawn for a decision. ≥ 1.
     pub completions: u16,
-    /// A stop that does no better than the explorer's own in so many mazes, on average, is given up. ≥ 1.
+    /// A stop that does no better than the explorer's own in so many mazes, on average, is given
+    /// up. ≥ 1.
     pub trial: u16,
-    /// By how many standard errors a stop must save steps to be preferred to the explorer's own. ≥ 0.
+    /// By how many standard errors a stop must save steps to be preferred to the explorer's own. ≥
+    /// 0.
     pub confidence: f32,
     /// What chance follows from: the same seed, the same decisions.
     pub seed: u64,
 }
 
 impl RolloutConfig {
-    /// The one configuration that all our figures are made with: as many mazes as there is time for (`docs/micromouse.md`).
+    /// The one configuration that all our figures are made with: as many mazes as there is time for
+    /// (`docs/micromouse.md`).
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
@@ -55,19 +58,22 @@ impl RolloutConfig {
 
 /// A [`MoveExplorer`] that plays the rest of the proof before it decides.
 ///
-/// This is the rollout algorithm of Bertsekas and Tsitsiklis (Neuro-Dynamic Programming, 1996, section 6.1.3; Tesauro and Galperin,
-/// On-line Policy Improvement Using Monte-Carlo Search, 1996). The explorer is the *base policy*. Where it has to choose
-/// what to look at for the proof, mazes are drawn at random that agree with all that is known. In each of them each of the explorer's
+/// This is the rollout algorithm of Bertsekas and Tsitsiklis (Neuro-Dynamic Programming, 1996,
+/// section 6.1.3; Tesauro and Galperin, On-line Policy Improvement Using Monte-Carlo Search, 1996).
+/// The explorer is the *base policy*. Where it has to choose what to look at for the proof, mazes
+/// are drawn at random that agree with all that is known. In each of them each of the explorer's
 /// five best stops is tried, and after it the explorer plays on until the proof is found. The stop
-/// that saves steps against the explorer's own, by more than chance would, is taken; otherwise the explorer's own. All stops are tried in the
-/// same mazes, so that it is their difference that is measured.
+/// that saves steps against the explorer's own, by more than chance would, is taken; otherwise the
+/// explorer's own. All stops are tried in the same mazes, so that it is their difference that is
+/// measured.
 ///
 /// None of this touches the proof, nor the search for a way to the goal.
 ///
-/// It keeps to a stop until there is something new to see, which it tells by the number of unknown walls, or until the stop tells
-/// nothing any more; so walls may be forgotten again at any time.
+/// It keeps to a stop until there is something new to see, which it tells by the number of unknown
+/// walls, or until the stop tells nothing any more; so walls may be forgotten again at any time.
 ///
-/// `N` is at most 32. A decision takes some 10 kB of the stack for 16² cells, 35 kB for 32²; a [`MoveExplorer`]'s, 3 and 9 kB.
+/// `N` is at most 32. A decision takes some 10 kB of the stack for 16² cells, 35 kB for 32²; a
+/// [`MoveExplorer`]'s, 3 and 9 kB.
 #[derive(Clone, Debug)]
 pub struct Rollouts<const N: usize> {
     pub(super) base: MoveExplorer<N>,
@@ -105,7 +111,8 @@ impl<const N: usize> Rollouts<N> {
         })
     }
 
-    /// The same, but it stops as soon as the rest of the proof is expected to cost more than it gains: see [`WorthConfig`].
+    /// The same, but it stops as soon as the rest of the proof is expected to cost more than it
+    /// gains: see [`WorthConfig`].
     ///
     /// # Errors
     /// If a value is out of its range.
@@ -117,7 +124,8 @@ impl<const N: usize> Rollouts<N> {
         })
     }
 
-    /// Returns what to do in the cell `at`: see [`MoveExplorer::decide`]. O(completions × stops of the rest of the proof × N²).
+    /// Returns what to do in the cell `at`: see [`MoveExplorer::decide`]. O(completions × stops of
+    /// the rest of the proof × N²).
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
@@ -199,7 +207,8 @@ impl<const N: usize> Rollouts<N> {
         Some(best.1)
     }
 
-    /// Mazes that agree with all that is known. Where as much is unknown as before, the same ones are drawn.
+    /// Mazes that agree with all that is known. Where as much is unknown as before, the same ones
+    /// are drawn.
     pub(super) fn completions<'a>(&self, chart: &'a Chart<N>) -> Completions<'a, N> {
         let seed = self.config.seed ^ u64::from(chart.unknown().len()) << 32;
         Completions::new(chart, SplitMix::new(seed))
@@ -228,8 +237,9 @@ impl<const N: usize> Rollouts<N> {
         Some(())
     }
 
-    /// Steps from `at` over `stop` to the end of the proof, in a maze with the open sides `maze`. After each drive `met` is told where the
-    /// play is and after how many steps, and may know how many there are in all.
+    /// Steps from `at` over `stop` to the end of the proof, in a maze with the open sides `maze`.
+    /// After each drive `met` is told where the play is and after how many steps, and may know how
+    /// many there are in all.
     fn play(
         &self,
         chart: &Chart<N>,

@@ -1,5 +1,6 @@
-/// A generator of pseudo-random numbers: `SplitMix64` (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA
-/// 2014). A firmware has room for it, and it takes a few cycles where a play takes thousands.
+/// A generator of pseudo-random numbers: `SplitMix64` (Steele, Lea, Flood: Fast Splittable
+/// Pseudorandom Number Generators, OOPSLA 2014). A firmware has room for it, and it takes a few
+/// cycles where a play takes thousands.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SplitMix(u64);
 

@@ -45,7 +45,8 @@ impl QuarterTurn {
 }
 
 impl MouseStep {
-    /// The step of a mouse that looks to `heading` and leaps; then it looks to where `heading` says.
+    /// The step of a mouse that looks to `heading` and leaps; then it looks to where `heading`
+    /// says.
     #[must_use]
     pub fn of_leap(heading: &mut Direction, leap: Leap) -> Self {
         let cells = leap.cells.min(Leap::MOST_CELLS) as i8;

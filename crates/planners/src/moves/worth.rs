@@ -5,21 +5,26 @@ use super::rival::Rival;
 use super::sides::Sides;
 use super::{MoveExplorerConfigError, Rollouts};
 
-/// When [`Rollouts`] stop although the best run is not proven: when to look on costs more than it is expected to gain.
+/// When [`Rollouts`] stop although the best run is not proven: when to look on costs more than it
+/// is expected to gain.
 ///
-/// Mazes are drawn that agree with all that is known, and the rest of the proof is played in each. By how much the best run of
-/// the drawn maze is shorter than the one known is the gain; the steps of the proof are the price.
+/// Mazes are drawn that agree with all that is known, and the rest of the proof is played in each.
+/// By how much the best run of the drawn maze is shorter than the one known is the gain; the steps
+/// of the proof are the price.
 ///
-/// The stops are chosen by the score then, not by the steps of the proof. Nobody knows in advance when a proof is
-/// broken off; a play counts half as if it were brought to its end, and half as if it were broken off at its best moment.
+/// The stops are chosen by the score then, not by the steps of the proof. Nobody knows in advance
+/// when a proof is broken off; a play counts half as if it were brought to its end, and half as if
+/// it were broken off at its best moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct WorthConfig {
-    /// Number of mazes drawn for a decision, in place of [`RolloutConfig::completions`](super::RolloutConfig::completions). ≥ 1.
+    /// Number of mazes drawn for a decision, in place of
+    /// [`RolloutConfig::completions`](super::RolloutConfig::completions). ≥ 1.
     pub completions: u16,
-    /// Greatest difference between the known run and the best that can be hoped for, steps, at which it may stop. Drawn mazes
-    /// are not as odd as real ones, and what they never show can be worth most.
+    /// Greatest difference between the known run and the best that can be hoped for, steps, at
+    /// which it may stop. Drawn mazes are not as odd as real ones, and what they never show can be
+    /// worth most.
     pub most_gap: u16,
     /// Factor on the expected gain. > 0.
     pub gain: f32,
@@ -28,7 +33,8 @@ pub struct WorthConfig {
 }
 
 impl WorthConfig {
-    /// The one configuration that all our figures are made with. How it was chosen: `docs/micromouse.md`.
+    /// The one configuration that all our figures are made with. How it was chosen:
+    /// `docs/micromouse.md`.
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
@@ -66,7 +72,8 @@ struct Payoff {
 }
 
 impl<const N: usize> Rollouts<N> {
-    /// Whether to look on costs more than it is expected to gain, from the cell `at` where the known run takes `closed` steps.
+    /// Whether to look on costs more than it is expected to gain, from the cell `at` where the
+    /// known run takes `closed` steps.
     pub(super) fn is_enough(
         &self,
         worth: &WorthConfig,

@@ -1,5 +1,5 @@
-//! The independent checker. It shares no code with the search: its own geometry on a lattice of half cells, its own
-//! times, an explicit graph and the general Dijkstra of this crate.
+//! The independent checker. It shares no code with the search: its own geometry on a lattice of
+//! half cells, its own times, an explicit graph and the general Dijkstra of this crate.
 
 use alloc::vec::Vec;
 
@@ -26,7 +26,8 @@ pub struct SpeedRunCertificate {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SpeedRunCertificateError {
-    /// A straight or turn that cannot be made where the mouse is, such as a diagonal in the middle of a cell.
+    /// A straight or turn that cannot be made where the mouse is, such as a diagonal in the middle
+    /// of a cell.
     #[error("move {number} ({run_move:?}) cannot be made from where the mouse is then")]
     Impossible {
         /// Which move, from 0.
@@ -66,9 +67,9 @@ pub enum SpeedRunCertificateError {
 }
 
 impl SpeedRunCertificate {
-    /// Verifies that the run can be driven on walls known to be open, ends at one of `goals`, takes as long as it
-    /// says, and that no run is faster even if all walls that nobody has looked at are open.
-    /// O(n log n) for n cells, in a graph that is built for it.
+    /// Verifies that the run can be driven on walls known to be open, ends at one of `goals`, takes
+    /// as long as it says, and that no run is faster even if all walls that nobody has looked at
+    /// are open. O(n log n) for n cells, in a graph that is built for it.
     ///
     /// # Errors
     /// The first of these that does not hold.
@@ -115,9 +116,9 @@ impl SpeedRunCertificate {
     }
 }
 
-/// How long the best run takes if all walls that nobody has looked at are open, by plain Dijkstra on an
-/// explicit graph; none if no way leads to a goal. O(n log n) for n cells, some hundred times slower than a
-/// [`SpeedRunMap`](super::SpeedRunMap).
+/// How long the best run takes if all walls that nobody has looked at are open, by plain Dijkstra
+/// on an explicit graph; none if no way leads to a goal. O(n log n) for n cells, some hundred times
+/// slower than a [`SpeedRunMap`](super::SpeedRunMap).
 #[must_use]
 pub fn best_possible_ms(
     walls: &impl Walls,
@@ -154,8 +155,8 @@ pub fn best_possible_ms(
         .min()
 }
 
-/// A point of the lattice, whose unit is half a cell: middles of cells are odd in both coordinates, middles of edges in
-/// one, posts in none.
+/// A point of the lattice, whose unit is half a cell: middles of cells are odd in both coordinates,
+/// middles of edges in one, posts in none.
 type Point = (i32, i32);
 
 /// A place and a heading: 0 north, 1 north-east, and so on.
@@ -228,8 +229,8 @@ impl Spot {
             }
             (1, 1) => {
                 self.straights(open, grid, 1, &mut made);
-                // On a southern edge and looking north-east, a mouse turns right; every eighth of a turn more, and
-                // the other kind of edge, change that.
+                // On a southern edge and looking north-east, a mouse turns right; every eighth of a
+                // turn more, and the other kind of edge, change that.
                 let on_horizontal = self.at.0 & 1;
                 let side = if (self.eighth / 2 + on_horizontal) % 2 == 1 {
                     Side::Right

@@ -22,8 +22,8 @@ pub struct SpeedRunConfig {
     pub slalom: SlalomTimes,
 }
 
-/// How a straight is driven: faster with constant acceleration up to the top speed, and slower again
-/// with the same deceleration.
+/// How a straight is driven: faster with constant acceleration up to the top speed, and slower
+/// again with the same deceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -34,8 +34,8 @@ pub struct SpeedProfile {
     pub top_speed_mm_s: f64,
 }
 
-/// How long each slalom turn takes, in whole milliseconds, 1 or more. [`Slalom`](super::Slalom) says from where to where
-/// they lead.
+/// How long each slalom turn takes, in whole milliseconds, 1 or more. [`Slalom`](super::Slalom)
+/// says from where to where they lead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -58,8 +58,8 @@ impl SpeedRunConfig {
     /// 4200 mm/s² up to 1500 mm/s, diagonals with 3600 mm/s² up to 1200 mm/s.
     ///
     /// The library's sixth turn, FS90 (287 ms, within one cell), is left out as it is in the
-    /// library's own runs with diagonals: it is driven at 266 mm/s, slower than straights end, and serves its
-    /// runs without diagonals.
+    /// library's own runs with diagonals: it is driven at 266 mm/s, slower than straights end, and
+    /// serves its runs without diagonals.
     #[must_use]
     pub const fn half_size() -> Self {
         Self {
@@ -117,7 +117,8 @@ pub enum SpeedRunConfigError {
         /// The speed in the turns.
         turn_speed_mm_s: f64,
     },
-    /// A move takes no time, or the longest straight that fits into the maze takes more than 65.535 s.
+    /// A move takes no time, or the longest straight that fits into the maze takes more than 65.535
+    /// s.
     #[error("moves take {shortest_ms} to {longest_ms} ms: they have to take 1 to 65535 ms")]
     OutOfRange {
         /// The shortest move.
@@ -125,8 +126,8 @@ pub enum SpeedRunConfigError {
         /// The longest move.
         longest_ms: u64,
     },
-    /// The longest move takes so much longer than the shortest that the search would need more buckets than it
-    /// has.
+    /// The longest move takes so much longer than the shortest that the search would need more
+    /// buckets than it has.
     #[error(
         "the longest move takes {longest_ms} ms, more than {most} times as long as the shortest with \
          {shortest_ms} ms: use a map for larger mazes"

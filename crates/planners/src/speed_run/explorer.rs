@@ -5,13 +5,13 @@ use crate::{Passages, StepMap, TooLarge, Unknown};
 
 /// Explores a maze cell by cell until the best speed run is known for certain, and comes back.
 ///
-/// In every cell it takes the best run that can be hoped for: all walls nobody has looked at are open. If no
-/// wall of that run is left to look at, it is the best of all and the exploration is over; else the mouse
-/// drives to the nearest cell beside one of those walls. On the way out the goals count as such cells too, so
-/// that it has been there in the end.
+/// In every cell it takes the best run that can be hoped for: all walls nobody has looked at are
+/// open. If no wall of that run is left to look at, it is the best of all and the exploration is
+/// over; else the mouse drives to the nearest cell beside one of those walls. On the way out the
+/// goals count as such cells too, so that it has been there in the end.
 ///
-/// The explorer holds nothing of the maze that it does not compare with `walls` at each call, so walls
-/// may be forgotten again at any time.
+/// The explorer holds nothing of the maze that it does not compare with `walls` at each call, so
+/// walls may be forgotten again at any time.
 #[derive(Clone, Debug)]
 pub struct SpeedRunExplorer<'a, const N: usize> {
     planner: SpeedRunPlanner<'a, N>,
@@ -35,8 +35,8 @@ pub enum ExploreStage {
 pub enum Decision {
     /// Drive one cell in this direction, and look at the walls there.
     Drive(Direction),
-    /// The mouse stands at the start, was at a goal, and no run is faster than the one known, whatever
-    /// the walls that nobody has looked at. It takes so long:
+    /// The mouse stands at the start, was at a goal, and no run is faster than the one known,
+    /// whatever the walls that nobody has looked at. It takes so long:
     Finished {
         /// Milliseconds.
         run_ms: u16,
@@ -65,8 +65,8 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
         }
     }
 
-    /// Returns what to do in the cell `at`, looking to `heading`, once its walls are in `walls`. O(N²), plus a
-    /// search if no best run hoped for so far can be driven any more.
+    /// Returns what to do in the cell `at`, looking to `heading`, once its walls are in `walls`.
+    /// O(N²), plus a search if no best run hoped for so far can be driven any more.
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.

@@ -12,14 +12,14 @@ const NEVER: u16 = u16::MAX;
 /// How long the best speed run takes from every state to the nearest goal, in a maze of up to
 /// `N` × `N` cells, `N` ≤ 32.
 ///
-/// A run ends in the middle of a goal cell, coming along a straight. It is the best of all that consist of
-/// straights, diagonals and [slalom turns](super::Slalom), in whole milliseconds. What takes 65.535 s or more
-/// counts as out of reach.
+/// A run ends in the middle of a goal cell, coming along a straight. It is the best of all that
+/// consist of straights, diagonals and [slalom turns](super::Slalom), in whole milliseconds. What
+/// takes 65.535 s or more counts as out of reach.
 ///
-/// The search is Dijkstra's, backwards from the goals. The model is the same in both directions, so it
-/// drives the runs from the goals to every state turned round. Its queue has buckets no wider than the
-/// shortest move lasts, so that whatever is in the first bucket is final (Denardo and Fox, *Shortest-route
-/// methods: 1. Reaching, pruning, and buckets*, 1979).
+/// The search is Dijkstra's, backwards from the goals. The model is the same in both directions, so
+/// it drives the runs from the goals to every state turned round. Its queue has buckets no wider
+/// than the shortest move lasts, so that whatever is in the first bucket is final (Denardo and Fox,
+/// *Shortest-route methods: 1. Reaching, pruning, and buckets*, 1979).
 #[derive(Clone, Debug)]
 pub struct SpeedRunMap<const N: usize> {
     /// Times of the states turned round.
@@ -34,8 +34,8 @@ pub struct SpeedRunMap<const N: usize> {
 pub enum Extent {
     /// To every state.
     Everywhere,
-    /// Until it is clear how long the run from this state takes. All states nearer to a goal are clear
-    /// as well; of those farther away the times may be too long, or missing.
+    /// Until it is clear how long the run from this state takes. All states nearer to a goal are
+    /// clear as well; of those farther away the times may be too long, or missing.
     Until(RunState),
 }
 
@@ -99,8 +99,8 @@ impl<const N: usize> SpeedRunMap<N> {
         }
     }
 
-    /// How long the run from `state` to the nearest goal takes, in milliseconds; none if no way leads
-    /// there.
+    /// How long the run from `state` to the nearest goal takes, in milliseconds; none if no way
+    /// leads there.
     #[must_use]
     pub fn time_ms(&self, state: RunState) -> Option<u16> {
         let time = self.time_from(Node::new::<N>(state));

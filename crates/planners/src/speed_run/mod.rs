@@ -1,10 +1,11 @@
-//! The speed run of a micromouse: the fastest way to the goal with straights, diagonals, slalom turns and
-//! acceleration, and the exploration that proves it to be the fastest.
+//! The speed run of a micromouse: the fastest way to the goal with straights, diagonals, slalom
+//! turns and acceleration, and the exploration that proves it to be the fastest.
 //!
-//! A [`SpeedRunConfig`] says how the mouse drives, [`SpeedRunTimes`] how long each move takes then. On
-//! [`Passages`](crate::Passages) a [`SpeedRunMap`] finds how long the best run takes from everywhere, and the run
-//! itself. A [`SpeedRunPlanner`] keeps that up while walls turn up, a [`SpeedRunExplorer`] decides where to look
-//! for walls, and a [`SpeedRunCertificate`] convinces a checker that shares no code with them.
+//! A [`SpeedRunConfig`] says how the mouse drives, [`SpeedRunTimes`] how long each move takes then.
+//! On [`Passages`](crate::Passages) a [`SpeedRunMap`] finds how long the best run takes from
+//! everywhere, and the run itself. A [`SpeedRunPlanner`] keeps that up while walls turn up, a
+//! [`SpeedRunExplorer`] decides where to look for walls, and a [`SpeedRunCertificate`] convinces a
+//! checker that shares no code with them.
 //!
 //! ```
 //! use tolman_maze::{Cell, Direction};
@@ -38,10 +39,11 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 //!
-//! Model and default values are those of kerikun11/micromouse-maze-library (`StepMapSlalom`), so that the times can be
-//! compared. It deviates in two points. Times are whole milliseconds, straights rounded up, where the library cuts
-//! them down to multiples of two. And the search is exact: the library stops looking along a straight where
-//! another run is faster, although its own could be faster farther on.
+//! Model and default values are those of kerikun11/micromouse-maze-library (`StepMapSlalom`), so
+//! that the times can be compared. It deviates in two points. Times are whole milliseconds,
+//! straights rounded up, where the library cuts them down to multiples of two. And the search is
+//! exact: the library stops looking along a straight where another run is faster, although its own
+//! could be faster farther on.
 //!
 //! Nothing here allocates, except for the checker, and nothing panics: sizes are const generics.
 

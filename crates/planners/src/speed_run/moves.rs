@@ -27,20 +27,22 @@ pub enum RunMove {
 
 /// The slalom turns. Each contains what it needs of straight before and behind it.
 ///
-/// Said of a mouse in the middle of a cell that looks north, or on the western edge of a cell that looks
-/// north-east, and turns right or to its only possible side, respectively:
+/// Said of a mouse in the middle of a cell that looks north, or on the western edge of a cell that
+/// looks north-east, and turns right or to its only possible side, respectively:
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slalom {
-    /// 45°: from the middle of a cell through the cell to the north onto the eastern edge of that one. And back: from a
-    /// diagonal through the northern edge into the middle of the cell there.
+    /// 45°: from the middle of a cell through the cell to the north onto the eastern edge of that
+    /// one. And back: from a diagonal through the northern edge into the middle of the cell there.
     F45,
     /// 90°: through the cell to the north into the middle of the cell east of that one.
     F90,
-    /// 135°: through the cells to the north and north-east onto the southern edge of the latter. And back.
+    /// 135°: through the cells to the north and north-east onto the southern edge of the latter.
+    /// And back.
     F135,
     /// 180°: through the cells to the north and north-east into the cell to the east.
     F180,
-    /// 90° from diagonal to diagonal: through the northern edge and out through the western edge of the cell there.
+    /// 90° from diagonal to diagonal: through the northern edge and out through the western edge of
+    /// the cell there.
     Fv90,
 }
 
@@ -54,8 +56,8 @@ pub struct RunStep {
 }
 
 impl RunStep {
-    /// The sides to which the mouse leaves one cell after the other, from the cell of [`RunStep::from`] to that
-    /// of the state after the move.
+    /// The sides to which the mouse leaves one cell after the other, from the cell of
+    /// [`RunStep::from`] to that of the state after the move.
     pub fn directions(self) -> impl Iterator<Item = Direction> {
         // A pattern, from the beginning again when it is used up.
         let (pattern, period, count) = match (self.from, self.run_move) {
@@ -88,11 +90,12 @@ impl RunStep {
 }
 
 impl RunStep {
-    /// Returns the letter of the move as kerikun11/micromouse-maze-library has it (`RobotBase::FastAction`), and how often it is
-    /// written: a straight of three cells is `SSS`.
+    /// Returns the letter of the move as kerikun11/micromouse-maze-library has it
+    /// (`RobotBase::FastAction`), and how often it is written: a straight of three cells is `SSS`.
     ///
-    /// `S` is a cell straight on and `w` half a cell's diagonal. `z` and `c` are F45 to the left and right, `q` and `Q` F90, `a`
-    /// and `d` F135, `u` and `U` F180, `p` and `P` FV90. F45 and F135 out of a diagonal are `Z`, `C`, `A` and `D`.
+    /// `S` is a cell straight on and `w` half a cell's diagonal. `z` and `c` are F45 to the left
+    /// and right, `q` and `Q` F90, `a` and `d` F135, `u` and `U` F180, `p` and `P` FV90. F45 and
+    /// F135 out of a diagonal are `Z`, `C`, `A` and `D`.
     #[must_use]
     pub const fn letters(self) -> (char, u16) {
         let (slalom, side) = match self.run_move {
@@ -149,8 +152,8 @@ pub(super) fn is_open(sides: &[u8], cell: usize, direction: usize) -> bool {
 
 /// Every turn that can be made from `node`, always in the same order.
 ///
-/// A turn onto a diagonal is made only if the diagonal leads out of the cell it enters: otherwise nothing
-/// could follow.
+/// A turn onto a diagonal is made only if the diagonal leads out of the cell it enters: otherwise
+/// nothing could follow.
 #[inline(always)]
 pub(super) fn for_each_turn<const N: usize>(
     sides: &[u8],

@@ -5,8 +5,8 @@ use crate::Passages;
 
 /// Keeps the best run from one start to the goals while the passages change.
 ///
-/// Walls that turn up make no run faster. So as long as a best run found earlier can still be driven, it is
-/// a best run still, and nothing has to be searched.
+/// Walls that turn up make no run faster. So as long as a best run found earlier can still be
+/// driven, it is a best run still, and nothing has to be searched.
 #[derive(Clone, Debug)]
 pub struct SpeedRunPlanner<'a, const N: usize> {
     times: &'a SpeedRunTimes<N>,
@@ -56,8 +56,8 @@ impl<'a, const N: usize> SpeedRunPlanner<'a, N> {
         Replanning::Searched
     }
 
-    /// How long the best run takes, in milliseconds; none if no way leads to a goal, or before the first
-    /// update.
+    /// How long the best run takes, in milliseconds; none if no way leads to a goal, or before the
+    /// first update.
     #[must_use]
     pub fn time_ms(&self) -> Option<u16> {
         self.map.time_ms(self.start)

@@ -15,7 +15,8 @@ pub enum RunState {
         heading: Direction,
     },
     /// On the edge through which one comes into `cell` by going to `into`, looking at 45° between
-    /// `into` and `out`: the mouse crosses the cell and leaves it to `out`, a direction beside `into`.
+    /// `into` and `out`: the mouse crosses the cell and leaves it to `out`, a direction beside
+    /// `into`.
     Diagonal {
         /// The cell the mouse is about to cross.
         cell: Cell,
@@ -26,8 +27,8 @@ pub enum RunState {
     },
 }
 
-/// The states of a cell are numbered: 0 … 3 straight to north, east, south, west; from 4 on diagonal,
-/// by twice the way in, plus one when it leaves to the right.
+/// The states of a cell are numbered: 0 … 3 straight to north, east, south, west; from 4 on
+/// diagonal, by twice the way in, plus one when it leaves to the right.
 pub(super) const STATES_PER_CELL: usize = 12;
 
 /// A [`RunState`] by number, in a maze whose rows are `N` cells apart.
@@ -133,8 +134,8 @@ impl Node {
     }
 }
 
-/// The cell on the other side of an edge that is open. (Off the maze the number is that of no cell or of a
-/// wrong one; no open edge leads there.)
+/// The cell on the other side of an edge that is open. (Off the maze the number is that of no cell
+/// or of a wrong one; no open edge leads there.)
 pub(super) const fn beside<const N: usize>(cell: usize, direction: usize) -> usize {
     match direction {
         0 => cell.wrapping_add(N),

@@ -3,8 +3,8 @@ use core::array;
 use super::RunMove;
 use super::config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigError};
 
-/// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N` cells: 16 for
-/// classic ones, 32 for half-size ones.
+/// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N`
+/// cells: 16 for classic ones, 32 for half-size ones.
 ///
 /// Times of straights are rounded up. So a straight never takes longer than its two parts one
 /// after the other, and the search need not look at straights that follow straights.
@@ -27,8 +27,8 @@ impl<const N: usize> SpeedRunTimes<N> {
     /// long as a d < v² − s², and (a d + (v − s)²) / (a v) after that.
     ///
     /// # Errors
-    /// If a value is not a positive number, a top speed is below the speed in the turns, or the times
-    /// are too far apart for the search.
+    /// If a value is not a positive number, a top speed is below the speed in the turns, or the
+    /// times are too far apart for the search.
     pub fn new(config: &SpeedRunConfig) -> Result<Self, SpeedRunConfigError> {
         const { assert!(N >= 1, "a maze has cells") };
         check(config)?;
@@ -68,15 +68,15 @@ impl<const N: usize> SpeedRunTimes<N> {
         })
     }
 
-    /// A straight of `cells` cells, from the middle of one to the middle of another; none if no such
-    /// straight fits into the maze.
+    /// A straight of `cells` cells, from the middle of one to the middle of another; none if no
+    /// such straight fits into the maze.
     #[must_use]
     pub fn straight_ms(&self, cells: usize) -> Option<u16> {
         self.straights().get(cells).copied()
     }
 
-    /// A diagonal across `cells` cells, from the middle of one edge to that of another; none if no such
-    /// diagonal fits into the maze.
+    /// A diagonal across `cells` cells, from the middle of one edge to that of another; none if no
+    /// such diagonal fits into the maze.
     #[must_use]
     pub fn diagonal_ms(&self, cells: usize) -> Option<u16> {
         self.diagonals().get(cells).copied()
@@ -108,8 +108,8 @@ impl<const N: usize> SpeedRunTimes<N> {
         self.diagonal.as_flattened()
     }
 
-    /// The bucket of the search that a time belongs to. A move always leads to a later one, and by less than
-    /// 2 N.
+    /// The bucket of the search that a time belongs to. A move always leads to a later one, and by
+    /// less than 2 N.
     pub(super) const fn bucket(&self, time: u16) -> usize {
         bucket(self.bucket_scale, time)
     }

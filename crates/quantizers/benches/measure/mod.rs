@@ -1,4 +1,5 @@
-//! Criterion's measurement, and the rate by this thread's processor time, so that a busy machine does not blur it.
+//! Criterion's measurement, and the rate by this thread's processor time, so that a busy machine
+//! does not blur it.
 
 use core::time::Duration;
 use std::time::Instant;
@@ -6,8 +7,8 @@ use std::time::Instant;
 use cpu_time::ThreadTime;
 use criterion::Criterion;
 
-/// Lets criterion measure `work` and gives how often it is done a second: the median over samples; none if the
-/// command line left it out.
+/// Lets criterion measure `work` and gives how often it is done a second: the median over samples;
+/// none if the command line left it out.
 pub(crate) fn per_second<R>(
     criterion: &mut Criterion,
     label: &str,

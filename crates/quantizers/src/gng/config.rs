@@ -37,14 +37,16 @@ pub struct GngConfig {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum StepOrder {
-    /// "A growing neural gas network learns topologies" (Fritzke 1995), section 2: age the winner's edges, add to
-    /// its error, move, **then** link the two nearest, drop old edges, **grow, then decay** all errors. The input
-    /// does not move a second unit it has just linked, and a new edge ends the step with age 0.
+    /// "A growing neural gas network learns topologies" (Fritzke 1995), section 2: age the winner's
+    /// edges, add to its error, move, **then** link the two nearest, drop old edges, **grow, then
+    /// decay** all errors. The input does not move a second unit it has just linked, and a new edge
+    /// ends the step with age 0.
     #[default]
     Fritzke,
-    /// "Maze Solving by Learning State Topologies" (Tingle, Ball, Augat), related work, steps 1 to 6: **first** link the
-    /// two nearest with age 0, then age the winner's edges, add to its error, move, drop old edges, **decay all
-    /// errors, then grow**. The second unit moves as a neighbour, and the new edge ends the step with age 1.
+    /// "Maze Solving by Learning State Topologies" (Tingle, Ball, Augat), related work, steps 1 to
+    /// 6: **first** link the two nearest with age 0, then age the winner's edges, add to its error,
+    /// move, drop old edges, **decay all errors, then grow**. The second unit moves as a neighbour,
+    /// and the new edge ends the step with age 1.
     Mslst,
 }
 
@@ -54,17 +56,19 @@ pub enum StepOrder {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// ‖x − w‖² (Fritzke 1995, equation 4): units come where they lower the mean squared error most.
+    /// ‖x − w‖² (Fritzke 1995, equation 4): units come where they lower the mean squared error
+    /// most.
     #[default]
     Squared,
     /// ‖x − w‖ (the GNG of the Python library MDP): less pull towards outliers.
     Absolute,
-    /// ‖x − w‖ / ‖x‖ (Provost's code for SODA): the same ratio counts the same near and far. An input of length 0 that is
-    /// not met exactly counts as 1.
+    /// ‖x − w‖ / ‖x‖ (Provost's code for SODA): the same ratio counts the same near and far. An
+    /// input of length 0 that is not met exactly counts as 1.
     Relative,
 }
 
-/// When an equilibrium GNG may grow. E is the vector of all errors as they are kept, decayed; N is the number of units.
+/// When an equilibrium GNG may grow. E is the vector of all errors as they are kept, decayed; N is
+/// the number of units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -73,26 +77,29 @@ pub enum GrowthGate {
     /// Always, as long as there is room (Fritzke 1995).
     #[default]
     Open,
-    /// mean(E) > threshold (the likely reading of MSLST's "error threshold"). In equilibrium the sum of E is the mean error of an input
-    /// / (1 − d), so growth ends where MSE(N) = N · threshold · (1 − d).
+    /// mean(E) > threshold (the likely reading of MSLST's "error threshold"). In equilibrium the
+    /// sum of E is the mean error of an input / (1 − d), so growth ends where MSE(N) = N ·
+    /// threshold · (1 − d).
     MeanError {
         /// In units of the error: squared units of the features for squared errors. Not negative.
         threshold: f64,
     },
-    /// mean(E) · (1 − d) > threshold (Provost's code for SODA, where 1 − d is called β). Growth ends where
-    /// the mean error of an input is N · threshold, whatever the decay.
+    /// mean(E) · (1 − d) > threshold (Provost's code for SODA, where 1 − d is called β). Growth
+    /// ends where the mean error of an input is N · threshold, whatever the decay.
     Rate {
         /// In units of the error per unit of the network. Not negative.
         threshold: f64,
     },
 }
 
-/// GNG-U, "A self-organizing network that can follow non-stationary distributions" (Fritzke 1997): the utility of a unit is
-/// how much the error of its inputs would be larger without it, summed and decayed as errors are.
+/// GNG-U, "A self-organizing network that can follow non-stationary distributions" (Fritzke 1997):
+/// the utility of a unit is how much the error of its inputs would be larger without it, summed and
+/// decayed as errors are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Utility {
-    /// k: after each input, the unit of least utility U goes if max(E) > k · U. Small values forget quickly. Above 0.
+    /// k: after each input, the unit of least utility U goes if max(E) > k · U. Small values forget
+    /// quickly. Above 0.
     pub threshold: f64,
     /// When units are taken away.
     pub removal: Removal,
@@ -107,13 +114,15 @@ pub enum Removal {
     /// After every input (Fritzke 1997): the number of units follows the stream as well.
     #[default]
     EveryInput,
-    /// When the network could grow but for `max_units`: a unit moves from where it is of least use to where the error is
-    /// largest, as in LBG-U ("The LBG-U method for vector quantization", Fritzke 1997).
+    /// When the network could grow but for `max_units`: a unit moves from where it is of least use
+    /// to where the error is largest, as in LBG-U ("The LBG-U method for vector quantization",
+    /// Fritzke 1997).
     WhenFull,
 }
 
 impl GngConfig {
-    /// The growing neural gas of Fritzke 1995 with the values of its section 4: ε_b 0.2, ε_n 0.006, a_max 50, λ 100, α 0.5, d 0.995.
+    /// The growing neural gas of Fritzke 1995 with the values of its section 4: ε_b 0.2, ε_n 0.006,
+    /// a_max 50, λ 100, α 0.5, d 0.995.
     pub fn fritzke() -> Self {
         Self {
             winner_rate: 0.2,
@@ -130,9 +139,10 @@ impl GngConfig {
         }
     }
 
-    /// The equilibrium GNG of MSLST with an error threshold of its table 1, in squared robot units for scans in robot
-    /// units. The paper gives no rates; these are Fritzke's. His decay d = 0.995 is also the one at which the scans of
-    /// the Large maze at threshold 50 give the paper's 26 units, which it was chosen by (see docs/quantizers.md).
+    /// The equilibrium GNG of MSLST with an error threshold of its table 1, in squared robot units
+    /// for scans in robot units. The paper gives no rates; these are Fritzke's. His decay d = 0.995
+    /// is also the one at which the scans of the Large maze at threshold 50 give the paper's 26
+    /// units, which it was chosen by (see docs/quantizers.md).
     pub fn mslst(threshold: f64) -> Self {
         Self {
             decay: 0.995,
@@ -142,8 +152,8 @@ impl GngConfig {
         }
     }
 
-    /// The equilibrium GNG of Provost's code for SODA: ε_b 0.05, ε_n 0.0006, a_max 100, λ 200, d 1 − 0.0005, relative
-    /// errors, and the rate as the gate.
+    /// The equilibrium GNG of Provost's code for SODA: ε_b 0.05, ε_n 0.0006, a_max 100, λ 200, d 1
+    /// − 0.0005, relative errors, and the rate as the gate.
     pub fn provost(threshold: f64) -> Self {
         Self {
             winner_rate: 0.05,
@@ -157,9 +167,10 @@ impl GngConfig {
         }
     }
 
-    /// For inputs in the order of a robot's way, behind a [`ReplayQuantizer`](crate::ReplayQuantizer): Fritzke's values, but for
-    /// units that move to where they are needed ([`Removal::WhenFull`], k = 4) and errors that remember long enough to tell
-    /// where that is (d = 0.9995). Our own; measured in `docs/quantizers.md`.
+    /// For inputs in the order of a robot's way, behind a
+    /// [`ReplayQuantizer`](crate::ReplayQuantizer): Fritzke's values, but for units that move to
+    /// where they are needed ([`Removal::WhenFull`], k = 4) and errors that remember long enough to
+    /// tell where that is (d = 0.9995). Our own; measured in `docs/quantizers.md`.
     pub fn in_order(max_units: usize) -> Self {
         Self {
             max_units,

@@ -3,14 +3,15 @@
 use crate::QuantizerConfigError;
 use crate::error::within;
 
-/// A common factor of many sums. All decay by one multiplication instead of a sweep, since what is kept of a sum is the
-/// sum divided by the factor.
+/// A common factor of many sums. All decay by one multiplication instead of a sweep, since what is
+/// kept of a sum is the sum divided by the factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Decay {
     factor: f64,
 }
 
-/// Below it the factor is made 1 again: long before numbers lose precision, and so seldom that it costs nothing.
+/// Below it the factor is made 1 again: long before numbers lose precision, and so seldom that it
+/// costs nothing.
 const SMALLEST: f64 = 1.0 / (1_u64 << 63) as f64;
 
 impl Decay {
@@ -41,8 +42,8 @@ impl Decay {
         kept * self.factor
     }
 
-    /// Multiplies all values by `rate`. If the factor has become too small for that, every kept number has to be
-    /// multiplied by the number that comes back.
+    /// Multiplies all values by `rate`. If the factor has become too small for that, every kept
+    /// number has to be multiplied by the number that comes back.
     #[inline]
     #[must_use]
     pub(super) fn decay(&mut self, rate: f64) -> Option<f64> {

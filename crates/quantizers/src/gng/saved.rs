@@ -10,9 +10,11 @@ use crate::{Network, NetworkSnapshot, Scalar, SnapshotError};
 const FORMAT: &str = "tolman-gng";
 const VERSION: u32 = 1;
 
-/// All there is to know of a [`Gng`]. To resume it and go on gives the same bits as never to have stopped.
+/// All there is to know of a [`Gng`]. To resume it and go on gives the same bits as never to have
+/// stopped.
 ///
-/// With the feature `serde`, `Gng` itself is serialized as this, and refuses to be made of what is invalid.
+/// With the feature `serde`, `Gng` itself is serialized as this, and refuses to be made of what is
+/// invalid.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SavedGng<S> {
@@ -26,7 +28,8 @@ pub struct SavedGng<S> {
     pub network: NetworkSnapshot<S>,
     /// The error and the utility of each unit, both to be multiplied by `factor`.
     pub sums: Vec<(f64, f64)>,
-    /// What errors have decayed by since all of them were last brought up to date; above 0, at most 1.
+    /// What errors have decayed by since all of them were last brought up to date; above 0, at most
+    /// 1.
     pub factor: f64,
     /// Inputs learnt.
     pub steps: u64,

@@ -2,14 +2,14 @@
 
 use super::tree::MOST_FEATURES;
 
-/// How many units are compared at once. The results are the same to the bit: lanes do what scalars do, and nothing
-/// is fused.
+/// How many units are compared at once. The results are the same to the bit: lanes do what scalars
+/// do, and nothing is fused.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lanes {
     /// As many as every processor of the target has lanes for.
     Baseline,
-    /// As many as this processor has lanes for, found out at run time. Without the feature `std` that cannot be found
-    /// out, and it is the same as [`Lanes::Baseline`].
+    /// As many as this processor has lanes for, found out at run time. Without the feature `std`
+    /// that cannot be found out, and it is the same as [`Lanes::Baseline`].
     #[default]
     Widest,
 }

@@ -12,8 +12,9 @@ struct Half {
 
 /// Symmetric adjacency of slots.
 ///
-/// A step of a neural gas ages all edges of the winner by one. So the age of an edge is how often its ends
-/// have won since it was renewed, and counting the wins of units is all there is to ageing.
+/// A step of a neural gas ages all edges of the winner by one. So the age of an edge is how often
+/// its ends have won since it was renewed, and counting the wins of units is all there is to
+/// ageing.
 #[derive(Clone, Debug)]
 pub(crate) struct Links {
     /// Places for neighbours a slot has in `halves`; grows with the largest degree.
@@ -154,8 +155,8 @@ impl Links {
         place.is_some()
     }
 
-    /// Gives slots new numbers: `new[slot]` is at most `slot`, ascending, and `u32::MAX` for slots without
-    /// edges that go.
+    /// Gives slots new numbers: `new[slot]` is at most `slot`, ascending, and `u32::MAX` for slots
+    /// without edges that go.
     pub(crate) fn renumber(&mut self, new: &[u32]) {
         let mut len = 0;
         for (slot, to) in new.iter().enumerate() {

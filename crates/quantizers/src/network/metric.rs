@@ -129,7 +129,8 @@ impl<S: Scalar> Metric<S> {
     }
 }
 
-/// Two values within ± limit are at most 2 limits apart; prototypes may miss the limit by a rounding, so 4.
+/// Two values within ± limit are at most 2 limits apart; prototypes may miss the limit by a
+/// rounding, so 4.
 fn limit<S: Scalar>(total_weight: f64) -> S {
     S::from_f64(libm::sqrt(S::MAX_SQUARED_DISTANCE / total_weight) / 4.0)
 }

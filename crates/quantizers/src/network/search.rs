@@ -72,8 +72,8 @@ impl<S: Scalar> Best<S> {
     }
 }
 
-/// One term of a squared distance. Everything that computes distances does it by these, feature after
-/// feature, so that all agree to the bit.
+/// One term of a squared distance. Everything that computes distances does it by these, feature
+/// after feature, so that all agree to the bit.
 pub(crate) trait Terms<S>: Copy {
     /// What feature `feature` adds if it differs by `difference`; none if it is not compared.
     fn square(self, feature: usize, difference: S) -> S;

@@ -48,7 +48,8 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// The network that the snapshot is a copy of; slots are units in order. Nobody listens to its events.
+    /// The network that the snapshot is a copy of; slots are units in order. Nobody listens to its
+    /// events.
     pub(crate) fn from_snapshot(snapshot: &NetworkSnapshot<S>) -> Result<Self, SnapshotError> {
         let mut network = match &snapshot.weights {
             Some(weights) => {

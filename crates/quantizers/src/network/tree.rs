@@ -1,10 +1,11 @@
 //! Which units are nearest where there are few features and many units: an exact index.
 //!
-//! A k-d tree whose leaves hold up to 16 units each, side by side, so that a leaf is compared as fast as a block of
-//! [`Prototypes`]. It answers what a scan of all units answers, to the bit: it
-//! leaves a subtree out only if every unit in it is farther than the second nearest so far **as computed**. That can be told,
-//! since rounding keeps order: where |x − p| ≥ |x − s| in a feature, the same holds for their rounded differences,
-//! squares and sums, as long as both are summed in the same order.
+//! A k-d tree whose leaves hold up to 16 units each, side by side, so that a leaf is compared as
+//! fast as a block of [`Prototypes`]. It answers what a scan of all units answers, to the bit: it
+//! leaves a subtree out only if every unit in it is farther than the second nearest so far **as
+//! computed**. That can be told, since rounding keeps order: where |x − p| ≥ |x − s| in a feature,
+//! the same holds for their rounded differences, squares and sums, as long as both are summed in
+//! the same order.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -13,18 +14,20 @@ use super::prototypes::{LANES, Prototypes};
 use super::search::{Best, Candidate, Terms};
 use crate::Scalar;
 
-/// With more features than that, a search visits so many leaves that it might as well visit all units.
+/// With more features than that, a search visits so many leaves that it might as well visit all
+/// units.
 pub(crate) const MOST_FEATURES: usize = 4;
 
-/// How many inner nodes may stand on a path to a leaf of a tree of so many units: twice what a balanced one has, and two.
+/// How many inner nodes may stand on a path to a leaf of a tree of so many units: twice what a
+/// balanced one has, and two.
 fn steepest(units: usize) -> u32 {
     2 * (units / (LANES / 2)).max(1).ilog2() + 2
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Node<S> {
-    /// Units below the split in this feature are in the first child, units above it in the second, units on it in
-    /// either.
+    /// Units below the split in this feature are in the first child, units above it in the second,
+    /// units on it in either.
     Inner {
         feature: u32,
         split: S,
@@ -57,8 +60,8 @@ struct Place {
 
 /// An exact index of up to [`MOST_FEATURES`] features.
 ///
-/// It stays balanced by being built anew when a path has become too long or leaves have become too empty, which takes many
-/// units that came or moved since the last time.
+/// It stays balanced by being built anew when a path has become too long or leaves have become too
+/// empty, which takes many units that came or moved since the last time.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree<S> {
     dimension: usize,
@@ -135,8 +138,9 @@ impl<S: Scalar> Tree<S> {
         }
     }
 
-    /// Divides an empty leaf's region by the feature that spreads its units most, at their median, and enters them.
-    /// Equal values are ordered by slot, so that the division does not depend on the order before.
+    /// Divides an empty leaf's region by the feature that spreads its units most, at their median,
+    /// and enters them. Equal values are ordered by slot, so that the division does not depend on
+    /// the order before.
     fn divide(&mut self, leaf: u32, slots: &mut [u32], prototypes: &Prototypes<S>) {
         let feature = widest(slots, self.dimension, prototypes);
         let at = |slot: u32| prototypes.at(slot as usize, feature);
@@ -151,7 +155,8 @@ impl<S: Scalar> Tree<S> {
         self.fill(leaf, below, prototypes);
     }
 
-    /// Divides an empty leaf's region; the leaf keeps the lower part, and the new leaf for the upper part is returned.
+    /// Divides an empty leaf's region; the leaf keeps the lower part, and the new leaf for the
+    /// upper part is returned.
     fn fork(&mut self, lower: u32, feature: usize, split: S) -> u32 {
         let mut below = self.leaves[lower as usize];
         let mut above = below;
@@ -312,7 +317,8 @@ impl<S: Scalar> Tree<S> {
         self.visit(0, input, terms, &mut [S::ZERO; MOST_FEATURES], best);
     }
 
-    /// Offers the units below `node`. `gaps` is how far the node's region is from the input, by feature.
+    /// Offers the units below `node`. `gaps` is how far the node's region is from the input, by
+    /// feature.
     fn visit(
         &self,
         node: u32,

@@ -9,8 +9,8 @@ use crate::error::{AT_LEAST_1, NOT_NEGATIVE, SHARE, within};
 pub struct SoinnConfig {
     /// age_dead: edges older than that go; in inputs won by one of the edge's ends, at least 1.
     pub max_age: u32,
-    /// λ: at every λ-th input a unit may be put where the error is large, then noise is removed; at least 1. A unit has to
-    /// find a neighbour within less than λ inputs.
+    /// λ: at every λ-th input a unit may be put where the error is large, then noise is removed; at
+    /// least 1. A unit has to find a neighbour within less than λ inputs.
     pub period: u32,
     /// Whether units are put where the error is large.
     pub insertion: ErrorInsertion,
@@ -20,10 +20,11 @@ pub struct SoinnConfig {
     pub threshold: SimilarityThreshold,
 }
 
-/// Every λ inputs, a unit half-way between the unit q of largest error and its neighbour f of largest error
-/// ("within-class insertion", Shen and Hasegawa 2006, algorithm 3.1, step 10): r gets a sixth of the errors, a quarter of the wins and of the
-/// remembered radii; q and f keep ⅔ of their errors and ¾ of their wins. It is undone if the mean error E / M has
-/// thereby grown beyond the radius remembered from the insertion before, which a unit that has seen none has at +∞.
+/// Every λ inputs, a unit half-way between the unit q of largest error and its neighbour f of
+/// largest error ("within-class insertion", Shen and Hasegawa 2006, algorithm 3.1, step 10): r gets
+/// a sixth of the errors, a quarter of the wins and of the remembered radii; q and f keep ⅔ of
+/// their errors and ¾ of their wins. It is undone if the mean error E / M has thereby grown beyond
+/// the radius remembered from the insertion before, which a unit that has seen none has at +∞.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -32,28 +33,33 @@ pub enum ErrorInsertion {
     /// Undone if one of q, f, r has a mean error beyond its radius.
     #[default]
     UnlessOneGrew,
-    /// Undone only if all three have: the paper's "∀ i ∈ {q, r, f}" to the letter. Networks become many times as large.
+    /// Undone only if all three have: the paper's "∀ i ∈ {q, r, f}" to the letter. Networks become
+    /// many times as large.
     UnlessAllGrew,
     /// None at all, as in E-SOINN (Furao, Ogura, Hasegawa 2007).
     Off,
 }
 
-/// Which units are taken away every λ inputs, after the insertion. All are judged by the graph as it is before; two units always stay.
+/// Which units are taken away every λ inputs, after the insertion. All are judged by the graph as
+/// it is before; two units always stay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Denoising {
-    /// Units without a neighbour, and those with one that have won less than `c` times the mean of all units (Shen and Hasegawa 2006).
+    /// Units without a neighbour, and those with one that have won less than `c` times the mean of
+    /// all units (Shen and Hasegawa 2006).
     ///
-    /// It holds a newcomer against units that have won since the beginning: the longer a stream, the fewer stay, until the network
-    /// grows no more, and a curve of units that has a hole or an end is never continued.
+    /// It holds a newcomer against units that have won since the beginning: the longer a stream,
+    /// the fewer stay, until the network grows no more, and a curve of units that has a hole or an
+    /// end is never continued.
     FewWins {
         /// c: 0 to 1; the nearer to 1, the noisier the data are.
         c: f64,
     },
-    /// Units without a neighbour, and those with one that have won less than `c` times what a unit wins in the time since it came, which is
-    /// one of as many inputs as there are units. Ours, not the paper's: the same question, asked in proportion to age.
+    /// Units without a neighbour, and those with one that have won less than `c` times what a unit
+    /// wins in the time since it came, which is one of as many inputs as there are units. Ours, not
+    /// the paper's: the same question, asked in proportion to age.
     ///
     /// What the stream has left for long is taken away from its loose ends on.
     LowRate {
@@ -70,8 +76,8 @@ pub enum Denoising {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SimilarityThreshold {
-    /// Farther than the unit's farthest neighbour, or if it has none, than the unit nearest to it (Shen and Hasegawa 2006,
-    /// algorithm 3.2): the first layer.
+    /// Farther than the unit's farthest neighbour, or if it has none, than the unit nearest to it
+    /// (Shen and Hasegawa 2006, algorithm 3.2): the first layer.
     #[default]
     Adaptive,
     /// Farther than this distance: the second layer. Not negative.
@@ -90,8 +96,9 @@ impl SoinnConfig {
         }
     }
 
-    /// For noisy data: the paper's λ = 100 and c = 1, but units are judged [by their age](Denoising::LowRate) and age_dead = 20, so that
-    /// edges let go of noise (measured in docs/quantizers.md).
+    /// For noisy data: the paper's λ = 100 and c = 1, but units are judged
+    /// [by their age](Denoising::LowRate) and age_dead = 20, so that edges let go of noise
+    /// (measured in docs/quantizers.md).
     pub fn noisy() -> Self {
         Self {
             max_age: 20,
@@ -100,8 +107,9 @@ impl SoinnConfig {
         }
     }
 
-    /// The dictionary of "Reasoning on SOINN associative memory" (Kawewong, Honda, Tsuboyama, Hasegawa), section 4: λ = age_dead = 20.
-    /// It does not give c; here 1, the value of the paper it follows.
+    /// The dictionary of "Reasoning on SOINN associative memory" (Kawewong, Honda, Tsuboyama,
+    /// Hasegawa), section 4: λ = age_dead = 20. It does not give c; here 1, the value of the paper
+    /// it follows.
     pub fn cpm() -> Self {
         Self {
             max_age: 20,
@@ -111,8 +119,9 @@ impl SoinnConfig {
     }
 
     /// For inputs without noise, each of which counts also if it comes but once, as in an
-    /// [`AssociativeMemory`](crate::AssociativeMemory) of single lessons: whatever differs from all units is a new unit, nothing is
-    /// removed as noise, nothing put between what was learnt. An input that comes again and again makes two units, then an edge.
+    /// [`AssociativeMemory`](crate::AssociativeMemory) of single lessons: whatever differs from all
+    /// units is a new unit, nothing is removed as noise, nothing put between what was learnt. An
+    /// input that comes again and again makes two units, then an edge.
     pub fn exact() -> Self {
         Self {
             insertion: ErrorInsertion::Off,

@@ -10,9 +10,11 @@ use crate::{Network, NetworkSnapshot, QuantizerConfigError, Scalar, SnapshotErro
 const FORMAT: &str = "tolman-soinn";
 const VERSION: u32 = 1;
 
-/// All there is to know of a [`Soinn`]. To resume it and go on gives the same bits as never to have stopped.
+/// All there is to know of a [`Soinn`]. To resume it and go on gives the same bits as never to have
+/// stopped.
 ///
-/// With the feature `serde`, `Soinn` itself is serialized as this, and refuses to be made of what is invalid.
+/// With the feature `serde`, `Soinn` itself is serialized as this, and refuses to be made of what
+/// is invalid.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SavedSoinn<S> {

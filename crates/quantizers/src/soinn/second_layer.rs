@@ -18,7 +18,8 @@ pub struct SecondLayerConfig {
     pub layer: SoinnConfig,
     /// How the threshold is computed from the first layer.
     pub threshold: SecondThreshold,
-    /// How many inputs it gets: units of the first layer, drawn at random. The paper gives no number.
+    /// How many inputs it gets: units of the first layer, drawn at random. The paper gives no
+    /// number.
     pub inputs: u32,
 }
 
@@ -28,22 +29,27 @@ pub struct SecondLayerConfig {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SecondThreshold {
-    /// The smallest distance between two clusters of the first layer that is at least the mean length of its edges (Shen and Hasegawa
-    /// 2006, algorithm 3.3). If none is that large, the largest there is; if there is but one cluster, its longest edge.
+    /// The smallest distance between two clusters of the first layer that is at least the mean
+    /// length of its edges (Shen and Hasegawa 2006, algorithm 3.3). If none is that large, the
+    /// largest there is; if there is but one cluster, its longest edge.
     ///
-    /// It takes for granted that the first layer has told the clusters apart, which is what a second layer is for: where
-    /// noise joins two of them the smallest distance left is too large, and they stay together.
+    /// It takes for granted that the first layer has told the clusters apart, which is what a
+    /// second layer is for: where noise joins two of them the smallest distance left is too large,
+    /// and they stay together.
     BetweenClusters,
-    /// So many times the mean length of the first layer's edges, which is algorithm 3.3's measure of how far apart units of one cluster
-    /// lie, and does not depend on whether clusters are told apart already.
+    /// So many times the mean length of the first layer's edges, which is algorithm 3.3's measure
+    /// of how far apart units of one cluster lie, and does not depend on whether clusters are told
+    /// apart already.
     WithinClusters {
-        /// Above 1: the second layer has to be coarser than the first. 4 works where clusters are 5 or more edges apart.
+        /// Above 1: the second layer has to be coarser than the first. 4 works where clusters are 5
+        /// or more edges apart.
         factor: f64,
     },
 }
 
 impl SecondLayerConfig {
-    /// Shen and Hasegawa 2006: the parameters of the first layer, algorithm 3.3, and 25,000 inputs, which is ours.
+    /// Shen and Hasegawa 2006: the parameters of the first layer, algorithm 3.3, and 25,000 inputs,
+    /// which is ours.
     pub fn shen_hasegawa() -> Self {
         Self {
             layer: SoinnConfig::shen_hasegawa(),
@@ -52,8 +58,9 @@ impl SecondLayerConfig {
         }
     }
 
-    /// For noisy data: T_c four times the mean length of the first layer's edges; else the paper's, but λ = 500, since its units are few and
-    /// have to find neighbours among as few inputs (measured in docs/quantizers.md).
+    /// For noisy data: T_c four times the mean length of the first layer's edges; else the paper's,
+    /// but λ = 500, since its units are few and have to find neighbours among as few inputs
+    /// (measured in docs/quantizers.md).
     pub fn noisy() -> Self {
         Self {
             layer: SoinnConfig {

@@ -27,7 +27,8 @@ fn equilibrium(config: GngConfig, dimension: usize, seed: u64) -> (f64, f64) {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
 
-    /// MSE(N) = N · threshold · (1 − d): with the last unit the law holds, with one fewer it would not have.
+    /// MSE(N) = N · threshold · (1 − d): with the last unit the law holds, with one fewer it would
+    /// not have.
     #[test]
     fn mean_error_ends_growth_where_the_law_says(dimension in 2..4_usize, wanted in 12..50_u32, seed: u64) {
         // A threshold that asks for about so many units of an evenly filled cube.
@@ -38,7 +39,8 @@ proptest! {
         let gate = GrowthGate::MeanError { threshold };
         let (error, n) = equilibrium(GngConfig { gate, decay, ..GngConfig::fritzke() }, dimension, seed);
         let ratio = error / (n * threshold * (1.0 - decay));
-        // The gate sees the errors of some 200 inputs, and these scatter: growth ends a little late.
+        // The gate sees the errors of some 200 inputs, and these scatter: growth ends a little
+        // late.
         prop_assert!((0.5..1.1).contains(&ratio), "{ratio} at {n} units");
     }
 

@@ -16,7 +16,8 @@ const UNITS: usize = 100;
 /// Makes a stream of some length from a seed.
 type Stream = fn(usize, u64) -> Vec<Vec<f64>>;
 
-/// What a robot with 11 range beams sees that drives through two rooms, joined by a door, and turns when it meets a wall.
+/// What a robot with 11 range beams sees that drives through two rooms, joined by a door, and turns
+/// when it meets a wall.
 fn rooms(len: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let is_free = |x: f64, y: f64| {

@@ -81,8 +81,8 @@ impl Order {
         index + if index < 0.0 { self.circle } else { 0.0 }
     }
 
-    /// The chunks of beams between the indices of a wall's ends, first and one past the last; twice,
-    /// for a wall that lies across the seam of the circle.
+    /// The chunks of beams between the indices of a wall's ends, first and one past the last;
+    /// twice, for a wall that lies across the seam of the circle.
     #[inline(always)]
     pub(super) fn between(&self, from: f64, to: f64) -> [(usize, usize); 2] {
         let span = to - from;
@@ -105,8 +105,8 @@ impl Order {
         })
     }
 
-    /// The chunks that hold all beams of a quadrant (0 south-west, then counter-clockwise), and some
-    /// others.
+    /// The chunks that hold all beams of a quadrant (0 south-west, then counter-clockwise), and
+    /// some others.
     #[inline(always)]
     pub(super) fn quadrant(&self, quadrant: u32) -> [(usize, usize); 2] {
         let from = self.index(f64::from(quadrant) * FRAC_PI_2 - PI);
@@ -152,7 +152,8 @@ impl Seen {
         let left = x * self.left.y - y * self.left.x;
         let between = left - right;
         let range = self.area / between;
-        // A beam through both ends meets them nowhere in particular: infinitely far, says the quotient.
+        // A beam through both ends meets them nowhere in particular: infinitely far, says the
+        // quotient.
         let meets = (right <= 0.0) & (left >= 0.0);
         if meets { range } else { f64::INFINITY }
     }
@@ -251,7 +252,8 @@ impl BeamSweep {
         *old = old.min(range);
     }
 
-    /// Lets every beam end where `meets` says for its direction and how far it has got, unless it ends before.
+    /// Lets every beam end where `meets` says for its direction and how far it has got, unless it
+    /// ends before.
     pub fn shorten_each(&mut self, meets: impl Fn(Vector, f64) -> f64) {
         for beam in 0..self.beams() {
             let range = meets(self.direction(beam), self.range(beam));

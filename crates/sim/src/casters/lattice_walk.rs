@@ -8,8 +8,8 @@ use super::{Caster, Kernels, Lanes, WallIndex};
 use crate::World;
 use crate::world::{BitRows, Lattice};
 
-/// Walks each ray from grid line to grid line (Amanatides, Woo: *A fast voxel traversal algorithm for
-/// ray tracing*, 1987) in worlds made from mazes and occupancy grids.
+/// Walks each ray from grid line to grid line (Amanatides, Woo: *A fast voxel traversal algorithm
+/// for ray tracing*, 1987) in worlds made from mazes and occupancy grids.
 ///
 /// Short beams, which cross few lines, do not even walk: all crossings are computed at once, in
 /// lanes over beams. In both ways one comparison per pair of crossings decides which line comes
@@ -30,8 +30,8 @@ pub struct LatticeWalk {
 /// The most lines of one axis that are crossed all at once.
 const MOST: usize = 3;
 
-/// For every edge of the grid, which walls stand on its line: here and on the next three cells in the
-/// low four bits, here and on the last three in the high four.
+/// For every edge of the grid, which walls stand on its line: here and on the next three cells in
+/// the low four bits, here and on the last three in the high four.
 #[derive(Clone, Debug)]
 struct Edges {
     cells: usize,
@@ -55,7 +55,8 @@ impl Edges {
         Self { cells, walls }
     }
 
-    /// The walls from `cell` on, or back, on the line `by` lines beyond that which bounds cell `from`.
+    /// The walls from `cell` on, or back, on the line `by` lines beyond that which bounds cell
+    /// `from`.
     #[inline(always)]
     fn along<const COUNT: usize>(
         &self,

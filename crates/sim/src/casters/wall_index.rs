@@ -8,10 +8,10 @@ use crate::{Bounds, WallSegment};
 
 /// All walls by place: a loose grid on several levels.
 ///
-/// A wall lies in the one cell that holds its middle, on the level whose cells are about half as large
-/// as the wall, so it reaches at most a cell beyond its own. A look at a neighbourhood takes, on each
-/// level, the cells as far around it: no wall is found twice, and long walls cost no more memory than
-/// short ones.
+/// A wall lies in the one cell that holds its middle, on the level whose cells are about half as
+/// large as the wall, so it reaches at most a cell beyond its own. A look at a neighbourhood takes,
+/// on each level, the cells as far around it: no wall is found twice, and long walls cost no more
+/// memory than short ones.
 ///
 /// Built in O(n log n); a look costs as much as it finds plus a few cells on each level.
 #[derive(Clone, Debug)]
@@ -155,7 +155,8 @@ impl WallIndex {
 }
 
 impl Level {
-    /// The level of `walls` that extend no further than `largest`; appends them to `sorted` in order of cells.
+    /// The level of `walls` that extend no further than `largest`; appends them to `sorted` in
+    /// order of cells.
     fn new(mut walls: Vec<WallSegment>, largest: f64, sorted: &mut Vec<WallSegment>) -> Self {
         let cell = 0.5 * largest;
         let middles = Bounds::of(walls.iter().map(middle));
@@ -234,7 +235,8 @@ struct Walls {
 }
 
 impl Caster for WallIndex {
-    /// Looks along the ray piece by piece, so that a long one costs no more than what lies along it.
+    /// Looks along the ray piece by piece, so that a long one costs no more than what lies along
+    /// it.
     fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64 {
         let Some(lowest) = self.levels.first() else {
             return max_range;

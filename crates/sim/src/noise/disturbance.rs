@@ -7,14 +7,14 @@ use crate::Draws;
 
 /// What a crate of your own does to the readings of a sensor, or to what a motor makes.
 ///
-/// A [`Fault`](super::Fault) is named in a configuration; a disturbance is code, and is given to a robot
-/// after it was built, for example with
-/// [`LaserPioneer::with_disturbances`](crate::robots::LaserPioneer::with_disturbances). It comes after the
-/// faults, farthest from the truth.
+/// A [`Fault`](super::Fault) is named in a configuration; a disturbance is code, and is given to a
+/// robot after it was built, for example with
+/// [`LaserPioneer::with_disturbances`](crate::robots::LaserPioneer::with_disturbances). It comes
+/// after the faults, farthest from the truth.
 ///
-/// Runs stay reproducible if it draws all its random numbers from the [`Draws`] it is handed and reads no
-/// clock, file or global state. Each disturbance has a channel of its own, so adding one shifts no numbers of
-/// any other.
+/// Runs stay reproducible if it draws all its random numbers from the [`Draws`] it is handed and
+/// reads no clock, file or global state. Each disturbance has a channel of its own, so adding one
+/// shifts no numbers of any other.
 ///
 /// A reading that comes back broken counts as missing: see [`Values::is_sound`].
 ///
@@ -51,13 +51,15 @@ use crate::Draws;
 /// # Ok::<(), tolman_sim::robots::RobotConfigError>(())
 /// ```
 pub trait Disturbance<V>: CloneDisturbance<V> + Debug + Send + Sync {
-    /// Changes a reading, or takes it away with `None`. Called once for each reading, in the order of time.
+    /// Changes a reading, or takes it away with `None`. Called once for each reading, in the order
+    /// of time.
     ///
     /// `draws` begins anew at every tick. What should outlast a tick belongs into `self`.
     fn disturb(&mut self, value: &mut Option<V>, draws: &mut Draws);
 }
 
-/// Clones a boxed [`Disturbance`]. Every disturbance that is `Clone` has it; there is nothing to implement.
+/// Clones a boxed [`Disturbance`]. Every disturbance that is `Clone` has it; there is nothing to
+/// implement.
 pub trait CloneDisturbance<V> {
     /// Returns a copy in a box of its own.
     fn clone_box(&self) -> Box<dyn Disturbance<V>>;
@@ -78,13 +80,14 @@ impl<V> Clone for Box<dyn Disturbance<V>> {
 /// Disturbances of one value, the one nearest to the truth first.
 pub type Disturbances<V> = Vec<Box<dyn Disturbance<V>>>;
 
-/// Noise drawn from any distribution of [`rand`] or of the crate `rand_distr`, for each number of a reading anew.
+/// Noise drawn from any distribution of [`rand`] or of the crate `rand_distr`, for each number of a
+/// reading anew.
 ///
-/// The bits it draws may differ between platforms and between builds. `rand_distr` takes `exp` and `ln` from
-/// the standard library as soon as any crate of a program switches `num-traits/std` on, and from libm otherwise;
-/// decision 1 of the project has the details. Where runs must repeat to the bit everywhere, use
-/// [`Fault::Gaussian`](super::Fault::Gaussian), which stays the default, or a distribution that needs no such
-/// function, such as [`rand::distr::Uniform`].
+/// The bits it draws may differ between platforms and between builds. `rand_distr` takes `exp` and
+/// `ln` from the standard library as soon as any crate of a program switches `num-traits/std` on,
+/// and from libm otherwise; decision 1 of the project has the details. Where runs must repeat to
+/// the bit everywhere, use [`Fault::Gaussian`](super::Fault::Gaussian), which stays the default, or
+/// a distribution that needs no such function, such as [`rand::distr::Uniform`].
 ///
 /// ```
 /// use rand_distr::Cauchy;

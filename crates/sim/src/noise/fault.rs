@@ -18,11 +18,12 @@ pub enum Fault {
         /// What is added then, in the value's own unit.
         offset: f64,
     },
-    /// An error of which nothing but its bounds is known: `(1 + a) · value + b`, `a` uniform in ± `share` and `b` in
-    /// ± `offset`, drawn anew after every `steps` readings and for all numbers of a reading alike.
+    /// An error of which nothing but its bounds is known: `(1 + a) · value + b`, `a` uniform in ±
+    /// `share` and `b` in ± `offset`, drawn anew after every `steps` readings and for all numbers
+    /// of a reading alike.
     ///
-    /// Unlike those of [`Slip`](Self::Slip), these errors do not average out while they hold: with many steps they are
-    /// a calibration that is wrong all along.
+    /// Unlike those of [`Slip`](Self::Slip), these errors do not average out while they hold: with
+    /// many steps they are a calibration that is wrong all along.
     Bounded {
         /// The largest share gained or lost.
         share: f64,
@@ -31,7 +32,8 @@ pub enum Fault {
         /// For how many readings one draw holds, at least 1.
         steps: u32,
     },
-    /// An error beyond all bounds, now and then: the value times 1 ± `share`, drawn anew after every `steps` readings.
+    /// An error beyond all bounds, now and then: the value times 1 ± `share`, drawn anew after
+    /// every `steps` readings.
     Lapse {
         /// How likely a draw is one, 0 … 1.
         probability: f64,
@@ -244,7 +246,8 @@ impl<V: Values> Past<V> {
         self.drawn
     }
 
-    /// Repeats the reading that a sensor is stuck at, or lets it get stuck at this one for so many readings.
+    /// Repeats the reading that a sensor is stuck at, or lets it get stuck at this one for so many
+    /// readings.
     fn stick(&mut self, value: &mut Option<V>, gets_stuck: bool, steps: u32) {
         if self.steps_left > 0 {
             self.steps_left -= 1;

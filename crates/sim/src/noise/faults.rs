@@ -2,8 +2,8 @@ use super::fault::Past;
 use super::{Disturbance, Disturbances, Fault, Values};
 use crate::{Chance, Channel};
 
-/// Faults of one value, one after the other, each with its memory and its channel; then what comes from
-/// outside.
+/// Faults of one value, one after the other, each with its memory and its channel; then what comes
+/// from outside.
 #[derive(Clone, Debug)]
 pub struct Faults<V> {
     each: Vec<(Fault, Past<V>)>,
@@ -42,7 +42,8 @@ impl<V: Values> Faults<V> {
         &self.outside
     }
 
-    /// Lets all of them happen to `value`. What a disturbance leaves [broken](Values::is_sound) is taken away.
+    /// Lets all of them happen to `value`. What a disturbance leaves [broken](Values::is_sound) is
+    /// taken away.
     pub fn disturb(&mut self, value: &mut Option<V>, chance: &Chance) {
         for (index, (fault, past)) in (0..).zip(&mut self.each) {
             fault.disturb(value, past, &mut chance.draws(self.channel.nth(index)));

@@ -14,14 +14,15 @@ use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 
 /// The e-puck: a disc of 7.4 cm with two wheels and eight infrared proximity sensors.
 ///
-/// Its measures are those of [`tolman_robot::epuck`]; what is told here is what differs from one simulated e-puck to
-/// the next.
+/// Its measures are those of [`tolman_robot::epuck`]; what is told here is what differs from one
+/// simulated e-puck to the next.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EpuckConfig {
     /// How the proximity sensors answer, with their noise.
     pub response: ResponseCurve,
-    /// What happens to how far each wheel rolls over the ground, each wheel by itself; a drop-out rolls nowhere.
+    /// What happens to how far each wheel rolls over the ground, each wheel by itself; a drop-out
+    /// rolls nowhere.
     pub wheels: Vec<Fault>,
     /// What is wrong with the proximity values beyond the noise of the curve.
     #[serde(default)]
@@ -30,8 +31,9 @@ pub struct EpuckConfig {
     pub contact: Contact,
     /// Length of a time step, µs.
     pub step_us: u64,
-    /// How fast a wheel can turn, rad/s. The real robot's limit is [`MOST_WHEEL_SPEED`], with which it turns in place at 4.9 rad/s at most; the 2π rad/s
-    /// of CPM's paper take an idealized robot of 8.2 and more.
+    /// How fast a wheel can turn, rad/s. The real robot's limit is [`MOST_WHEEL_SPEED`], with which
+    /// it turns in place at 4.9 rad/s at most; the 2π rad/s of CPM's paper take an idealized robot
+    /// of 8.2 and more.
     #[serde(default = "real_wheels")]
     pub most_wheel_speed: f64,
 }
@@ -64,8 +66,8 @@ impl EpuckConfig {
     }
 }
 
-/// What a crate of your own does to an e-puck's wheels and sensors; each list happens in order, after the faults. No
-/// part of the configuration, since code cannot be written to a file.
+/// What a crate of your own does to an e-puck's wheels and sensors; each list happens in order,
+/// after the faults. No part of the configuration, since code cannot be written to a file.
 #[derive(Clone, Debug, Default)]
 pub struct EpuckDisturbances {
     /// Of how far the left wheel rolls over the ground, m; a missing one rolls nowhere.
@@ -149,8 +151,8 @@ impl Model for Epuck {
         CommandError::check("right", command.right)
     }
 
-    /// Speeds beyond what the wheels can count as the most they can. The encoders tell what the wheels turned, the
-    /// ground what they rolled.
+    /// Speeds beyond what the wheels can count as the most they can. The encoders tell what the
+    /// wheels turned, the ground what they rolled.
     fn motion(&mut self, command: &WheelSpeeds, chance: &Chance) -> Motion {
         let seconds = self.config.step_us as f64 * 1e-6;
         let most = self.config.most_wheel_speed;

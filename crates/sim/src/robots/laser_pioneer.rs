@@ -28,8 +28,8 @@ pub struct LaserPioneerConfig {
     pub scan_noise: Gaussian,
     /// Noise of the compass, rad.
     pub compass_noise: Gaussian,
-    /// What the encoders count, as a share of the way that a wheel rolled: wrong by a constant. The wheels stand as far apart as the Pioneer
-    /// 2-DX's.
+    /// What the encoders count, as a share of the way that a wheel rolled: wrong by a constant. The
+    /// wheels stand as far apart as the Pioneer 2-DX's.
     #[serde(default, skip_serializing_if = "WheelScale::is_exact")]
     pub wheel_scale: WheelScale,
     /// Noise of the rolled distance, m.
@@ -88,8 +88,8 @@ pub struct StuckBeam {
     pub range: f64,
 }
 
-/// What a crate of your own does to a robot's motors and sensors; each list happens in order, after the faults. No
-/// part of the configuration, since code cannot be written to a file.
+/// What a crate of your own does to a robot's motors and sensors; each list happens in order, after
+/// the faults. No part of the configuration, since code cannot be written to a file.
 #[derive(Clone, Debug, Default)]
 pub struct LaserPioneerDisturbances {
     /// Of the turn the motors make, rad; a missing one is none.

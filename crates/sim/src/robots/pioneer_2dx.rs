@@ -13,10 +13,12 @@ use crate::sensors::{
 use crate::trace::Recordable;
 use crate::{Chance, Channel, CommandError, Contact, Model, Motion, Surroundings};
 
-/// The robot of the place map: a Pioneer 2-DX with sixteen sonars, wheel encoders and a colour camera.
+/// The robot of the place map: a Pioneer 2-DX with sixteen sonars, wheel encoders and a colour
+/// camera.
 ///
-/// Source: A. Goldhoorn, H. Stadman, H. Eldering, "Implementation of a Simultaneous Localization and Mapping system using
-/// Growing Neural Gas", 2006, section 3.1; the vendor's drawings for what the paper leaves out.
+/// Source: A. Goldhoorn, H. Stadman, H. Eldering, "Implementation of a Simultaneous Localization
+/// and Mapping system using Growing Neural Gas", 2006, section 3.1; the vendor's drawings for what
+/// the paper leaves out.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -44,7 +46,8 @@ pub struct Pioneer2dxConfig {
     pub step_us: u64,
 }
 
-/// What the encoder of each wheel counts, as a share of the way that it rolled: 1 for a robot well calibrated.
+/// What the encoder of each wheel counts, as a share of the way that it rolled: 1 for a robot well
+/// calibrated.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WheelScale {
@@ -105,7 +108,8 @@ pub struct Pioneer2dxFaults {
     pub picture: Vec<Fault>,
 }
 
-/// What a crate of your own does to a robot's motors and sensors; each list happens in order, after the faults.
+/// What a crate of your own does to a robot's motors and sensors; each list happens in order, after
+/// the faults.
 #[derive(Clone, Debug, Default)]
 pub struct Pioneer2dxDisturbances {
     /// Of the turn the motors make, rad; a missing one is none.
@@ -123,7 +127,8 @@ pub struct Pioneer2dxDisturbances {
 }
 
 impl Pioneer2dxConfig {
-    /// A robot with perfect motors and sensors in steady light: 0.4 m/s and 115°/s at most, ten time steps a second.
+    /// A robot with perfect motors and sensors in steady light: 0.4 m/s and 115°/s at most, ten
+    /// time steps a second.
     #[must_use]
     pub fn noiseless() -> Self {
         Self {
@@ -140,7 +145,8 @@ impl Pioneer2dxConfig {
         }
     }
 
-    /// The paper's robot, as noisy as it says without values: wheels that slip by 2 % a step, noisy sonars, changing light.
+    /// The paper's robot, as noisy as it says without values: wheels that slip by 2 % a step, noisy
+    /// sonars, changing light.
     #[must_use]
     pub fn paper() -> Self {
         Self {
@@ -254,7 +260,8 @@ impl Pioneer2dx {
         self
     }
 
-    /// What the wheels say of a motion: each counts its way, and distance and turn follow by the nominal track.
+    /// What the wheels say of a motion: each counts its way, and distance and turn follow by the
+    /// nominal track.
     fn rolled(&mut self, motion: Motion, chance: &Chance) -> Option<Odometry> {
         let half_turn = 0.5 * motion.turn * TRACK;
         let scale = self.config.wheel_scale;
@@ -297,7 +304,8 @@ impl Model for Pioneer2dx {
         CommandError::check("translate", command.translate)
     }
 
-    /// Commands beyond −1 … 1 count as full rate. Turn and translation of one step happen together, along an arc.
+    /// Commands beyond −1 … 1 count as full rate. Turn and translation of one step happen together,
+    /// along an arc.
     fn motion(&mut self, command: &TurnTranslate, chance: &Chance) -> Motion {
         let driven = |command: f64, full: f64, faults: &mut Faults<f64>| {
             let mut made = Some(command.clamp(-1.0, 1.0) * full);

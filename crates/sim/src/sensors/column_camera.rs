@@ -7,12 +7,12 @@ use tolman_robot::ColumnImage;
 use super::Sensor;
 use crate::{Chance, Motion, Ray, Surroundings};
 
-/// A camera in the middle of the robot that looks all round: the mean colour of what stands in each column of
-/// its image.
+/// A camera in the middle of the robot that looks all round: the mean colour of what stands in each
+/// column of its image.
 ///
-/// A column sees the colours of walls, shut doors and other robots; where nothing is in reach it is black. Light
-/// comes from everywhere, so that a colour is the same from far and near. Pictures taken in motion would be blurred:
-/// there are none.
+/// A column sees the colours of walls, shut doors and other robots; where nothing is in reach it is
+/// black. Light comes from everywhere, so that a colour is the same from far and near. Pictures
+/// taken in motion would be blurred: there are none.
 #[derive(Clone, Debug)]
 pub struct ColumnCamera {
     columns: u32,

@@ -30,7 +30,8 @@ impl Cone {
         }
     }
 
-    /// Returns what is nearest of all `walls`, if anything lies in the cone: exact, but for rounding. O(walls).
+    /// Returns what is nearest of all `walls`, if anything lies in the cone: exact, but for
+    /// rounding. O(walls).
     ///
     /// Nothing can hide it: what stood before it would be nearer, and in the cone as well.
     pub(super) fn nearest(&self, walls: &[WallSegment]) -> Option<ConeEcho> {
@@ -108,7 +109,8 @@ mod tests {
         heard.map(|way| way.norm()).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether the point that is said to be nearest is on a wall and in the cone: so that nothing is heard that is not there.
+    /// Whether the point that is said to be nearest is on a wall and in the cone: so that nothing
+    /// is heard that is not there.
     fn is_there(mount: Pose, walls: &[WallSegment], echo: ConeEcho) -> bool {
         let count = 4000;
         let bearings =
@@ -123,7 +125,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
-        /// The reading is the oracle's to its spacing; a piece of wall shorter than that may slip through the oracle alone.
+        /// The reading is the oracle's to its spacing; a piece of wall shorter than that may slip
+        /// through the oracle alone.
         #[test]
         fn the_reading_is_that_of_brute_force(
             ends in prop::collection::vec((-3.0..3.0, -3.0..3.0, -3.0..3.0, -3.0..3.0), 1..8),

@@ -5,8 +5,9 @@ use tolman_geom::Pose;
 use super::Sensor;
 use crate::{Chance, Channel, Ray, Surroundings};
 
-/// How an infrared proximity sensor answers to a surface that throws all light back: straight lines between the
-/// points of a data sheet, the nearest first. Nearer and farther than those it reads as at the first and the last.
+/// How an infrared proximity sensor answers to a surface that throws all light back: straight lines
+/// between the points of a data sheet, the nearest first. Nearer and farther than those it reads as
+/// at the first and the last.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(transparent)]
 pub struct ResponseCurve {
@@ -116,7 +117,8 @@ impl ResponseCurve {
         self.points.last().map_or(0.0, |point| point.range)
     }
 
-    /// What is read at a range, m, and its relative standard deviation: the point of the curve there.
+    /// What is read at a range, m, and its relative standard deviation: the point of the curve
+    /// there.
     #[must_use]
     pub fn at(&self, range: f64) -> ResponsePoint {
         let above = self.points.partition_point(|point| point.range < range);
@@ -160,7 +162,8 @@ pub enum ResponseError {
     },
 }
 
-/// Infrared proximity sensors round the body, one ray each. A reading is the raw value of each: larger is nearer.
+/// Infrared proximity sensors round the body, one ray each. A reading is the raw value of each:
+/// larger is nearer.
 #[derive(Clone, Debug)]
 pub struct Infrared<const N: usize> {
     /// In the robot's frame.

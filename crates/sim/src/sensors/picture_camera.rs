@@ -51,7 +51,8 @@ pub struct Backdrop {
 }
 
 impl PictureCameraConfig {
-    /// The Pioneer 2-DX's camera in steady light: pictures of 80 × 60 pixels without noise of a green floor.
+    /// The Pioneer 2-DX's camera in steady light: pictures of 80 × 60 pixels without noise of a
+    /// green floor.
     #[must_use]
     pub const fn noiseless() -> Self {
         Self {
@@ -70,8 +71,8 @@ impl PictureCameraConfig {
         }
     }
 
-    /// The same in daylight from the west, with stains, noise and the 32 levels a colour of a frame grabber of 16 bits a
-    /// pixel. The paper names the noise of the camera and gives no values.
+    /// The same in daylight from the west, with stains, noise and the 32 levels a colour of a frame
+    /// grabber of 16 bits a pixel. The paper names the noise of the camera and gives no values.
     #[must_use]
     pub const fn noisy() -> Self {
         let perfect = Self::noiseless();
@@ -121,10 +122,11 @@ impl PictureCameraConfig {
     }
 }
 
-/// A colour camera that looks ahead: the floor, the walls on it as high as they are, and what stands behind low ones.
+/// A colour camera that looks ahead: the floor, the walls on it as high as they are, and what
+/// stands behind low ones.
 ///
-/// Each column is one vertical plane: the walls along it, the nearest first, hide what lies behind them from their base to their
-/// height. Pictures taken in motion would be blurred: there are none.
+/// Each column is one vertical plane: the walls along it, the nearest first, hide what lies behind
+/// them from their base to their height. Pictures taken in motion would be blurred: there are none.
 ///
 /// # Complexity
 /// Walls within reach times columns, and walls in a column times pixels.
@@ -194,7 +196,8 @@ impl PictureCamera {
     }
 }
 
-/// Noise of one pixel's colours: sums of two bytes, which come as near to a Gaussian as anybody sees in a picture.
+/// Noise of one pixel's colours: sums of two bytes, which come as near to a Gaussian as anybody
+/// sees in a picture.
 fn grain(sd: f64, draws: &mut Draws) -> [f64; 3] {
     if sd <= 0.0 {
         return [0.0; 3];

@@ -28,8 +28,8 @@ pub struct SonarConfig {
     pub cross_talk: CrossTalk,
 }
 
-/// A wall that is hit aslant throws the sound elsewhere: how likely its echo never comes back. The probability grows in
-/// proportion from 0 at `from` to `probability` at `to`, and stays there.
+/// A wall that is hit aslant throws the sound elsewhere: how likely its echo never comes back. The
+/// probability grows in proportion from 0 at `from` to `probability` at `to`, and stays there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Misses {
@@ -47,13 +47,14 @@ pub struct Misses {
 pub struct CrossTalk {
     /// How likely that is of each reading, 0 … 1.
     pub probability: f64,
-    /// How many sonars fire one after the other: those whose numbers differ by a multiple of it fire at once. 0 for all one
-    /// after the other.
+    /// How many sonars fire one after the other: those whose numbers differ by a multiple of it
+    /// fire at once. 0 for all one after the other.
     pub slots: u32,
 }
 
 impl SonarConfig {
-    /// The Pioneer 2-DX's cones of 15° from 0.1 to 5 m, which hear the nearest thing in them to the last digit.
+    /// The Pioneer 2-DX's cones of 15° from 0.1 to 5 m, which hear the nearest thing in them to the
+    /// last digit.
     #[must_use]
     pub const fn noiseless() -> Self {
         Self {
@@ -73,9 +74,9 @@ impl SonarConfig {
         }
     }
 
-    /// The same with noise: 1 % and 5 mm; from 25° on echoes are missed, at 65° two in five; one reading in 200 is that
-    /// of the sonar that fires at the same time at the robot's other end. The paper calls them noisy and gives no
-    /// values (section 3.2).
+    /// The same with noise: 1 % and 5 mm; from 25° on echoes are missed, at 65° two in five; one
+    /// reading in 200 is that of the sonar that fires at the same time at the robot's other end.
+    /// The paper calls them noisy and gives no values (section 3.2).
     #[must_use]
     pub const fn noisy() -> Self {
         Self {
@@ -127,10 +128,11 @@ impl SonarConfig {
     }
 }
 
-/// Sonars round the body. Each hears in a cone and reads the distance of the nearest point of any wall, shut door or other
-/// robot within it: exact geometry, no fan of rays.
+/// Sonars round the body. Each hears in a cone and reads the distance of the nearest point of any
+/// wall, shut door or other robot within it: exact geometry, no fan of rays.
 ///
-/// An echo that is [missed](Misses) reads as nothing met, although something farther might have been heard.
+/// An echo that is [missed](Misses) reads as nothing met, although something farther might have
+/// been heard.
 ///
 /// # Complexity
 /// `N` times the walls within reach.

@@ -74,7 +74,8 @@ pub enum ReplayError {
         /// Why.
         source: Box<dyn core::error::Error + Send + Sync>,
     },
-    /// A robot was disturbed from outside its configuration, and the one built for the replay is disturbed otherwise.
+    /// A robot was disturbed from outside its configuration, and the one built for the replay is
+    /// disturbed otherwise.
     #[error(
         "line 1: robot {robot} ran with disturbances {recorded:?}, the robot built for the replay has {built:?}; \
          a trace holds no code, so build the same robot and give it to `replay_with`"

@@ -8,8 +8,8 @@ use super::{Recordable, ReplayError, TraceLine};
 use crate::World;
 use crate::world::Head;
 
-/// Reads a trace line by line, without simulating anything: what [`replay`](super::replay) compares, and what
-/// shows a run without repeating it.
+/// Reads a trace line by line, without simulating anything: what [`replay`](super::replay)
+/// compares, and what shows a run without repeating it.
 ///
 /// The lines of a tick must be one per robot in order. Memory: one line.
 ///

@@ -3,22 +3,22 @@ use std::io::{self, BufRead};
 use super::{Detail, Reader, Recordable, Recording, ReplayError, StepRecord, TraceLine};
 use crate::{RobotId, Simulation};
 
-/// Simulates a trace again and compares every number of every line; gives the simulation as it stands
-/// at the end.
+/// Simulates a trace again and compares every number of every line; gives the simulation as it
+/// stands at the end.
 ///
 /// # Errors
-/// If the trace cannot be read, a robot was disturbed from outside its configuration, or the first line that
-/// differs.
+/// If the trace cannot be read, a robot was disturbed from outside its configuration, or the first
+/// line that differs.
 pub fn replay<M: Recordable>(trace: impl BufRead) -> Result<Simulation<M>, ReplayError> {
     replay_with(trace, |_, config| M::from_config(config))
 }
 
-/// Replays a trace as [`replay`] does, with robots that `build` makes from their configurations: for robots that
-/// are [disturbed](crate::noise::Disturbance) by code which the trace cannot hold.
+/// Replays a trace as [`replay`] does, with robots that `build` makes from their configurations:
+/// for robots that are [disturbed](crate::noise::Disturbance) by code which the trace cannot hold.
 ///
 /// # Errors
-/// If the trace cannot be read, a robot cannot be built or is not disturbed as the trace says, or the first line
-/// that differs.
+/// If the trace cannot be read, a robot cannot be built or is not disturbed as the trace says, or
+/// the first line that differs.
 pub fn replay_with<M: Recordable, E: core::error::Error + Send + Sync + 'static>(
     trace: impl BufRead,
     build: impl FnMut(RobotId, M::Config) -> Result<M, E>,

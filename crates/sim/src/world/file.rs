@@ -111,8 +111,8 @@ impl World {
         Self::from_file(serde_json::from_str(text)?)
     }
 
-    /// This world as a world file, on one line. Doors are as at the beginning of a run; another caster
-    /// than the built-in one is not written.
+    /// This world as a world file, on one line. Doors are as at the beginning of a run; another
+    /// caster than the built-in one is not written.
     ///
     /// # Errors
     /// None for a world that was built by this crate.

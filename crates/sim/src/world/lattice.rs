@@ -68,8 +68,8 @@ impl Axis {
         }
     }
 
-    /// The distance from `at` in cell `cell` to the line that bounds the cell `by` cells further on, or
-    /// back.
+    /// The distance from `at` in cell `cell` to the line that bounds the cell `by` cells further
+    /// on, or back.
     #[inline(always)]
     pub(crate) fn ahead(&self, cell: usize, back: bool, by: usize, at: f64) -> f64 {
         // Lines before the first, which no walk reaches, are as good as the first.
@@ -269,7 +269,8 @@ impl Lattice {
     }
 }
 
-/// The walls on the lines before and after so many rows of cells: where one side is solid and the other is not.
+/// The walls on the lines before and after so many rows of cells: where one side is solid and the
+/// other is not.
 fn edges(rows: usize, cells: usize, is_solid: impl Fn(Option<usize>, usize) -> bool) -> BitRows {
     let mut walls = BitRows::new(rows + 1, cells);
     for line in 0..=rows {
@@ -281,7 +282,8 @@ fn edges(rows: usize, cells: usize, is_solid: impl Fn(Option<usize>, usize) -> b
     walls
 }
 
-/// The longest runs of consecutive walls on each line: the line, the first cell and one past the last.
+/// The longest runs of consecutive walls on each line: the line, the first cell and one past the
+/// last.
 fn runs(lines: &BitRows) -> Vec<(usize, usize, usize)> {
     let mut runs = Vec::new();
     for line in 0..lines.rows() {

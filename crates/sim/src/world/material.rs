@@ -6,13 +6,15 @@ pub struct Material {
     pub reflectance: f64,
     /// Red, green and blue.
     pub colour: [u8; 3],
-    /// How high above the floor it begins, m: the sill of a window. Files leave out the 0 of most walls.
+    /// How high above the floor it begins, m: the sill of a window. Files leave out the 0 of most
+    /// walls.
     #[serde(skip_serializing_if = "is_nothing")]
     pub base: f64,
     /// How high above the floor it ends, m. Files leave out [`ROOM_HEIGHT`](Self::ROOM_HEIGHT).
     #[serde(skip_serializing_if = "is_as_high_as_a_room")]
     pub height: f64,
-    /// Share of its colour that is light of its own, 0 … 1: a window. Files leave out the 0 of most walls.
+    /// Share of its colour that is light of its own, 0 … 1: a window. Files leave out the 0 of most
+    /// walls.
     #[serde(skip_serializing_if = "is_nothing")]
     pub glow: f64,
 }

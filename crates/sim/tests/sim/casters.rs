@@ -14,9 +14,9 @@ const CLOSE: f64 = 1e-9;
 
 /// What rays may read in a world of walls, by parry2d.
 ///
-/// Where a ray passes the end of a wall closely, a caster may see the end or what lies behind it: no
-/// less than if all walls were a little longer, and no more than if they were a little shorter. That
-/// no ray slips through where walls meet is a test of its own.
+/// Where a ray passes the end of a wall closely, a caster may see the end or what lies behind it:
+/// no less than if all walls were a little longer, and no more than if they were a little shorter.
+/// That no ray slips through where walls meet is a test of its own.
 struct Reference {
     longer: ParryPolyline,
     shorter: ParryPolyline,
@@ -206,7 +206,8 @@ proptest! {
 }
 
 proptest! {
-    /// Two walls that meet on either side of a ray stop it, however exactly it is aimed at the joint.
+    /// Two walls that meet on either side of a ray stop it, however exactly it is aimed at the
+    /// joint.
     #[test]
     fn a_ray_into_a_joint_does_not_leak(
         joint in worlds::point(),

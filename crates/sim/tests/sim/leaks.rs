@@ -1,7 +1,7 @@
 //! Millions of rays through mazes against an exact oracle in integers: none leaks.
 //!
-//! Origins are multiples of 2⁻²⁰ of a cell; directions are taken to 2⁻⁶⁰. On which side of a lattice
-//! point a ray passes is then a comparison of integers below 2⁸⁸.
+//! Origins are multiples of 2⁻²⁰ of a cell; directions are taken to 2⁻⁶⁰. On which side of a
+//! lattice point a ray passes is then a comparison of integers below 2⁸⁸.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -17,8 +17,8 @@ const GRAIN: i128 = 1 << 20;
 /// Directions are taken in multiples of 1 / `FINE`.
 const FINE: f64 = 1_152_921_504_606_846_976.0;
 
-/// How closely a ray may pass a wall's end and read either the end or what lies behind it: 2⁻³⁰ of a
-/// cell, times both units.
+/// How closely a ray may pass a wall's end and read either the end or what lies behind it: 2⁻³⁰ of
+/// a cell, times both units.
 const ASIDE: i128 = 1 << (20 + 60 - 30);
 
 /// A ray in integers: the origin in grains, the direction in multiples of 1 / `FINE`.
@@ -30,8 +30,8 @@ struct Ray {
     dy: i128,
 }
 
-/// The ranges a ray may read, in cells; `f64::INFINITY` if it may meet nothing within 32 lines. One,
-/// unless it passes lattice points closely: then one for each side it may pass them on.
+/// The ranges a ray may read, in cells; `f64::INFINITY` if it may meet nothing within 32 lines.
+/// One, unless it passes lattice points closely: then one for each side it may pass them on.
 fn exact(maze: &Maze, ray: Ray) -> Vec<f64> {
     let (column, row) = (ray.x.div_euclid(GRAIN), ray.y.div_euclid(GRAIN));
     let mut ranges = Vec::new();
@@ -99,8 +99,8 @@ fn maze(side: u16, rng: &mut ChaCha8Rng) -> Maze {
     maze
 }
 
-/// Casts at least `count` rays from random points, every other one exactly towards or past a lattice
-/// point, with every caster; gives how many were cast.
+/// Casts at least `count` rays from random points, every other one exactly towards or past a
+/// lattice point, with every caster; gives how many were cast.
 fn fuzz(count: u64, seed: u64) -> u64 {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut cast = 0;

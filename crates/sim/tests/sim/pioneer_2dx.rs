@@ -55,7 +55,8 @@ fn what_is_on_the_robots_left_is_on_the_left_of_the_picture() {
     assert_eq!(columns, (0..40).collect::<Vec<u32>>());
 }
 
-/// The foot of a wall z ahead is seen at −0.3 / z, its top at (0.4 − 0.3) / z: by hand, rows 51.5 and 22.8 for 1.25 m.
+/// The foot of a wall z ahead is seen at −0.3 / z, its top at (0.4 − 0.3) / z: by hand, rows 51.5
+/// and 22.8 for 1.25 m.
 #[test]
 fn the_foot_and_the_top_of_a_wall_are_at_their_rows() {
     let low = Material::painted(WHITE).standing(0.0, 0.4);
@@ -117,7 +118,8 @@ fn pictures_are_taken_standing_still() {
 fn sonars_read_the_nearest_point_in_their_cones() {
     let solo = robot(room(), Pioneer2dxConfig::noiseless(), facing(Heading::EAST));
     let ranges = solo.sensing().sonars.unwrap();
-    // Straight to the left, and 10° to the left of ahead, where the nearest is 2.5° from straight on.
+    // Straight to the left, and 10° to the left of ahead, where the nearest is 2.5° from straight
+    // on.
     assert!((ranges[0] - (2.0 - 0.136)).abs() < 1e-9);
     let slant = (2.0 - 0.166) / libm::cos(2.5_f64.to_radians());
     assert!((ranges[3] - slant).abs() < 1e-9, "{}", ranges[3]);
@@ -248,7 +250,8 @@ fn windows_glare_over_the_picture() {
     assert!(with[0] > without[0] + 20, "{with:?} {without:?}");
 }
 
-/// Nothing of a run with everything on depends on anything but its seed, and a trace of it comes back.
+/// Nothing of a run with everything on depends on anything but its seed, and a trace of it comes
+/// back.
 #[test]
 fn a_noisy_run_is_replayed_to_the_bit() {
     let mut config = Pioneer2dxConfig::paper();

@@ -1,4 +1,5 @@
-//! A robot in a world with two crates, `tolman-sim` and `tolman-robot`: all else is reached through them.
+//! A robot in a world with two crates, `tolman-sim` and `tolman-robot`: all else is reached through
+//! them.
 
 use tolman_robot::epuck::{EpuckSensing, WheelSpeeds};
 use tolman_robot::geom::nalgebra::Rotation2;

@@ -7,11 +7,11 @@ use tolman_robot::Mapper;
 
 use crate::{Brain, Doing, TimeStep};
 
-/// MSLST's Avoid brain: "wanders randomly (but does not backtrack unless it reaches a dead end, and does
-/// not repeat failed actions)".
+/// MSLST's Avoid brain: "wanders randomly (but does not backtrack unless it reaches a dead end, and
+/// does not repeat failed actions)".
 ///
-/// Failed actions are forgotten as soon as one succeeds. Where all three others have failed the robot
-/// is in a dead end and turns back; where that fails too it forgets and tries again.
+/// Failed actions are forgotten as soon as one succeeds. Where all three others have failed the
+/// robot is in a dead end and turns back; where that fails too it forgets and tries again.
 #[derive(Clone, Debug, Default)]
 pub struct AvoidBrain {
     pub(super) travelling: Option<Direction>,

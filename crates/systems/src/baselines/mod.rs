@@ -1,7 +1,7 @@
 //! Brains without a map: the baselines of MSLST, and Q-learning.
 //!
-//! [`AvoidBrain`] and [`WallFollow`] are the paper's, [`Random`] is the floor. An [`Actor`](crate::Actor) lets them drive; their
-//! map is empty.
+//! [`AvoidBrain`] and [`WallFollow`] are the paper's, [`Random`] is the floor. An
+//! [`Actor`](crate::Actor) lets them drive; their map is empty.
 
 mod avoid;
 pub mod q_learning;

@@ -48,8 +48,9 @@ impl QLearningConfig {
     }
 }
 
-/// A table of values *Q*(state, action), learned action by action, each rewarded with what it cost, until a goal is reached and
-/// the learner is put back to the start. It begins with zeros, which nothing is worth more than, so that it tries everything.
+/// A table of values *Q*(state, action), learned action by action, each rewarded with what it cost,
+/// until a goal is reached and the learner is put back to the start. It begins with zeros, which
+/// nothing is worth more than, so that it tries everything.
 ///
 /// ```
 /// use rand::SeedableRng;
@@ -150,7 +151,8 @@ impl<T: LearningTask> QLearner<T> {
         best as u32
     }
 
-    /// What the way from the start to a goal costs that what is learned leads over, none if it leads to none.
+    /// What the way from the start to a goal costs that what is learned leads over, none if it
+    /// leads to none.
     #[must_use]
     pub fn greedy_cost(&self) -> Option<u32> {
         let (mut at, mut cost) = (self.task.start(), 0);

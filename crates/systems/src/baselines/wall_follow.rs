@@ -12,13 +12,13 @@ use crate::{Brain, Doing, TimeStep};
 
 /// MSLST's Wall-follow brain: "always sticks to the wall on its right".
 ///
-/// Where the laser sees no wall on the right it turns right; else it goes ahead, and where that fails
-/// left, and where that fails back, as seen from the direction it last travelled in. Whatever succeeds is
-/// the new direction; the first one is drawn.
+/// Where the laser sees no wall on the right it turns right; else it goes ahead, and where that
+/// fails left, and where that fails back, as seen from the direction it last travelled in. Whatever
+/// succeeds is the new direction; the first one is drawn.
 ///
-/// The paper does not say that this brain looks at the laser, but its figures do: 2.1 time steps an action
-/// in both mazes is what actions cost that hardly ever fail, while a brain that feels for the wall by
-/// trying to turn into it fails every other action (1.7; see `docs/mslst.md`).
+/// The paper does not say that this brain looks at the laser, but its figures do: 2.1 time steps an
+/// action in both mazes is what actions cost that hardly ever fail, while a brain that feels for
+/// the wall by trying to turn into it fails every other action (1.7; see `docs/mslst.md`).
 #[derive(Clone, Debug)]
 pub struct WallFollow {
     corridor_width: f64,
@@ -28,8 +28,8 @@ pub struct WallFollow {
     view: Option<(Scan, Heading)>,
 }
 
-/// A wall is on the right if any beam within this angle of it is nearer than a corridor is wide: through
-/// an opening that the robot fits through it sees further.
+/// A wall is on the right if any beam within this angle of it is nearer than a corridor is wide:
+/// through an opening that the robot fits through it sees further.
 const WATCHED: f64 = PI / 12.0;
 
 impl WallFollow {
@@ -43,8 +43,8 @@ impl WallFollow {
         }
     }
 
-    /// Whether the laser sees a wall beside the robot in the direction of `heading`. What it cannot see
-    /// it takes for an opening, and tries.
+    /// Whether the laser sees a wall beside the robot in the direction of `heading`. What it cannot
+    /// see it takes for an opening, and tries.
     fn wall_towards(&self, heading: Heading) -> bool {
         let Some((scan, robot)) = &self.view else {
             return false;

@@ -1,9 +1,11 @@
 use tolman_robot::epuck::{EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds, WheelTurns};
 
-/// How far each wheel truly rolls for what its encoder counts, learned from walls that follow two axes.
+/// How far each wheel truly rolls for what its encoder counts, learned from walls that follow two
+/// axes.
 ///
-/// What the encoders say of a turn and what the walls say differ by what each wheel rolls more or less than it counts: a full turn on the
-/// spot tells the sum of both errors, a straight way their difference. A Kalman filter over the heading and both errors (Kalman 1960).
+/// What the encoders say of a turn and what the walls say differ by what each wheel rolls more or
+/// less than it counts: a full turn on the spot tells the sum of both errors, a straight way their
+/// difference. A Kalman filter over the heading and both errors (Kalman 1960).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WheelCalibration {
     /// By which share the left and the right wheel roll more than they count.
@@ -19,10 +21,12 @@ pub(super) struct WheelCalibration {
 /// Standard deviation of a wheel's error before anything is known, as a share.
 const UNKNOWN: f64 = 0.03;
 
-/// Variance of a heading before the walls were first read, rad²: they say it up to a quarter of a turn.
+/// Variance of a heading before the walls were first read, rad²: they say it up to a quarter of a
+/// turn.
 const ANY_HEADING: f64 = 0.2;
 
-/// A heading of a larger variance may be off by an eighth of a turn, rad², where walls tell it no more.
+/// A heading of a larger variance may be off by an eighth of a turn, rad², where walls tell it no
+/// more.
 const LOST: f64 = 0.1;
 
 /// A heading as the walls have it.
@@ -82,7 +86,8 @@ impl WheelCalibration {
         }
     }
 
-    /// Takes in by how much the heading is off by the walls, rad, and returns how much of that to believe.
+    /// Takes in by how much the heading is off by the walls, rad, and returns how much of that to
+    /// believe.
     pub(super) fn read(&mut self, reading: Reading) -> f64 {
         self.predict();
         let Reading { off, deviation } = reading;
@@ -105,7 +110,8 @@ impl WheelCalibration {
         gain[0] * off
     }
 
-    /// It may be off by more than walls can tell: what they say then is taken as it is, and nothing is learned of the wheels.
+    /// It may be off by more than walls can tell: what they say then is taken as it is, and nothing
+    /// is learned of the wheels.
     const fn forget_heading(&mut self) {
         self.covariance[0] = [ANY_HEADING, 0.0, 0.0];
         self.covariance[1][0] = 0.0;
@@ -138,8 +144,8 @@ mod tests {
     use super::*;
     use core::f64::consts::{FRAC_PI_2, TAU};
 
-    /// A robot that turns round once and drives 25 cm, again and again, and reads the walls after each: a turn tells the sum of the
-    /// errors, a way their difference.
+    /// A robot that turns round once and drives 25 cm, again and again, and reads the walls after
+    /// each: a turn tells the sum of the errors, a way their difference.
     fn calibrated(errors: [f64; 2], rounds: u32) -> WheelCalibration {
         let mut calibration = WheelCalibration::UNKNOWN;
         // By how much its heading is more than it believes.

@@ -9,19 +9,22 @@ use tolman_quantizers::{
 use super::robot::CpmRobot;
 use super::walker::{Observation, WalkResult, Walker};
 
-/// C: the common patterns. In the paper "a representative vector of each cluster is a common-pattern CP" (section 4.1); ours
-/// stand for units of SOINN, since with clusters fewer loops are recognized.
+/// C: the common patterns. In the paper "a representative vector of each cluster is a
+/// common-pattern CP" (section 4.1); ours stand for units of SOINN, since with clusters fewer loops
+/// are recognized.
 #[derive(Clone, Debug)]
 pub struct CommonPatterns {
     dictionary: Dictionary,
-    /// What SOINN's units stand for, each with its pattern: what was seen and, half turned, what is seen walking the other way.
+    /// What SOINN's units stand for, each with its pattern: what was seen and, half turned, what is
+    /// seen walking the other way.
     units: Vec<([f64; FEATURES], PatternId)>,
     unit_count: u32,
     cluster_count: u32,
 }
 
-/// The landmark element at a landmark. Start and goal have a common pattern of their own, which no path has; as the farthest from all others
-/// it makes d_max, and so says how alike fragments have to be. The paper gives no value.
+/// The landmark element at a landmark. Start and goal have a common pattern of their own, which no
+/// path has; as the farthest from all others it makes d_max, and so says how alike fragments have
+/// to be. The paper gives no value.
 const LANDMARK: f64 = 100.0;
 
 /// Returns SOINN as in the paper, λ = age_dead = 20; no unit with a neighbour counts as noise.
@@ -39,12 +42,13 @@ pub fn soinn() -> SoinnConfig {
 pub enum Lesson {
     /// Until it has so many observations; the paper's simulated robot had 1000 (section 5).
     Observations(usize),
-    /// So many seconds, and to the end of the fragment that it is on then; the paper's real robot had 5400 (section 7).
+    /// So many seconds, and to the end of the fragment that it is on then; the paper's real robot
+    /// had 5400 (section 7).
     Seconds(f64),
 }
 
-/// Lets a robot wander through a learning maze, at junctions by a branch at random, until its lesson is over
-/// ("the robot can learn the CPs for ca. 1500 s; thereby 1000 steps are taken").
+/// Lets a robot wander through a learning maze, at junctions by a branch at random, until its
+/// lesson is over ("the robot can learn the CPs for ca. 1500 s; thereby 1000 steps are taken").
 ///
 /// # Errors
 /// [`WalkError`](super::WalkError).
@@ -95,7 +99,8 @@ impl CommonPatterns {
             soinn.observe(&observation.feature)?;
         }
         let network = soinn.network();
-        // Each unit's representative: the mean of what is nearest to it, and of the same seen the other way.
+        // Each unit's representative: the mean of what is nearest to it, and of the same seen the
+        // other way.
         let mut means = vec![([0.0; FEATURES], [0.0; FEATURES], 0.0); network.len()];
         let ids: Vec<_> = network.ids().collect();
         for observation in observations {
@@ -132,7 +137,8 @@ impl CommonPatterns {
         })
     }
 
-    /// Those of a robot that has been nowhere yet: of landmarks alone. It [learns](Self::learn_on) the others on its way.
+    /// Those of a robot that has been nowhere yet: of landmarks alone. It [learns](Self::learn_on)
+    /// the others on its way.
     ///
     /// # Errors
     /// As of [`Dictionary::learn`].
@@ -142,8 +148,9 @@ impl CommonPatterns {
         Ok(Self::restored(dictionary, 0, 0))
     }
 
-    /// The patterns of observations, of which those that are farther than `tolerance` from all that are known become patterns themselves:
-    /// "the CPs must be learned incrementally" (section 8). What was written with earlier ones stays as it is.
+    /// The patterns of observations, of which those that are farther than `tolerance` from all that
+    /// are known become patterns themselves: "the CPs must be learned incrementally" (section 8).
+    /// What was written with earlier ones stays as it is.
     ///
     /// # Errors
     /// If an observation or the tolerance is no number, or the tolerance is negative.
@@ -187,7 +194,8 @@ impl CommonPatterns {
         }
     }
 
-    /// The common pattern that stands for a feature: that of the nearest unit ("classified to the corresponded CP").
+    /// The common pattern that stands for a feature: that of the nearest unit ("classified to the
+    /// corresponded CP").
     #[must_use]
     pub fn pattern(&self, feature: &[f64; FEATURES]) -> PatternId {
         let distance = |unit: &[f64; FEATURES]| {

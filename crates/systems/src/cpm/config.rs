@@ -22,8 +22,9 @@ pub struct CpmConfig {
 pub enum Onward {
     /// Goes the shortest known way to a junction that has one. Theorem 1 needs no more.
     ShortestKnownWay,
-    /// "It continues forward until reaching a junction that has some remaining unknown ports", to the letter: by a port taken
-    /// at random, which can go round in circles and breaks the proof of Theorem 1.
+    /// "It continues forward until reaching a junction that has some remaining unknown ports", to
+    /// the letter: by a port taken at random, which can go round in circles and breaks the proof of
+    /// Theorem 1.
     GoOn,
 }
 
@@ -38,8 +39,9 @@ impl CpmConfig {
         }
     }
 
-    /// Returns section 6's, online CPM: [`CpMapperConfig::online`]. Gives up after 1000 fragments, of which the paper says nothing:
-    /// by Theorem 1 a maze of 44 fragments takes at most 990, and in practice one of 500 that many.
+    /// Returns section 6's, online CPM: [`CpMapperConfig::online`]. Gives up after 1000 fragments,
+    /// of which the paper says nothing: by Theorem 1 a maze of 44 fragments takes at most 990, and
+    /// in practice one of 500 that many.
     #[must_use]
     pub const fn online() -> Self {
         Self::with(CpMapperConfig::online())

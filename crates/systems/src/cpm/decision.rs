@@ -8,7 +8,8 @@ pub enum Aim {
     Find(Landmark),
     /// To have been through every port of the map ("the task is to obtain the complete map").
     Explore,
-    /// To be at the start again, trying unknown ports that might make the way between start and goal shorter (section 6).
+    /// To be at the start again, trying unknown ports that might make the way between start and
+    /// goal shorter (section 6).
     WayBack,
     /// To be sure that no way between start and goal is shorter than the shortest of the map; ours.
     Shortest,
@@ -30,7 +31,8 @@ pub struct Leg {
     pub turn: Turn,
     /// The end of the fragment it enters, if that is on the map.
     pub known: Option<End>,
-    /// After so many observations without an end of the fragment, turn round and come back; for ever on if none.
+    /// After so many observations without an end of the fragment, turn round and come back; for
+    /// ever on if none.
     pub give_up_after: Option<u32>,
 }
 

@@ -9,11 +9,12 @@ use super::decision::{Aim, Done, JunctionDecision, Leg};
 
 /// Layer 3: "it makes a decision for the robot, and collects the path-fragment representation".
 ///
-/// Ask it to [`decide`](Self::decide) at each junction, dead end or landmark. Perform the turn, walk to the next one, and tell its
-/// mapper what the walk was like: [`arrive`](CpMapper::arrive), or [`turned_back`](CpMapper::turned_back) where the decision said to give up.
+/// Ask it to [`decide`](Self::decide) at each junction, dead end or landmark. Perform the turn,
+/// walk to the next one, and tell its mapper what the walk was like: [`arrive`](CpMapper::arrive),
+/// or [`turned_back`](CpMapper::turned_back) where the decision said to give up.
 ///
-/// Random numbers and the dictionary belong to the caller. Whatever the robot meets, an exploration ends after at most
-/// [`CpmConfig::most_traversals`] fragments.
+/// Random numbers and the dictionary belong to the caller. Whatever the robot meets, an exploration
+/// ends after at most [`CpmConfig::most_traversals`] fragments.
 #[derive(Clone, Debug)]
 pub struct Explorer {
     config: CpmConfig,
@@ -22,10 +23,11 @@ pub struct Explorer {
 }
 
 impl Explorer {
-    /// Begins at a place that ends fragments, as if the robot had come in by port 0: that of a dead end; else the first opening
-    /// counter-clockwise from straight behind it.
+    /// Begins at a place that ends fragments, as if the robot had come in by port 0: that of a dead
+    /// end; else the first opening counter-clockwise from straight behind it.
     ///
-    /// A robot that stands in mid-fragment drives on to the first such place before, as the paper has it.
+    /// A robot that stands in mid-fragment drives on to the first such place before, as the paper
+    /// has it.
     ///
     /// # Errors
     /// [`CpmError`] if the place has no ports.
@@ -43,8 +45,8 @@ impl Explorer {
         Ok(Self { config, mapper })
     }
 
-    /// What to do here. Asking changes nothing but the generator. O(fragments · log fragments); [`Aim::WayBack`] and
-    /// [`Aim::Shortest`] junctions times that.
+    /// What to do here. Asking changes nothing but the generator. O(fragments · log fragments);
+    /// [`Aim::WayBack`] and [`Aim::Shortest`] junctions times that.
     pub fn decide(&self, aim: Aim, rng: &mut impl Rng) -> JunctionDecision {
         if let Some(done) = self.is_done(aim) {
             return JunctionDecision::Done(done);
@@ -106,7 +108,8 @@ impl Explorer {
         }
         let (_, here) = self.here()?;
         let open: Vec<u32> = here.open_ports().collect();
-        // "1) If the current junction has some remaining unknown ports, it randomly chooses one and moves on."
+        // "1) If the current junction has some remaining unknown ports, it randomly chooses one and
+        // moves on."
         if let Some(number) = choose(&open, rng) {
             return self.leg_to(number, None);
         }
@@ -141,8 +144,9 @@ impl Explorer {
         })
     }
 
-    /// "Before the robot follows the map …, the robot tries to enter another different path-fragment … As long as the new
-    /// path length is less than the old path length, the robot continues moving along the new path."
+    /// "Before the robot follows the map …, the robot tries to enter another different
+    /// path-fragment … As long as the new path length is less than the old path length, the robot
+    /// continues moving along the new path."
     fn way_back(&self, rng: &mut impl Rng) -> Option<Leg> {
         let home = self.mapper.plan(Landmark::Start);
         // "It does not try the new path-fragment because the junction connects to A_s."
@@ -168,11 +172,13 @@ impl Explorer {
         self.leg_to(choose(&helpful, rng)?, Some(room))
     }
 
-    /// How many observations an unknown fragment at a junction has to stay below to shorten the way between start and goal, of
-    /// which the part on this side of it begins at one of them; none if none can. Where no way is known, all may.
+    /// How many observations an unknown fragment at a junction has to stay below to shorten the way
+    /// between start and goal, of which the part on this side of it begins at one of them; none if
+    /// none can. Where no way is known, all may.
     fn room(&self, junction: JunctionId, from: Landmark) -> Option<u32> {
         let is_goal = |id| self.map().has(id, Landmark::Goal);
-        // A start in a corridor may be on the map twice; the first is where the robot will be put again.
+        // A start in a corridor may be on the map twice; the first is where the robot will be put
+        // again.
         let start = self.map().start()?;
         let length = |from: Port, wanted: &dyn Fn(JunctionId) -> bool| {
             let plan = self.map().plan(from, wanted);

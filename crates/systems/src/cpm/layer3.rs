@@ -21,16 +21,19 @@ use super::walker_config::HeadingBy;
 
 /// Layer 3: maps by common patterns, reasons at junctions, plans (section 4, figure 2).
 ///
-/// It has no body: it takes the robot over from its lower layers, a [`Walker`], for one fragment at a time.
+/// It has no body: it takes the robot over from its lower layers, a [`Walker`], for one fragment at
+/// a time.
 #[derive(Clone, Debug)]
 pub struct Layer3 {
     patterns: CommonPatterns,
-    /// How far from all patterns an observation is that becomes one itself; `None` if all were learned before.
+    /// How far from all patterns an observation is that becomes one itself; `None` if all were
+    /// learned before.
     novelty: Option<f64>,
     explorer: Explorer,
 }
 
-/// How far dead reckoning may be off along one fragment, m: a third of a corridor's width, so that neighbouring cells are told apart.
+/// How far dead reckoning may be off along one fragment, m: a third of a corridor's width, so that
+/// neighbouring cells are told apart.
 const POSITION_MARGIN: f64 = 0.08;
 
 /// How far a heading may be off, rad: that of a branch is the middle of a gap between walls.
@@ -72,9 +75,9 @@ pub struct FragmentStep {
 }
 
 impl Layer3 {
-    /// Returns layer 3 of a robot that knows these patterns and decides by `explorer`. `novelty` is how far
-    /// from all patterns an observation is that becomes one itself (section 8, "the CPs must be learned incrementally");
-    /// `None` learns no further ones.
+    /// Returns layer 3 of a robot that knows these patterns and decides by `explorer`. `novelty` is
+    /// how far from all patterns an observation is that becomes one itself (section 8, "the CPs
+    /// must be learned incrementally"); `None` learns no further ones.
     #[must_use]
     pub const fn new(patterns: CommonPatterns, novelty: Option<f64>, explorer: Explorer) -> Self {
         Self {
@@ -84,7 +87,8 @@ impl Layer3 {
         }
     }
 
-    /// Lets a robot look where it is and begin its map there. `patterns` and `novelty` are as of [`new`](Self::new).
+    /// Lets a robot look where it is and begin its map there. `patterns` and `novelty` are as of
+    /// [`new`](Self::new).
     ///
     /// # Errors
     /// [`CpmFailure`](super::CpmFailure).
@@ -117,7 +121,8 @@ impl Layer3 {
         Ok(Self::resume_at(patterns, config, map, at)?)
     }
 
-    /// Returns layer 3 of a robot that has a map, written in these patterns, and stands at a port of it.
+    /// Returns layer 3 of a robot that has a map, written in these patterns, and stands at a port
+    /// of it.
     ///
     /// # Errors
     /// [`CpmError`] if the map has no such port.
@@ -224,7 +229,8 @@ impl Layer3 {
     /// # Errors
     /// [`CpmFailure`](super::CpmFailure).
     pub fn drive<B: CpmRobot>(walker: &mut Walker<B>, leg: &PlanLeg) -> CpmResult<Sighting, B> {
-        // "The length of the fragments is used to estimate how many observation the robot can skip."
+        // "The length of the fragments is used to estimate how many observation the robot can
+        // skip."
         let skip = walker.strides(leg.observations);
         let walk = walker.walk(leg.turn.0 as usize, skip, None)?;
         Ok(walk.sighting.ok_or(WalkError::Lost)?)
@@ -282,7 +288,8 @@ impl Layer3 {
     }
 }
 
-/// Returns where the ways lead from where the robot is; `None` for the paper's, which numbers them and no more.
+/// Returns where the ways lead from where the robot is; `None` for the paper's, which numbers them
+/// and no more.
 fn bearings<B: CpmRobot>(walker: &Walker<B>) -> Option<Bearings> {
     match walker.config().heading {
         HeadingBy::Encoders => None,
@@ -290,7 +297,8 @@ fn bearings<B: CpmRobot>(walker: &Walker<B>) -> Option<Bearings> {
     }
 }
 
-/// Returns what dead reckoning says of the walk from one place to where the robot is now; `None` if it is not trusted, as in the paper.
+/// Returns what dead reckoning says of the walk from one place to where the robot is now; `None` if
+/// it is not trusted, as in the paper.
 fn motion<B: CpmRobot>(
     walker: &Walker<B>,
     from: Pose,
@@ -300,7 +308,8 @@ fn motion<B: CpmRobot>(
     }
     let to = walker.pose();
     let left = walker.departed();
-    // In a bend the robot may look along the way in or the way out: the way it came by says where it came from.
+    // In a bend the robot may look along the way in or the way out: the way it came by says where
+    // it came from.
     let behind = walker.branches().first().copied().unwrap_or(PI);
     let came = to.heading.turned(behind + PI);
     let displacement = PointBox::about((to.position - from.position).into(), POSITION_MARGIN)?;

@@ -8,7 +8,8 @@ use crate::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles { system: "cpm" };
 
-/// A learned map as it lies in a file, with the patterns it is written in: JSON, read back to the bit.
+/// A learned map as it lies in a file, with the patterns it is written in: JSON, read back to the
+/// bit.
 #[derive(Clone, Debug)]
 pub struct MapFile {
     /// Where it was learned, by which robot and from which seed.

@@ -44,8 +44,8 @@ impl Mode {
         }
     }
 
-    /// Returns how far from all patterns an observation is that becomes one on the way; `None` where all
-    /// are learned before.
+    /// Returns how far from all patterns an observation is that becomes one on the way; `None`
+    /// where all are learned before.
     #[must_use]
     pub const fn novelty(self) -> Option<f64> {
         match self {

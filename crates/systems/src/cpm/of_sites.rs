@@ -12,7 +12,8 @@ use super::{
 };
 use crate::places::{OfSites, Site, SiteWay};
 
-/// Tells CPM of the places of a log, at the e-puck's scale: what is around the robot on a way becomes common patterns.
+/// Tells CPM of the places of a log, at the e-puck's scale: what is around the robot on a way
+/// becomes common patterns.
 #[derive(Clone, Debug)]
 pub struct CpmOfSites {
     measures: RingMeasures,

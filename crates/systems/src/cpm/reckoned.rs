@@ -15,7 +15,8 @@ pub(super) struct Reckoned<B> {
     pub(super) driven: f64,
     /// Time steps made.
     pub(super) steps: u32,
-    /// How its wheels roll, with what the robot senses as that has it; `None` where the encoders are trusted as they are.
+    /// How its wheels roll, with what the robot senses as that has it; `None` where the encoders
+    /// are trusted as they are.
     pub(super) calibrated: Option<Calibrated>,
 }
 

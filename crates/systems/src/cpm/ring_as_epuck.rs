@@ -15,9 +15,10 @@ use super::walker_config::{EpuckMeasures, WalkerConfig};
 
 /// A robot with a ring of range beams that looks like an e-puck to CPM, at another scale.
 ///
-/// Its corridors are to it what corridors of 0.25 m are to the e-puck, so all lengths are told in that scale. The
-/// proximity values are made from the ring through the e-puck's response curve; the encoders from odometry.
-/// The ring has to go all round and to reach further than a corridor is wide.
+/// Its corridors are to it what corridors of 0.25 m are to the e-puck, so all lengths are told in
+/// that scale. The proximity values are made from the ring through the e-puck's response curve; the
+/// encoders from odometry. The ring has to go all round and to reach further than a corridor is
+/// wide.
 #[derive(Clone, Debug)]
 pub struct RingAsEpuck<R> {
     robot: R,
@@ -39,7 +40,8 @@ pub struct RingMeasures {
     pub translate_per_step: f64,
     /// Length of its time step, µs.
     pub step_us: u64,
-    /// How near to where it should a turn can be ended, rad: what a smallest turn of the motors misses by.
+    /// How near to where it should a turn can be ended, rad: what a smallest turn of the motors
+    /// misses by.
     pub turn_tolerance: f64,
 }
 
@@ -49,7 +51,8 @@ const EPUCK_WIDTH: f64 = 0.25;
 /// The fastest turn while it drives, rad a time step: so coarse that it still sees a bend end.
 const TURN_A_STEP: f64 = 0.05;
 
-/// Room left between body and wall, in the e-puck's scale, m: where all driving ahead ends, and how much before it slows down.
+/// Room left between body and wall, in the e-puck's scale, m: where all driving ahead ends, and how
+/// much before it slows down.
 const LEAST_ROOM: f64 = 0.01;
 const SLOW_ROOM: f64 = 0.02;
 
@@ -78,8 +81,8 @@ impl RingMeasures {
         self.corridor_width / EPUCK_WIDTH
     }
 
-    /// Returns how the robot drives and observes: as the paper's, but no faster than its time step allows, and no
-    /// nearer to walls than its body.
+    /// Returns how the robot drives and observes: as the paper's, but no faster than its time step
+    /// allows, and no nearer to walls than its body.
     #[must_use]
     pub fn walker_config(&self) -> WalkerConfig {
         let epuck = EpuckMeasures {
@@ -102,8 +105,9 @@ impl RingMeasures {
         self.step_us as f64 * 1e-6
     }
 
-    /// Returns the command that makes the robot go as an e-puck would with these wheel speeds. A motor that would have to
-    /// do more than it can slows the other down, so that the path is the same.
+    /// Returns the command that makes the robot go as an e-puck would with these wheel speeds. A
+    /// motor that would have to do more than it can slows the other down, so that the path is the
+    /// same.
     fn command(&self, speeds: &WheelSpeeds) -> TurnTranslate {
         let rolled = [speeds.left, speeds.right].map(|speed| speed * WHEEL_RADIUS * self.step_s());
         let Twist { linear, angular } = Twist::of_wheels(rolled[0], rolled[1], TRACK);
@@ -126,7 +130,8 @@ impl RingMeasures {
         }
     }
 
-    /// Returns what the e-puck's sensors would read by `curve`; `None` where the ring does not go all round.
+    /// Returns what the e-puck's sensors would read by `curve`; `None` where the ring does not go
+    /// all round.
     fn proximity(&self, scan: &Scan, curve: &RangeCurve) -> Option<[f64; PROXIMITY_SENSORS]> {
         if !goes_round(&scan.ring) || scan.ranges.len() != scan.ring.beams as usize {
             return None;
@@ -146,7 +151,8 @@ fn goes_round(ring: &Ring) -> bool {
     (f64::from(ring.beams) * ring.spacing - TAU).abs() < 1e-6
 }
 
-/// Returns how far the wall is that a full ring has at a bearing, rad, m; `None` where it meets nothing.
+/// Returns how far the wall is that a full ring has at a bearing, rad, m; `None` where it meets
+/// nothing.
 fn range_at(scan: &Scan, bearing: f64) -> Option<f64> {
     let beams = scan.ranges.len();
     let index = (bearing - scan.ring.first_bearing) / scan.ring.spacing;
@@ -173,7 +179,8 @@ where
     /// Returns `robot` as an e-puck.
     ///
     /// # Errors
-    /// [`UnfitRing`] if its scan does not go all round, or reaches no further than a corridor is wide.
+    /// [`UnfitRing`] if its scan does not go all round, or reaches no further than a corridor is
+    /// wide.
     pub fn new(robot: R, measures: RingMeasures) -> Result<Self, UnfitRing> {
         if let Some(Scan { ring, .. }) = robot.sensing().scan()
             && !(goes_round(ring) && ring.max_range > measures.corridor_width)

@@ -26,11 +26,12 @@ use super::whereabouts::Approach;
 
 /// CPM as a system: it learns a map of any maze with any [`CpmRobot`], and goes where it is sent.
 ///
-/// An action is one fragment, from one place to the next. Between two actions it holds no robot; nobody may move
-/// the robot then, or it has to be [told](Self::carried).
+/// An action is one fragment, from one place to the next. Between two actions it holds no robot;
+/// nobody may move the robot then, or it has to be [told](Self::carried).
 ///
 /// - [`Task::Explore`] ends when all ways of the map were walked.
-/// - [`Task::Reach`] drives the shortest known way, skipping observations, and explores where none is known.
+/// - [`Task::Reach`] drives the shortest known way, skipping observations, and explores where none
+///   is known.
 /// - [`Task::Localize`] finds out where on its map the robot is.
 #[derive(Clone, Debug)]
 pub struct Cpm {
@@ -65,7 +66,8 @@ enum Stance {
     AtPlace(Box<RestingWalker>),
 }
 
-/// Places at which a robot that is lost has to know where it is; after them it goes on where it most likely is.
+/// Places at which a robot that is lost has to know where it is; after them it goes on where it
+/// most likely is.
 const MOST_PLACES: u32 = 12;
 
 /// Two places of corridors are not nearer to each other than this, in corridors' widths.
@@ -78,8 +80,8 @@ const MOST_DOUBTFUL: u32 = 50;
 const MOST_MAPS: u32 = 2;
 
 impl Cpm {
-    /// Returns a robot without a map that knows these `patterns` from a learning maze (section 4.1). All random
-    /// numbers follow from `seed`.
+    /// Returns a robot without a map that knows these `patterns` from a learning maze (section
+    /// 4.1). All random numbers follow from `seed`.
     #[must_use]
     pub fn new(
         walker: WalkerConfig,
@@ -103,8 +105,9 @@ impl Cpm {
         }
     }
 
-    /// Returns a robot that has been nowhere: what it observes and finds far from all that it knows becomes a pattern
-    /// (section 8, "the CPs must be learned incrementally"). Dead reckoning takes its headings from the walls.
+    /// Returns a robot that has been nowhere: what it observes and finds far from all that it knows
+    /// becomes a pattern (section 8, "the CPs must be learned incrementally"). Dead reckoning takes
+    /// its headings from the walls.
     ///
     /// # Errors
     /// [`CpmError::Dictionary`], which no configuration causes.
@@ -120,7 +123,8 @@ impl Cpm {
         })
     }
 
-    /// Returns a robot that has a map, written in these `patterns`, and stands somewhere on it. It finds out where first.
+    /// Returns a robot that has a map, written in these `patterns`, and stands somewhere on it. It
+    /// finds out where first.
     ///
     /// # Errors
     /// [`CpmError`] if the map has no place.
@@ -134,8 +138,8 @@ impl Cpm {
         Self::with_maps(walker, patterns, config, vec![map], seed)
     }
 
-    /// Returns a robot that has maps of several mazes, written in these `patterns`, and stands somewhere on one of them. It
-    /// finds out on which and where first.
+    /// Returns a robot that has maps of several mazes, written in these `patterns`, and stands
+    /// somewhere on one of them. It finds out on which and where first.
     ///
     /// # Errors
     /// [`CpmError`] if the first map has no place.
@@ -300,7 +304,8 @@ impl Cpm {
         APART * self.walker.corridor_width
     }
 
-    /// After a walk: counts those in which the map could not be. One whose places grow without end is given up.
+    /// After a walk: counts those in which the map could not be. One whose places grow without end
+    /// is given up.
     fn heed(&mut self) -> Standing {
         let doubt = self.explorer().and_then(|Explorer { mapper, .. }| {
             mapper.map().twice_at(mapper.at().junction, self.apart())
@@ -316,7 +321,8 @@ impl Cpm {
         }
     }
 
-    /// Gives up a map that is not to be believed, and begins another where the robot stands; after some it gives up itself.
+    /// Gives up a map that is not to be believed, and begins another where the robot stands; after
+    /// some it gives up itself.
     fn begin_anew(&mut self, doubt: MapDoubt) -> Standing {
         if self.given_up >= MOST_MAPS || !self.known.is_empty() {
             return Standing::gave_up(format!("its map is doubtful: {doubt}"));

@@ -1,7 +1,7 @@
 use tolman_maps::cpm::{CpMap, MapUpdate, Port, Turn};
 
-/// The walks of a robot, which tell where it has been as its map has it now: a map that is understood anew, or of which two
-/// places become one, has other names for them.
+/// The walks of a robot, which tell where it has been as its map has it now: a map that is
+/// understood anew, or of which two places become one, has other names for them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Trail {
     /// Places that it came to before a map that it has given up.
@@ -50,7 +50,8 @@ impl Trail {
         self.bases.push(Base { at: then, walks });
     }
 
-    /// Returns the places that the robot came to, each as the map has it now. O(walks · log fragments).
+    /// Returns the places that the robot came to, each as the map has it now. O(walks · log
+    /// fragments).
     pub(super) fn places(&self, map: &CpMap) -> Vec<Option<u32>> {
         let mut places = vec![None; self.forgotten];
         let known = |at: Port| map.junction(at.junction).map(|_| at.junction.0);

@@ -14,8 +14,8 @@ use super::reckoned::{Calibrated, Reckoned};
 use super::robot::CpmRobot;
 use super::walker_config::{HeadingBy, WalkerConfig};
 
-/// Walks fragments: what the lower layers do from the moment layer 3 has chosen a way until the next junction, dead end or landmark
-/// wakes it up again (section 4).
+/// Walks fragments: what the lower layers do from the moment layer 3 has chosen a way until the
+/// next junction, dead end or landmark wakes it up again (section 4).
 #[derive(Debug)]
 pub struct Walker<B: CpmRobot> {
     pilot: Pilot<Reckoned<B>>,
@@ -55,7 +55,8 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// Returns what becomes a common pattern of what is round the robot; `None` where not two ways are seen.
+    /// Returns what becomes a common pattern of what is round the robot; `None` where not two ways
+    /// are seen.
     ///
     /// # Errors
     /// If the profile cannot be segmented.
@@ -82,9 +83,11 @@ impl Observation {
 pub struct Walk {
     /// What was seen on the way, or until the robot turned round.
     pub observations: Vec<Observation>,
-    /// Where ways out of the place seemed to lead when it came into sight, as of a place that it was about to enter.
+    /// Where ways out of the place seemed to lead when it came into sight, as of a place that it
+    /// was about to enter.
     pub glimpse: Option<Bearings>,
-    /// What the place is that it led to; `None` where the robot turned round, and is back where it began.
+    /// What the place is that it led to; `None` where the robot turned round, and is back where it
+    /// began.
     pub sighting: Option<Sighting>,
 }
 
@@ -144,7 +147,8 @@ struct Seen {
 /// Where the robot looked on its way, and what it saw, if it saw the path.
 type Track = Vec<(Point, Option<Observation>)>;
 
-/// Where no two ways were seen counts as the nearest place before or behind where they were: left out, it would shift all that follows.
+/// Where no two ways were seen counts as the nearest place before or behind where they were: left
+/// out, it would shift all that follows.
 fn filled(track: &Track) -> Vec<Observation> {
     let seen = |index: usize| track.get(index).and_then(|(_, seen)| seen.clone());
     (0..track.len())
@@ -165,8 +169,8 @@ fn count_from(direction: f64, ways: &mut [f64]) {
     }
 }
 
-/// How far ways are turned out of the robot's axes, rad, where they lead along two axes: what tells in the middle of a crossing, which has no
-/// walls. `None` of fewer than three.
+/// How far ways are turned out of the robot's axes, rad, where they lead along two axes: what tells
+/// in the middle of a crossing, which has no walls. `None` of fewer than three.
 fn askew_of(segments: &Segments) -> Option<f64> {
     let (mut sine, mut cosine, mut count) = (0.0, 0.0, 0.0);
     for way in segments.spaces() {
@@ -177,28 +181,31 @@ fn askew_of(segments: &Segments) -> Option<f64> {
     (count >= 3.0 && agreement > 0.8 * count).then(|| libm::atan2(sine, cosine) / 4.0)
 }
 
-/// Standard deviations of a heading that is read off walls, and off the ways out of a crossing, rad.
+/// Standard deviations of a heading that is read off walls, and off the ways out of a crossing,
+/// rad.
 const BY_WALLS: f64 = 0.02;
 const BY_WAYS: f64 = 0.1;
 
 /// Rounds of looking for a junction's middle.
 const ROUNDS: u32 = 4;
 
-/// How far a junction, dead end or landmark reaches from its middle, in corridors' widths: consecutive sightings of a junction are one, and what
-/// is seen from within it is no part of a fragment.
+/// How far a junction, dead end or landmark reaches from its middle, in corridors' widths:
+/// consecutive sightings of a junction are one, and what is seen from within it is no part of a
+/// fragment.
 const PLACE: f64 = 0.6;
 
 /// Two places are not nearer to each other than this, in corridors' widths.
 const APART: f64 = 0.5;
 
-/// How far on from where it is first seen a landmark has its middle, in corridors' widths; less than half, as before a wall the lower
-/// layers turn in the middle.
+/// How far on from where it is first seen a landmark has its middle, in corridors' widths; less
+/// than half, as before a wall the lower layers turn in the middle.
 const TO_LANDMARK: f64 = 0.4;
 
 /// No way leads back to the place where it began within so many corridors' widths.
 const ROUND: f64 = 2.0;
 
-/// How far from the middle of a place on fragments are written down, in corridors' widths: nearer to it its posts are in the way.
+/// How far from the middle of a place on fragments are written down, in corridors' widths: nearer
+/// to it its posts are in the way.
 const TRIMMED: f64 = 0.8;
 
 /// A junction is seen from there on, in corridors' widths before its middle.
@@ -207,11 +214,12 @@ const IN_SIGHT: f64 = 0.5;
 /// Of so many strides one is kept back for looking: two walks along one fragment differ by less.
 const SPREAD: u32 = 20;
 
-/// A wall that reads more than this on average is nearer than any beside the middle of a corridor: the robot was off its path.
+/// A wall that reads more than this on average is nearer than any beside the middle of a corridor:
+/// the robot was off its path.
 const TOO_NEAR: f64 = 220.0;
 
-/// Before it sets off a robot that has walls to tell by turns round until it knows how far its wheels roll to this standard deviation, as a
-/// share, or has turned round so often.
+/// Before it sets off a robot that has walls to tell by turns round until it knows how far its
+/// wheels roll to this standard deviation, as a share, or has turned round so often.
 const CALIBRATED: f64 = 3e-3;
 const MOST_TURNS: u32 = 12;
 
@@ -231,7 +239,8 @@ impl<B: CpmRobot> Walker<B> {
         Self::wake(body, config, resting)
     }
 
-    /// Goes on with the robot, which has not been moved since the walker was given its [rest](Self::rest).
+    /// Goes on with the robot, which has not been moved since the walker was given its
+    /// [rest](Self::rest).
     pub fn wake(body: B, config: WalkerConfig, resting: RestingWalker) -> Self {
         let calibrated = match config.heading {
             HeadingBy::Encoders => None,
@@ -283,7 +292,8 @@ impl<B: CpmRobot> Walker<B> {
         calibrated.map_or(WheelCalibration::UNKNOWN, |calibrated| calibrated.wheels)
     }
 
-    /// Returns the standard deviation of how far it has driven, as a share; 0 where its encoders are trusted as they are.
+    /// Returns the standard deviation of how far it has driven, as a share; 0 where its encoders
+    /// are trusted as they are.
     pub fn uncertainty(&self) -> f64 {
         let calibrated = &self.pilot.robot().calibrated;
         calibrated.map_or(0.0, |calibrated| calibrated.wheels.uncertainty())
@@ -309,13 +319,15 @@ impl<B: CpmRobot> Walker<B> {
         self.memory.departed
     }
 
-    /// Which of the poses after every step is that in which it had turned into the fragment that it walked last.
+    /// Which of the poses after every step is that in which it had turned into the fragment that it
+    /// walked last.
     pub fn departed_at(&self, path: &[Pose]) -> Option<Pose> {
         let step = self.memory.departed_us / self.config.pilot.step_us;
         path.get(usize::try_from(step).ok()?).copied()
     }
 
-    /// The branches of the place it stands at, rad, relative to its heading: counter-clockwise from the way it came by.
+    /// The branches of the place it stands at, rad, relative to its heading: counter-clockwise from
+    /// the way it came by.
     pub fn branches(&self) -> &[f64] {
         &self.memory.branches
     }
@@ -338,8 +350,8 @@ impl<B: CpmRobot> Walker<B> {
         &self.config
     }
 
-    /// Looks where it is. In mid-fragment it drives on to the first junction, dead end or landmark ("the robot continues moving forward until
-    /// the first junction is found", section 8).
+    /// Looks where it is. In mid-fragment it drives on to the first junction, dead end or landmark
+    /// ("the robot continues moving forward until the first junction is found", section 8).
     ///
     /// # Errors
     /// [`WalkError`].
@@ -348,9 +360,11 @@ impl<B: CpmRobot> Walker<B> {
         walk.sighting.ok_or(WalkError::Lost)
     }
 
-    /// As [`begin`](Self::begin), and tells what it saw on the way, from where it stands on; nothing where it stands at a place.
+    /// As [`begin`](Self::begin), and tells what it saw on the way, from where it stands on;
+    /// nothing where it stands at a place.
     ///
-    /// When the place ahead comes into sight, `choose` is asked what to do. Once turned round, the robot tells what it saw since.
+    /// When the place ahead comes into sight, `choose` is asked what to do. Once turned round, the
+    /// robot tells what it saw since.
     ///
     /// # Errors
     /// [`WalkError`].
@@ -404,8 +418,9 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Leaves by branch `number`, counted counter-clockwise from the port of entry, and follows the path to its end. The first `skip`
-    /// strides are driven without looking. After `give_up_after` observations it turns round and comes back.
+    /// Leaves by branch `number`, counted counter-clockwise from the port of entry, and follows the
+    /// path to its end. The first `skip` strides are driven without looking. After `give_up_after`
+    /// observations it turns round and comes back.
     ///
     /// # Errors
     /// [`WalkError`].
@@ -467,7 +482,8 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// One stride along a fragment, and a look, unless it is one to skip: at what comes into sight, or at the path.
+    /// One stride along a fragment, and a look, unless it is one to skip: at what comes into sight,
+    /// or at the path.
     fn stride(&mut self, course: &mut Course) -> WalkResult<Option<Ahead>, B> {
         if course.strides >= self.config.longest_fragment {
             return Err(WalkError::Endless {
@@ -510,18 +526,20 @@ impl<B: CpmRobot> Walker<B> {
         Ok(None)
     }
 
-    /// Whether a landmark that is seen beyond the place with the same one is that of another place. Ours: the paper's robot has one goal.
+    /// Whether a landmark that is seen beyond the place with the same one is that of another place.
+    /// Ours: the paper's robot has one goal.
     fn tells_neighbours(&self) -> bool {
         self.config.heading == HeadingBy::Walls
     }
 
-    /// Whether the place that a course leads from lies more than so many corridors' widths back, where the robot has driven so far, m.
+    /// Whether the place that a course leads from lies more than so many corridors' widths back,
+    /// where the robot has driven so far, m.
     fn is_beyond(&self, course: &Course, driven: f64, widths: f64) -> bool {
         course.origin.is_none() || driven - course.begun > widths * self.config.corridor_width
     }
 
-    /// Consecutive sightings of a junction are one: a middle at the place that a course leads from is that place's, until the robot has had the
-    /// time to come round.
+    /// Consecutive sightings of a junction are one: a middle at the place that a course leads from
+    /// is that place's, until the robot has had the time to come round.
     fn is_origin(&self, course: &Course, driven: f64, middle: Point) -> bool {
         let width = self.config.corridor_width;
         course.origin.is_some_and(|origin| {
@@ -663,14 +681,16 @@ impl<B: CpmRobot> Walker<B> {
         Bearings::of_directions(&ways).ok()
     }
 
-    /// The ways out of the place where it stands, counted from the one by which it came; none before it has come to one.
+    /// The ways out of the place where it stands, counted from the one by which it came; none
+    /// before it has come to one.
     pub fn bearings(&self) -> Option<Bearings> {
         // Branches are found counter-clockwise.
         Bearings::of_directions(&self.memory.branches).ok()
     }
 
-    /// The direction of the way by which it came to a place, rad, relative to its heading: where it was before it came into it. Behind a bend
-    /// the robot may stand askew in the middle of a junction, so that another branch is nearer to behind it.
+    /// The direction of the way by which it came to a place, rad, relative to its heading: where it
+    /// was before it came into it. Behind a bend the robot may stand askew in the middle of a
+    /// junction, so that another branch is nearer to behind it.
     fn entry(&self, place: Point) -> Option<f64> {
         let width = self.config.corridor_width;
         let mut before = self.memory.trail.iter().rev();
@@ -716,7 +736,8 @@ impl<B: CpmRobot> Walker<B> {
         Ok(())
     }
 
-    /// Takes the drift out of the heading: walls stand at right angles, along the axes in which the robot began.
+    /// Takes the drift out of the heading: walls stand at right angles, along the axes in which the
+    /// robot began.
     fn true_up(&mut self, profile: &Profile, segments: &Segments) {
         if self.config.heading == HeadingBy::Encoders {
             return;
@@ -734,10 +755,12 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// How many strides lead from the middle of a place to within sight of the next where so many observations were written down between.
+    /// How many strides lead from the middle of a place to within sight of the next where so many
+    /// observations were written down between.
     #[must_use]
     pub fn strides(&self, observations: u32) -> u32 {
-        // Between neighbouring places nothing is written down, and how far apart they are is not known.
+        // Between neighbouring places nothing is written down, and how far apart they are is not
+        // known.
         if observations == 0 {
             return 0;
         }

@@ -35,7 +35,8 @@ pub struct WalkerConfig {
     pub stride_s: f64,
     /// What dead reckoning takes headings from.
     pub heading: HeadingBy,
-    /// The end of all patience: so many observations of one fragment, of which the paper says nothing.
+    /// The end of all patience: so many observations of one fragment, of which the paper says
+    /// nothing.
     pub longest_fragment: u32,
 }
 

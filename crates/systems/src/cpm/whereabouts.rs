@@ -5,10 +5,12 @@ use super::walker::Observation;
 /// How a robot goes to the first place that was put down amid a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Approach {
-    /// To the one ahead: it "continues moving forward until the first junction is found" (section 8).
+    /// To the one ahead: it "continues moving forward until the first junction is found" (section
+    /// 8).
     StraightOn,
-    /// To the one ahead; but if it is not sure where it is when that comes into sight, it turns round and goes to the one at the other end.
-    /// Ours: before it enters any place it has seen the whole fragment, and both ends.
+    /// To the one ahead; but if it is not sure where it is when that comes into sight, it turns
+    /// round and goes to the one at the other end. Ours: before it enters any place it has seen the
+    /// whole fragment, and both ends.
     ToAndFro,
 }
 
@@ -22,8 +24,8 @@ pub struct Whereabouts {
     pub has_turned_round: bool,
     /// What it believed at each place it came to: the fragment it came by, and the port behind it.
     pub at_places: Vec<Location>,
-    /// What it believed before each of them, when it first saw it ahead; none if it had observed nothing at all, and so does
-    /// not know.
+    /// What it believed before each of them, when it first saw it ahead; none if it had observed
+    /// nothing at all, and so does not know.
     pub under_way: Vec<Option<Location>>,
     /// What it saw along each fragment it walked whole, from end to end.
     pub walks: Vec<Vec<Observation>>,

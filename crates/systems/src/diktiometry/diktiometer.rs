@@ -20,21 +20,22 @@ use super::{
 /// Each action is one control routine, from a place to the next. Its tasks:
 ///
 /// - **Explore**: the [`Planner`](super::Planner)'s walk, until nothing is left to try at any place
-///   that the map leads to, no two places may be one, and the map does not contradict itself. It gives
-///   up a map that has contradicted itself for 20 moves, or has not been folded for five moves for each
-///   of its places, at most 300; and one during which the robot was carried elsewhere, so that it no
-///   longer sees what it saw where it stopped.
+///   that the map leads to, no two places may be one, and the map does not contradict itself. It
+///   gives up a map that has contradicted itself for 20 moves, or has not been folded for five
+///   moves for each of its places, at most 300; and one during which the robot was carried
+///   elsewhere, so that it no longer sees what it saw where it stopped.
 /// - **Reach** a place: the map's plan, made anew after every routine. It gives up if the map knows
 ///   no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
 ///   robot explores. Landmarks are sensed at places alone, not on the way between two.
-/// - **Localize**: the planner's walk, until one hypothesis is confident and no other. With a map from
-///   before it makes as many moves first as the mapper's `tracks.history`, on which confidence rests.
+/// - **Localize**: the planner's walk, until one hypothesis is confident and no other. With a map
+///   from before it makes as many moves first as the mapper's `tracks.history`, on which confidence
+///   rests.
 ///
-/// A robot that stands amid a corridor at first goes to a place before it maps. After a routine that
-/// broke off, it goes back to the place it left. A map from before is gone on with as if the robot
-/// stood where the map has it. Of a robot that was carried elsewhere, or broke off beside a place, it
-/// may make places twice.
+/// A robot that stands amid a corridor at first goes to a place before it maps. After a routine
+/// that broke off, it goes back to the place it left. A map from before is gone on with as if the
+/// robot stood where the map has it. Of a robot that was carried elsewhere, or broke off beside a
+/// place, it may make places twice.
 ///
 /// `E` is what it tells places apart by; the mapper's percepts have to fit it.
 #[derive(Clone, Debug)]
@@ -194,7 +195,8 @@ impl<E> Mapper for Diktiometer<E> {
     }
 }
 
-/// The bytes that standing places, links and frames take, but for the grids of where the robot has been.
+/// The bytes that standing places, links and frames take, but for the grids of where the robot has
+/// been.
 fn bytes(map: &Diktiometry) -> usize {
     let place = |place: &Place| {
         let histories = place.histories.iter();

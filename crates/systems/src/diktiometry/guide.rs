@@ -33,8 +33,8 @@ pub(super) struct Guide {
 /// The map is asked what speaks against it after every so many moves.
 const CHECKED: u32 = 10;
 
-/// A map that has not been folded for so many moves for each of its places is given up, and for so many at the most: nearly all that fold do
-/// sooner.
+/// A map that has not been folded for so many moves for each of its places is given up, and for so
+/// many at the most: nearly all that fold do sooner.
 const PATIENCE: u32 = 5;
 const MOST_PATIENCE: u32 = 300;
 
@@ -108,8 +108,8 @@ impl Guide {
         self.mapping = Some(RoverMap::of(observer));
     }
 
-    /// Lets `rover` look round if nothing is known of where it stands. From amid a corridor it first
-    /// goes to a place, which the map is not told: back to the last if a routine broke off.
+    /// Lets `rover` look round if nothing is known of where it stands. From amid a corridor it
+    /// first goes to a place, which the map is not told: back to the last if a routine broke off.
     pub(super) fn find_footing<V: Rover>(
         &mut self,
         rover: &mut V,
@@ -147,8 +147,8 @@ impl Guide {
         self.landmarks.insert(landmark, place);
     }
 
-    /// Lets `rover` go in `direction`, and the map take it in, and returns whether it went. A rover that no longer sees what it saw when it
-    /// stopped was carried elsewhere, and does not go.
+    /// Lets `rover` go in `direction`, and the map take it in, and returns whether it went. A rover
+    /// that no longer sees what it saw when it stopped was carried elsewhere, and does not go.
     pub(super) fn go<V: Rover>(
         &mut self,
         rover: &mut V,
@@ -317,8 +317,8 @@ impl Guide {
     }
 }
 
-/// Goes to a place, `back` if that is a way, from where only two ways lead on, in opposite directions.
-/// That is a doorway at best.
+/// Goes to a place, `back` if that is a way, from where only two ways lead on, in opposite
+/// directions. That is a doorway at best.
 fn leave_corridor<V: Rover>(rover: &mut V, back: Option<Direction>) -> Result<(), V::Error> {
     let axis = match rover.look()?.exits {
         [true, false, true, false] => [Direction::North, Direction::South],

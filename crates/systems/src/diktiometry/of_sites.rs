@@ -6,7 +6,8 @@ use tolman_maps::diktiometry::{
 use super::{Diktiometer, DiktiometerConfig, NoEye, RoutineConfig};
 use crate::places::{OfSites, Site, SiteWay};
 
-/// Tells a diktiometry of the places of a log. Its actions are the four ways along the building's axes, counter-clockwise.
+/// Tells a diktiometry of the places of a log. Its actions are the four ways along the building's
+/// axes, counter-clockwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiktiometryOfSites {
     /// The mapper.
@@ -18,7 +19,8 @@ pub struct DiktiometryOfSites {
 }
 
 impl DiktiometryOfSites {
-    /// Returns the values for corridors of offices that are `corridor_width` metres wide, and scans matched to those before.
+    /// Returns the values for corridors of offices that are `corridor_width` metres wide, and scans
+    /// matched to those before.
     #[must_use]
     pub fn indoor(corridor_width: f64) -> Self {
         let mapper = Config {

@@ -46,7 +46,8 @@ pub(super) fn offset(around: Around<'_>, ahead: Heading, gauge: &RoutineConfig) 
 /// both. Of each side it takes the range to its wall and to its far and near corner.
 fn axis(gauge: &RoutineConfig, [plus, minus]: [f64; 2], sides: [(f64, f64, f64); 2]) -> f64 {
     let half = gauge.half();
-    // Where both ends of an axis are open, the corners beside an open side tell; a doorway has none.
+    // Where both ends of an axis are open, the corners beside an open side tell; a doorway has
+    // none.
     let between = |far: f64, near: f64| (far * far - near * near) / (4.0 * half);
     let offset = match (gauge.is_closed(plus), gauge.is_closed(minus)) {
         (true, true) => 0.5 * (minus - plus),

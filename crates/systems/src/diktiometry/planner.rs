@@ -50,8 +50,8 @@ impl Planner {
         self.script.clear();
     }
 
-    /// Returns where to go from a place whose open ways are `exits`, by [`Direction::index`]; `None`
-    /// if no way leads on. Draws two random numbers, whatever comes of them.
+    /// Returns where to go from a place whose open ways are `exits`, by [`Direction::index`];
+    /// `None` if no way leads on. Draws two random numbers, whatever comes of them.
     pub fn choose(
         &mut self,
         observer: &Observer,
@@ -75,7 +75,8 @@ impl Planner {
         }
         match self.script.pop_front() {
             Some(direction) if exits[direction.index()] => Some(PlannedMove { direction, reason }),
-            // The world is not as the script has it: "failure of a mapper goal does not invalidate a plan".
+            // The world is not as the script has it: "failure of a mapper goal does not invalidate
+            // a plan".
             _ => {
                 self.script.clear();
                 let direction = *open.get(chosen)?;

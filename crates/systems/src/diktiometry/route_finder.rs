@@ -63,7 +63,8 @@ impl RouteFinder {
         self.belief.as_ref()
     }
 
-    /// Drives to a place from wherever it was put down, which the belief is not told, and looks round.
+    /// Drives to a place from wherever it was put down, which the belief is not told, and looks
+    /// round.
     pub(super) fn find_footing<V: Rover>(&mut self, rover: &mut V) -> Result<(), V::Error> {
         let mut seen = rover.look()?;
         let mut ways = Vec::from(Direction::ALL);

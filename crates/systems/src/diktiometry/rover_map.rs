@@ -87,8 +87,8 @@ impl RoverMap {
         Ok(())
     }
 
-    /// Lets `rover` look, and returns whether it sees what it saw when it stopped: the same place, if it looks, and the same ways that lead on,
-    /// where none is opened or shut.
+    /// Lets `rover` look, and returns whether it sees what it saw when it stopped: the same place,
+    /// if it looks, and the same ways that lead on, where none is opened or shut.
     pub(super) fn is_where_it_was<R: Rover>(
         &self,
         rover: &mut R,
@@ -155,7 +155,8 @@ pub(super) fn first_place(config: &Config, seen: &Arrival) -> FirstPlace {
     }
 }
 
-/// Returns what the rover saw, if the map wants to know: a robot that does not look sees which ways lead on.
+/// Returns what the rover saw, if the map wants to know: a robot that does not look sees which ways
+/// lead on.
 fn percept(config: &Config, arrival: &Arrival) -> Option<Signature> {
     if config.percepts == Percepts::None {
         return None;

@@ -14,12 +14,12 @@ use super::{Eye, Next, RouteFinder, RoutineConfig, RoutineConfigError, RoutineEr
 ///
 /// Its tasks:
 ///
-/// - **Localize**: it keeps a [`PlaceBelief`] and makes the moves that tell the likeliest places apart,
-///   until one is believed by 90 % or the map tells no more of them apart.
-/// - **Reach** a place or a landmark: it localizes, follows the shortest way on the map, and looks where
-///   it is again when the map did not lead where it came. A way that was not as the map has it is not
-///   planned on again, as long as there are others. It gives up where the landmark is at no place of
-///   the map, or where nothing fits the map for long.
+/// - **Localize**: it keeps a [`PlaceBelief`] and makes the moves that tell the likeliest places
+///   apart, until one is believed by 90 % or the map tells no more of them apart.
+/// - **Reach** a place or a landmark: it localizes, follows the shortest way on the map, and looks
+///   where it is again when the map did not lead where it came. A way that was not as the map has
+///   it is not planned on again, as long as there are others. It gives up where the landmark is at
+///   no place of the map, or where nothing fits the map for long.
 /// - **Explore**: it gives up. A [`Diktiometer`](super::Diktiometer) learns maps.
 ///
 /// `E` is what it tells places apart by; the map's percepts have to fit it.
@@ -43,8 +43,9 @@ pub enum WayfinderError<E: Error + 'static> {
 }
 
 impl<E> Wayfinder<E> {
-    /// Returns a robot that knows the map of `observer`, but not where on it it is. `goal` is the place
-    /// where the landmark [`Goal`](Landmark::Goal) was sensed. `seed` is that of its random walk.
+    /// Returns a robot that knows the map of `observer`, but not where on it it is. `goal` is the
+    /// place where the landmark [`Goal`](Landmark::Goal) was sensed. `seed` is that of its random
+    /// walk.
     #[must_use]
     pub fn new(
         routines: RoutineConfig,
@@ -61,7 +62,8 @@ impl<E> Wayfinder<E> {
         }
     }
 
-    /// Returns what it believes of where it is; `None` before it stands at a place for the first time.
+    /// Returns what it believes of where it is; `None` before it stands at a place for the first
+    /// time.
     #[must_use]
     pub const fn place_belief(&self) -> Option<&PlaceBelief> {
         self.finder.belief()

@@ -25,8 +25,9 @@ pub(super) struct Lane {
     pub(super) apart: f64,
 }
 
-/// Returns the points beside places that can be reached along a lane in which the place has seen nothing, and that lie near no place
-/// and near none of `tried`. In order of places. O(places · (points + places)).
+/// Returns the points beside places that can be reached along a lane in which the place has seen
+/// nothing, and that lie near no place and near none of `tried`. In order of places. O(places ·
+/// (points + places)).
 pub(super) fn frontiers(map: &PlaceGraph, lane: Lane, tried: &[Point]) -> Vec<Target> {
     let places = map.poses().poses();
     let is_far = |point: Point| {
@@ -60,8 +61,8 @@ fn end(sounding: &Sounding) -> Point {
     sounding.mount.transform(Point::new(sounding.range, 0.0))
 }
 
-/// Returns the turns, rad, after which nothing that the range sensors met stands ahead. Those that lead on come alone, if there are any,
-/// and else those that lead back. O(soundings).
+/// Returns the turns, rad, after which nothing that the range sensors met stands ahead. Those that
+/// lead on come alone, if there are any, and else those that lead back. O(soundings).
 pub(super) fn ways_on(sensing: &impl Soundings, lane: Lane) -> Vec<f64> {
     let met = sensing.soundings();
     let met = met.filter(|sounding| sounding.range < 0.999 * sounding.max_range);

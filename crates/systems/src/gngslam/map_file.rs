@@ -8,7 +8,8 @@ use crate::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles { system: "gngslam" };
 
-/// A learned map as it lies in a file: JSON, read back to the bit, but for what was known of the robot in it.
+/// A learned map as it lies in a file: JSON, read back to the bit, but for what was known of the
+/// robot in it.
 #[derive(Clone, Debug)]
 pub struct MapFile {
     /// Where it was learned, by which robot and from which seed.
@@ -19,8 +20,8 @@ pub struct MapFile {
     pub graph: PlaceGraph,
     /// Where landmarks were sensed.
     pub sightings: Vec<LandmarkSighting>,
-    /// Where the robot truly was when each place was made, m, for pictures and for whoever checks the map alone; none if nobody
-    /// watched.
+    /// Where the robot truly was when each place was made, m, for pictures and for whoever checks
+    /// the map alone; none if nobody watched.
     pub sites: Vec<Point>,
 }
 

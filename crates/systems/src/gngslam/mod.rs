@@ -1,14 +1,17 @@
 //! A place map from camera, sonar and odometry.
 //!
-//! Goldhoorn, Stadman, Eldering: "Implementation of a Simultaneous Localization and Mapping system using Growing Neural Gas", 2006.
-//! In the order data flows:
+//! Goldhoorn, Stadman, Eldering: "Implementation of a Simultaneous Localization and Mapping system
+//! using Growing Neural Gas", 2006. In the order data flows:
 //!
-//! 1. A [`Wanderer`] drives any robot that turns and translates and takes snapshots: straight on until something is near, then
-//!    elsewhere by chance (section 3.2). Where a leg ends it takes a [`PlaceRecord`](tolman_maps::place_map::PlaceRecord).
-//! 2. [`OfflineSlam`] lets it, and learns a map of all records at once (section 3.4): the paper's system.
+//! 1. A [`Wanderer`] drives any robot that turns and translates and takes snapshots: straight on
+//!    until something is near, then elsewhere by chance (section 3.2). Where a leg ends it takes a
+//!    [`PlaceRecord`](tolman_maps::place_map::PlaceRecord).
+//! 2. [`OfflineSlam`] lets it, and learns a map of all records at once (section 3.4): the paper's
+//!    system.
 //! 3. A [`PlacePilot`] drives to a node of the map that was learned of them.
-//! 4. [`OnlineSlam`] is what the paper's section 6 asks for: it learns while it drives, and corrects its pose by the places that it
-//!    has learned ([`tolman_maps::place_graph`]). A [`MapFile`] keeps them.
+//! 4. [`OnlineSlam`] is what the paper's section 6 asks for: it learns while it drives, and
+//!    corrects its pose by the places that it has learned ([`tolman_maps::place_graph`]). A
+//!    [`MapFile`] keeps them.
 
 mod frontier;
 mod map_file;

@@ -6,7 +6,8 @@ use tolman_robot::{Mapper, Odometry, Scan, Snapshot, Sounding};
 
 use crate::places::{OfSites, Site, SiteStep, SiteWay};
 
-/// Tells a place graph of the places of a log: what the laser reads at each, and how the robot came there.
+/// Tells a place graph of the places of a log: what the laser reads at each, and how the robot came
+/// there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaceGraphOfSites {
     /// The map.

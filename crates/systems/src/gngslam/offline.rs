@@ -29,7 +29,8 @@ pub struct OfflineSlamConfig {
 }
 
 impl OfflineSlamConfig {
-    /// Returns the paper's values (sections 3.2 and 3.4, set 1 of Table 4.1, the middle of Table 3.1).
+    /// Returns the paper's values (sections 3.2 and 3.4, set 1 of Table 4.1, the middle of Table
+    /// 3.1).
     #[must_use]
     pub fn paper() -> Self {
         Self {
@@ -72,10 +73,12 @@ pub enum OfflineSlamFailure<R> {
     Map(#[from] OfflineSlamError),
 }
 
-/// The paper's system: it wanders until it has its records (section 3.2), and then learns a map of all of them at once (section 3.4).
+/// The paper's system: it wanders until it has its records (section 3.2), and then learns a map of
+/// all of them at once (section 3.4).
 ///
-/// An action of [`Task::Explore`] is a leg and the record of where it ended. Places are told by where the odometry has the robot, so
-/// that one which was lifted cannot find itself; and the paper plans ways on its map but drives none, so that it goes nowhere: see
+/// An action of [`Task::Explore`] is a leg and the record of where it ended. Places are told by
+/// where the odometry has the robot, so that one which was lifted cannot find itself; and the paper
+/// plans ways on its map but drives none, so that it goes nowhere: see
 /// [`PlacePilot`](super::PlacePilot) for that.
 #[derive(Clone, Debug)]
 pub struct OfflineSlam {
@@ -97,7 +100,8 @@ struct Learned {
 const MAP_STREAM: u64 = 1;
 
 impl OfflineSlam {
-    /// Returns a system without a map, whose robot has just been put down. `seed` is that of all chance.
+    /// Returns a system without a map, whose robot has just been put down. `seed` is that of all
+    /// chance.
     #[must_use]
     pub fn new(config: OfflineSlamConfig, seed: u64) -> Self {
         Self {

@@ -32,23 +32,26 @@ pub struct OnlineSlamConfig {
     pub first_looks: u32,
     /// Where it goes to explore.
     pub explore: ExplorationPolicy,
-    /// It has explored all when so many looks in a row have shown no new place, and no place is left from where the floor goes on.
+    /// It has explored all when so many looks in a row have shown no new place, and no place is
+    /// left from where the floor goes on.
     pub quiet_looks: u32,
-    /// The floor goes on where nothing stands in a lane of half this width, m. It is narrower than the robot, since places are seldom in
-    /// the middle of a corridor.
+    /// The floor goes on where nothing stands in a lane of half this width, m. It is narrower than
+    /// the robot, since places are seldom in the middle of a corridor.
     pub lane: f64,
     /// Time steps that it stands still for a snapshot at most, at least 1.
     pub patience: u32,
     /// It has come to a place when it is this near, m.
     pub arrival: f64,
-    /// What its limits are multiplied by where it has driven before, 0 … 1: it gets through there, however near the walls are.
+    /// What its limits are multiplied by where it has driven before, 0 … 1: it gets through there,
+    /// however near the walls are.
     pub give_way: f64,
     /// How it maps.
     pub map: PlaceGraphConfig,
 }
 
 impl OnlineSlamConfig {
-    /// Returns our values for the Pioneer 2-DX: it looks after each 0.4 m and each 30°, and goes on to 0.6 m before a wall.
+    /// Returns our values for the Pioneer 2-DX: it looks after each 0.4 m and each 30°, and goes on
+    /// to 0.6 m before a wall.
     #[must_use]
     pub const fn pioneer_2dx() -> Self {
         let mut drive = UntilNearConfig::paper();
@@ -68,8 +71,9 @@ impl OnlineSlamConfig {
         }
     }
 
-    /// Returns our values for a round robot of this `radius`, m, that looks all round from its middle and drives and turns at these
-    /// fractions of its full rates, 0 … 1: some 0.04 m and 0.2 rad a time step. Which way it looks makes no new place.
+    /// Returns our values for a round robot of this `radius`, m, that looks all round from its
+    /// middle and drives and turns at these fractions of its full rates, 0 … 1: some 0.04 m and 0.2
+    /// rad a time step. Which way it looks makes no new place.
     #[must_use]
     pub const fn all_round(radius: f64, translate: f64, turn: f64) -> Self {
         let mut config = Self::pioneer_2dx();
@@ -91,7 +95,8 @@ impl OnlineSlamConfig {
 pub enum ExplorationPolicy {
     /// Straight on until something is near, and then elsewhere by chance, as in the paper.
     ByChance,
-    /// To the nearest point where the floor goes on beyond the map, as long as there are any; then by chance.
+    /// To the nearest point where the floor goes on beyond the map, as long as there are any; then
+    /// by chance.
     ToTheUnknown,
 }
 
@@ -115,7 +120,8 @@ pub enum OnlineSlamError<R> {
     Robot(#[source] R),
 }
 
-/// Drives any robot that turns, translates and takes snapshots, maps places on the way, and corrects its pose by them.
+/// Drives any robot that turns, translates and takes snapshots, maps places on the way, and
+/// corrects its pose by them.
 ///
 /// An action is a piece of the way or of a turn, and a look at where it has led.
 #[derive(Debug)]
@@ -174,18 +180,20 @@ const BEYOND: f64 = 0.05;
 /// How many time steps it goes away from something that it has touched.
 const STEPS_FREE: u32 = 4;
 
-/// A random turn is at least so large, rad: what is near ahead is near all the same a little beside.
+/// A random turn is at least so large, rad: what is near ahead is near all the same a little
+/// beside.
 const LEAST_TURN: f64 = 0.5;
 
 impl OnlineSlam {
-    /// Returns a system without a map, whose robot has just been put down. `seed` is that of all its turns.
+    /// Returns a system without a map, whose robot has just been put down. `seed` is that of all
+    /// its turns.
     #[must_use]
     pub fn new(config: OnlineSlamConfig, seed: u64) -> Self {
         Self::on(PlaceGraph::new(config.map), config, seed)
     }
 
-    /// Returns a system that knows a map, and goes on with it; for a robot that may stand anywhere, take a map that was
-    /// [put down](PlaceGraph::put_down).
+    /// Returns a system that knows a map, and goes on with it; for a robot that may stand anywhere,
+    /// take a map that was [put down](PlaceGraph::put_down).
     #[must_use]
     pub fn on(map: PlaceGraph, config: OnlineSlamConfig, seed: u64) -> Self {
         Self {
@@ -210,7 +218,8 @@ impl OnlineSlam {
         }
     }
 
-    /// Lets it know where landmarks were sensed on its map. Those beside no place of it are left out.
+    /// Lets it know where landmarks were sensed on its map. Those beside no place of it are left
+    /// out.
     #[must_use]
     pub fn with_sightings(mut self, sightings: Vec<LandmarkSighting>) -> Self {
         let places = self.map.places().len();
@@ -226,8 +235,8 @@ impl OnlineSlam {
         &self.sightings
     }
 
-    /// Returns the places on the shortest way between two places, both included; `None` if there is none, or a place is not there.
-    /// O(links log places).
+    /// Returns the places on the shortest way between two places, both included; `None` if there is
+    /// none, or a place is not there. O(links log places).
     #[must_use]
     pub fn plan(&self, from: u32, to: u32) -> Option<Vec<u32>> {
         let poses = self.map.poses().poses();
@@ -272,7 +281,8 @@ impl OnlineSlam {
         is_quiet && (self.ends_here || self.config.explore == ExplorationPolicy::ByChance)
     }
 
-    /// Goes on a little: round, or straight on until something is near and then elsewhere by chance.
+    /// Goes on a little: round, or straight on until something is near and then elsewhere by
+    /// chance.
     fn wander<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
     where
         R: Robot<Command = TurnTranslate>,
@@ -291,7 +301,8 @@ impl OnlineSlam {
         Ok(())
     }
 
-    /// Returns by how much to turn where something is near, rad: by chance, or into any direction in which nothing is near.
+    /// Returns by how much to turn where something is near, rad: by chance, or into any direction
+    /// in which nothing is near.
     fn turn_elsewhere(&mut self, sensing: &impl Soundings) -> f64 {
         if self.config.explore == ExplorationPolicy::ToTheUnknown {
             let ways = ways_on(sensing, self.lane());
@@ -341,8 +352,8 @@ impl OnlineSlam {
         self.turn_by(robot, piece)
     }
 
-    /// Turns in place by `angle`, rad, counter-clockwise, as far as the wheels tell. Where it touches something it goes free of that
-    /// instead.
+    /// Turns in place by `angle`, rad, counter-clockwise, as far as the wheels tell. Where it
+    /// touches something it goes free of that instead.
     fn turn_by<R>(&mut self, robot: &mut R, angle: f64) -> Result<(), R::Error>
     where
         R: Robot<Command = TurnTranslate>,
@@ -410,8 +421,9 @@ impl OnlineSlam {
         }
     }
 
-    /// It is where it was to sense the goal and does not sense it: it goes where else the goal was sensed, and when it has been
-    /// everywhere it is not where it believes to be, and looks for itself anew.
+    /// It is where it was to sense the goal and does not sense it: it goes where else the goal was
+    /// sensed, and when it has been everywhere it is not where it believes to be, and looks for
+    /// itself anew.
     fn miss(&mut self, goal: Goal, place: u32) {
         self.route = None;
         self.tried.push(place);
@@ -421,7 +433,8 @@ impl OnlineSlam {
         }
     }
 
-    /// Goes a piece of the way to where the floor goes on beyond the map; `false` if there is nothing like that.
+    /// Goes a piece of the way to where the floor goes on beyond the map; `false` if there is
+    /// nothing like that.
     fn go_beyond<R>(&mut self, robot: &mut R, here: Pose) -> Result<bool, R::Error>
     where
         R: Robot<Command = TurnTranslate>,

@@ -22,7 +22,8 @@ pub struct PlacePilotConfig {
 }
 
 impl PlacePilotConfig {
-    /// Returns our values for the Pioneer 2-DX; the paper plans ways on the map and does not drive them.
+    /// Returns our values for the Pioneer 2-DX; the paper plans ways on the map and does not drive
+    /// them.
     #[must_use]
     pub const fn pioneer_2dx() -> Self {
         let mut drive = UntilNearConfig::paper();
@@ -48,11 +49,12 @@ pub enum PlacePilotError<E> {
     Map(#[from] PlaceMapError),
 }
 
-/// Drives a robot to a node of a [`PlaceMap`]: it takes a record, asks the map which node is nearest, plans from there along the links
-/// (section 3.4: "find a path"), and goes towards the next node by its wheels.
+/// Drives a robot to a node of a [`PlaceMap`]: it takes a record, asks the map which node is
+/// nearest, plans from there along the links (section 3.4: "find a path"), and goes towards the
+/// next node by its wheels.
 ///
-/// The robot has to be the one that gathered the records, or to know where it is in the frame of their odometry: nodes lie where
-/// that had them.
+/// The robot has to be the one that gathered the records, or to know where it is in the frame of
+/// their odometry: nodes lie where that had them.
 #[derive(Clone, Debug)]
 pub struct PlacePilot<'a> {
     map: &'a PlaceMap,
@@ -79,8 +81,8 @@ impl<'a> PlacePilot<'a> {
         }
     }
 
-    /// Makes a piece of the way with a robot whose dead reckoning `wanderer` keeps, and returns how it stands: done when its wheels
-    /// have it at the goal.
+    /// Makes a piece of the way with a robot whose dead reckoning `wanderer` keeps, and returns how
+    /// it stands: done when its wheels have it at the goal.
     ///
     /// # Errors
     /// [`PlacePilotError`] if the robot fails or takes no snapshot, or the map is of another robot.
@@ -108,7 +110,8 @@ impl<'a> PlacePilot<'a> {
         if self.is_near(at, self.goal) {
             return Ok(Standing::Done);
         }
-        // On from the last node of the way that it has been near to, so that it does not turn back to the first.
+        // On from the last node of the way that it has been near to, so that it does not turn back
+        // to the first.
         let last = way.iter().rposition(|node| self.passed.contains(node));
         let next = way
             .get(last.map_or(0, |last| last + 1))

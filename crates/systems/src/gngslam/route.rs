@@ -41,7 +41,8 @@ impl Obstacles {
         1.0 + Self::DETOUR * f64::from(times.copied().unwrap_or_default())
     }
 
-    /// The links of a map, each as long as its places lie apart, mm, and longer where something was in the way. O(links).
+    /// The links of a map, each as long as its places lie apart, mm, and longer where something was
+    /// in the way. O(links).
     fn links(&self, map: &PlaceGraph) -> Arcs {
         let poses = map.poses().poses();
         let position = |place: u32| poses.get(place as usize).map(|pose| pose.position);
@@ -54,8 +55,8 @@ impl Obstacles {
         Arcs::new(poses.len(), &links.collect::<Vec<_>>())
     }
 
-    /// Returns the one of `targets` with the shortest way to its place from the place nearest to `here`, the first of several; `None`
-    /// if no way leads to any. O(links log places).
+    /// Returns the one of `targets` with the shortest way to its place from the place nearest to
+    /// `here`, the first of several; `None` if no way leads to any. O(links log places).
     pub(super) fn nearest(
         &self,
         map: &PlaceGraph,
@@ -70,8 +71,8 @@ impl Obstacles {
 }
 
 impl Route {
-    /// Returns the shortest way from the place nearest to `here`, as far as nothing was in the way of it; `None` if none is known.
-    /// O(links log places).
+    /// Returns the shortest way from the place nearest to `here`, as far as nothing was in the way
+    /// of it; `None` if none is known. O(links log places).
     pub(super) fn find(
         map: &PlaceGraph,
         here: Point,
@@ -98,7 +99,8 @@ impl Route {
         self.ahead.iter().skip(1).rev().map(|(place, _)| *place)
     }
 
-    /// Returns the next point to go to, from `here`; `None` at the end. A point is passed within `arrival` m.
+    /// Returns the next point to go to, from `here`; `None` at the end. A point is passed within
+    /// `arrival` m.
     pub(super) fn next(&mut self, here: Point, arrival: f64) -> Option<Point> {
         // Whatever lies behind a point that is near has been passed.
         let near = |(_, point): &(u32, Point)| (point - here).norm() <= arrival;

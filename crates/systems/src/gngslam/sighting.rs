@@ -27,8 +27,9 @@ impl LandmarkSighting {
     }
 }
 
-/// Returns where to go to sense a landmark again: amid all points where it was sensed but those in `tried`, the places that it was
-/// not sensed at when the robot came back. `None` if there are none. O(sightings).
+/// Returns where to go to sense a landmark again: amid all points where it was sensed but those in
+/// `tried`, the places that it was not sensed at when the robot came back. `None` if there are
+/// none. O(sightings).
 pub(super) fn amid(
     sightings: &[LandmarkSighting],
     wanted: Landmark,

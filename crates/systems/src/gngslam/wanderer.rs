@@ -16,21 +16,24 @@ use crate::stream;
 pub struct WandererConfig {
     /// How it drives and turns.
     pub drive: UntilNearConfig,
-    /// How near the wanderer goes: each time, what lies ahead may come as near as a share of the limit that is drawn between this and
+    /// How near the wanderer goes: each time, what lies ahead may come as near as a share of the
+    /// limit that is drawn between this and
     /// 1. Paper: 1, always the limit.
     pub nearest: f64,
     /// A leg that led less far is followed by another one before a record is taken, m. Ours: 0.3.
     pub least_way: f64,
     /// How many legs it tries before it takes a record wherever it is, at least 1. Ours: 12.
     pub most_tries: u32,
-    /// What all thresholds are multiplied by each time that the way is clear in no direction, 0 … 1. Ours: 0.7.
+    /// What all thresholds are multiplied by each time that the way is clear in no direction, 0 …
+    /// 1. Ours: 0.7.
     pub give_way: f64,
     /// Time steps that it stands still for a snapshot at most, at least 1. Ours: 10.
     pub patience: u32,
 }
 
 impl WandererConfig {
-    /// The paper's way of gathering data (section 3.2) on the Pioneer 2-DX; the values that it leaves open are ours.
+    /// The paper's way of gathering data (section 3.2) on the Pioneer 2-DX; the values that it
+    /// leaves open are ours.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -43,8 +46,9 @@ impl WandererConfig {
         }
     }
 
-    /// The same, but for every record it goes up to things as near as chance has it: 0.22 to 1.1 m. So it gets to the edge of the floor,
-    /// where the paper's limits let no robot go but along it. Ours.
+    /// The same, but for every record it goes up to things as near as chance has it: 0.22 to 1.1 m.
+    /// So it gets to the edge of the floor, where the paper's limits let no robot go but along it.
+    /// Ours.
     #[must_use]
     pub const fn near_and_far() -> Self {
         Self {
@@ -53,7 +57,8 @@ impl WandererConfig {
         }
     }
 
-    /// The same on a robot of other rates: fractions of the full speed and of the full turn rate, 0 … 1.
+    /// The same on a robot of other rates: fractions of the full speed and of the full turn rate, 0
+    /// … 1.
     #[must_use]
     pub const fn with_rates(mut self, translate: f64, turn: f64) -> Self {
         self.drive = self.drive.with_rates(translate, turn);
@@ -78,11 +83,11 @@ pub enum WandererError<E> {
     Robot(#[from] E),
 }
 
-/// Gathers records: a robot that drives straight on until something is near, takes a record there, and turns elsewhere by chance
-/// (section 3.2).
+/// Gathers records: a robot that drives straight on until something is near, takes a record there,
+/// and turns elsewhere by chance (section 3.2).
 ///
-/// It gets out of corners: it turns until the way is clear, and where it is clear in no direction it lets things come nearer. It
-/// backs off where its body is wedged.
+/// It gets out of corners: it turns until the way is clear, and where it is clear in no direction
+/// it lets things come nearer. It backs off where its body is wedged.
 #[derive(Clone, Debug)]
 pub struct Wanderer {
     config: WandererConfig,
@@ -112,8 +117,9 @@ impl Wanderer {
         self.odometry
     }
 
-    /// Drives one leg, or more where they are short, and returns the record of the place where it ended. It takes at most
-    /// [`most_tries`](WandererConfig::most_tries) legs and turns, each with a bound on its time steps.
+    /// Drives one leg, or more where they are short, and returns the record of the place where it
+    /// ended. It takes at most [`most_tries`](WandererConfig::most_tries) legs and turns, each with
+    /// a bound on its time steps.
     ///
     /// # Errors
     /// [`WandererError`] if the robot fails or takes no snapshot.
@@ -203,7 +209,8 @@ mod tests {
 
     use super::*;
 
-    /// A robot on a plain with one wall in the east, which it hears ahead; its sensors come on `late` steps after it stands.
+    /// A robot on a plain with one wall in the east, which it hears ahead; its sensors come on
+    /// `late` steps after it stands.
     struct Plain {
         pose: Pose,
         late: u32,

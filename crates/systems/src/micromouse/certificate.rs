@@ -59,7 +59,8 @@ impl Certificate {
         let walls = (0..grid.wall_count() as u32)
             .map(|id| (Wall(id), map.wall(Wall(id))))
             .filter(|(_, known)| known.is_known());
-        // What is farther than the start, or leads nowhere, needs no larger number than the start has.
+        // What is farther than the start, or leads nowhere, needs no larger number than the start
+        // has.
         let at_least = grid
             .cells()
             .map(|cell| to_goal.moves(cell).map_or(open_cost, u32::from));

@@ -47,7 +47,8 @@ impl Certify {
 }
 
 impl Certify {
-    /// The same with rollouts, but it stops as soon as the rest of the proof is expected to cost more than it gains.
+    /// The same with rollouts, but it stops as soon as the rest of the proof is expected to cost
+    /// more than it gains.
     ///
     /// # Errors
     /// If a weight is out of its range.

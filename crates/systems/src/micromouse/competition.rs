@@ -46,10 +46,12 @@ pub struct SpeedRunExploration {
     pub cells: u32,
     /// Of them, those until the mouse was first at a goal.
     pub search_cells: u32,
-    /// Of them, those from there until the run was known to be the fastest; the rest is the way home.
+    /// Of them, those from there until the run was known to be the fastest; the rest is the way
+    /// home.
     pub proof_cells: u32,
-    /// The run that the mouse found. Its heading is another than that of the [`Brief`] where no run leads ahead from the start:
-    /// then the mouse turns to the next side, clockwise, from which one does.
+    /// The run that the mouse found. Its heading is another than that of the [`Brief`] where no run
+    /// leads ahead from the start: then the mouse turns to the next side, clockwise, from which one
+    /// does.
     pub certificate: SpeedRunCertificate,
     /// The moves of that run, with where each begins and how long it takes.
     pub run: Vec<RunLeg>,
@@ -171,8 +173,8 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         }
     }
 
-    /// No run leads ahead from the start, as where a wall stands ahead of it: turns to the next side that may be open,
-    /// clockwise, as a person puts the mouse down.
+    /// No run leads ahead from the start, as where a wall stands ahead of it: turns to the next
+    /// side that may be open, clockwise, as a person puts the mouse down.
     fn turn_round(&mut self) -> Result<(), ExploreError> {
         let start = self.brief.start;
         let mut next = self.run_heading.right();

@@ -39,7 +39,8 @@ impl Search for TargetSearch {
             if self.arrived {
                 return Ok(Next::Reset);
             }
-            // "let the robot goes to any of the goal location if the goal is never actually visited"
+            // "let the robot goes to any of the goal location if the goal is never actually
+            // visited"
             let known = Passages::new(view.map, Unknown::Closed)?;
             path(&known, view.at, view.goals)
         } else {
@@ -73,7 +74,8 @@ fn leap(view: &SearchView<'_>, path: &[Direction]) -> Result<Option<Leap>, TooLa
     Ok(leaps.map(|(leap, _)| leap).last())
 }
 
-/// A shortest path to the nearest of `targets`, straight on where it can: the sides by which it leaves its cells.
+/// A shortest path to the nearest of `targets`, straight on where it can: the sides by which it
+/// leaves its cells.
 fn path(passages: &Passages<SIDE>, from: Cell, targets: &[Cell]) -> Vec<Direction> {
     let steps = StepMap::new(passages, targets.iter().copied());
     let mut path = Vec::new();

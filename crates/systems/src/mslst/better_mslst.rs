@@ -11,8 +11,8 @@ use crate::{Brain, Doing, RolledStep};
 
 /// The better MSLST as a whole: it explores, makes its map ready, and then navigates.
 ///
-/// Let an [`Actor`](crate::Actor) drive it. [`Task::Explore`] ends when no gap is left. Whoever puts it down before ends the exploration: it
-/// navigates by what it has learned so far.
+/// Let an [`Actor`](crate::Actor) drive it. [`Task::Explore`] ends when no gap is left. Whoever
+/// puts it down before ends the exploration: it navigates by what it has learned so far.
 #[derive(Clone, Debug)]
 pub struct BetterMslst {
     config: BetterConfig,

@@ -8,11 +8,12 @@ use tolman_robot::{Guess, MapView, Mapper, Standing, Task};
 use super::{MslstConfig, MslstMap, Navigator, ScanRecorder, States, StatesError, Topology};
 use crate::{Brain, Doing, TimeStep};
 
-/// MSLST as a whole: it records scans (Phase I), makes states of them and maps their topology (Phase II), and
-/// then navigates (Phase III).
+/// MSLST as a whole: it records scans (Phase I), makes states of them and maps their topology
+/// (Phase II), and then navigates (Phase III).
 ///
-/// Whoever wanders, it learns of the time steps that it observes. Let an [`Actor`](crate::Actor) drive it, and
-/// [`Task::Explore`] is Phases I and II, [`Task::Reach`] with the landmark of the goal is Phase III.
+/// Whoever wanders, it learns of the time steps that it observes. Let an [`Actor`](crate::Actor)
+/// drive it, and [`Task::Explore`] is Phases I and II, [`Task::Reach`] with the landmark of the
+/// goal is Phase III.
 #[derive(Clone, Debug)]
 pub struct Mslst {
     config: MslstConfig,

@@ -5,19 +5,20 @@ use super::ROBOT_UNIT;
 /// What can be chosen about MSLST.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MslstConfig {
-    /// Phase I, the error threshold of the equilibrium GNG: squared robot units, above 0. The paper has 100 for the J
-    /// maze, 20 and 50 for the Large one.
+    /// Phase I, the error threshold of the equilibrium GNG: squared robot units, above 0. The paper
+    /// has 100 for the J maze, 20 and 50 for the Large one.
     pub threshold: f64,
-    /// Phase I, how long the robot wanders: time steps, at least 1. "Approximately 4000 time steps, on the large
-    /// maze."
+    /// Phase I, how long the robot wanders: time steps, at least 1. "Approximately 4000 time steps,
+    /// on the large maze."
     pub scan_steps: u32,
-    /// Phase II, how long it wanders: actions, at least 1. The paper does not say: "chosen largely based on how much
-    /// time was available". See `docs/mslst.md`.
+    /// Phase II, how long it wanders: actions, at least 1. The paper does not say: "chosen largely
+    /// based on how much time was available". See `docs/mslst.md`.
     pub graph_actions: u32,
-    /// Phase III, how many pairs of state and action are remembered: at least 1. "The last eight … when solving
-    /// the large maze, and six for the J-maze."
+    /// Phase III, how many pairs of state and action are remembered: at least 1. "The last eight …
+    /// when solving the large maze, and six for the J-maze."
     pub memory: u32,
-    /// Phase III, for how many actions it acts randomly once it believes to have arrived. "Eight actions."
+    /// Phase III, for how many actions it acts randomly once it believes to have arrived. "Eight
+    /// actions."
     pub doubt: u32,
 }
 
@@ -43,8 +44,8 @@ impl MslstConfig {
         }
     }
 
-    /// Returns this configuration for a robot `diameter` m across, above 0, in place of the paper's: the threshold
-    /// holds for the same scans in diameters of the robot.
+    /// Returns this configuration for a robot `diameter` m across, above 0, in place of the
+    /// paper's: the threshold holds for the same scans in diameters of the robot.
     #[must_use]
     pub const fn on_robot(self, diameter: f64) -> Self {
         let scale = diameter / ROBOT_UNIT;

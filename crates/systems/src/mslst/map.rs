@@ -22,8 +22,8 @@ pub struct Learned {
     pub survey: GrowthRecord,
 }
 
-/// What a watcher saw while a map was learned, for pictures and scores; no brain reads it. Empty where nobody
-/// watched, as with a real robot.
+/// What a watcher saw while a map was learned, for pictures and scores; no brain reads it. Empty
+/// where nobody watched, as with a real robot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GrowthRecord {
     /// Where the robot truly was when each node was made, by id; metres.
@@ -41,8 +41,8 @@ impl MslstMap {
         states.sum::<usize>() + self.graph.bytes()
     }
 
-    /// Returns the graph as places without positions; the destination nodes have the landmark of the goal.
-    /// O(nodes + edges).
+    /// Returns the graph as places without positions; the destination nodes have the landmark of
+    /// the goal. O(nodes + edges).
     #[must_use]
     pub fn view(&self) -> MapView {
         view(self.graph.nodes())

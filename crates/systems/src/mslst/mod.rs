@@ -1,12 +1,13 @@
 //! MSLST: maze solving by learning state topologies (Tingle, Ball, Augat).
 //!
-//! "The MSLST algorithm uses a three-stage process to solve a maze, first using GNG to abstract perceptions of
-//! the maze into discrete states, then by mapping the topology of those states within the maze into a graph,
-//! and finally using that graph to localize a robot within the maze and find the most direct path to the
-//! destination."
+//! "The MSLST algorithm uses a three-stage process to solve a maze, first using GNG to abstract
+//! perceptions of the maze into discrete states, then by mapping the topology of those states
+//! within the maze into a graph, and finally using that graph to localize a robot within the maze
+//! and find the most direct path to the destination."
 //!
 //! - [`ScanRecorder`] and [`States`] are Phase I: scans of a wandering robot become states.
-//! - [`Topology`] is Phase II: the graph of the states, an action at a time. Both leave an [`MslstMap`].
+//! - [`Topology`] is Phase II: the graph of the states, an action at a time. Both leave an
+//!   [`MslstMap`].
 //! - [`Navigator`] is Phase III: the brain that navigates by one.
 //! - [`Mslst`] is all three, one after the other.
 //! - [`better`] explores and navigates otherwise; [`BetterMslst`] is both, one after the other.

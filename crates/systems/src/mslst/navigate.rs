@@ -14,11 +14,12 @@ use crate::{Brain, Doing, TimeStep};
 
 /// The brain of Phase III, *Navigation Using the Graph*.
 ///
-/// "MSLST navigates by matching its current and past sensory states and actions with part of the graph, then
-/// following the actions encoded in the graph that lead to the nearest destination node (first simplifying
-/// that set of actions by compressing the path). Once it reaches a destination node (and thus believes it has
-/// solved the maze), it acts randomly (like Avoid) for eight actions … If it can't match its current state
-/// with any node in the graph or if the actions the graph suggests fail, it chooses an action randomly."
+/// "MSLST navigates by matching its current and past sensory states and actions with part of the
+/// graph, then following the actions encoded in the graph that lead to the nearest destination node
+/// (first simplifying that set of actions by compressing the path). Once it reaches a destination
+/// node (and thus believes it has solved the maze), it acts randomly (like Avoid) for eight actions
+/// … If it can't match its current state with any node in the graph or if the actions the graph
+/// suggests fail, it chooses an action randomly."
 #[derive(Clone, Debug)]
 pub struct Navigator {
     map: Arc<MslstMap>,
@@ -90,8 +91,8 @@ impl Navigator {
         self.situation = self.consult();
     }
 
-    /// "At every action, it stores its current state and the action that got it there into a list (leaving
-    /// out failed actions and the states they resulted in)."
+    /// "At every action, it stores its current state and the action that got it there into a list
+    /// (leaving out failed actions and the states they resulted in)."
     fn remember(&mut self, action: Direction, seen: &TimeStep) {
         self.failed.clear();
         // Blind for a moment: what was sensed before still holds.
@@ -127,9 +128,9 @@ impl Navigator {
         }
     }
 
-    /// The path to the nearest destination node, "fully simplified": compressed, after which "if the first
-    /// action in the path is one the robot just failed at, we remove it from the path and begin with the
-    /// next action".
+    /// The path to the nearest destination node, "fully simplified": compressed, after which "if
+    /// the first action in the path is one the robot just failed at, we remove it from the path and
+    /// begin with the next action".
     fn path_from(&self, node: u32) -> Option<Vec<Direction>> {
         let path = self.map.graph.path_to_destination(node, &self.failed)?;
         let path = compressed(&path, |action| action.opposite());
@@ -139,8 +140,8 @@ impl Navigator {
 }
 
 impl Navigator {
-    /// Returns how the search for its place stands: the paper's history localization can say where the robot is if
-    /// one node alone fits what it remembers.
+    /// Returns how the search for its place stands: the paper's history localization can say where
+    /// the robot is if one node alone fits what it remembers.
     fn localized(&self) -> Standing {
         let Localization {
             candidates,

@@ -3,12 +3,13 @@ use tolman_robot::Scan;
 
 use crate::TimeStep;
 
-/// Robot unit in which MSLST measures: the diameter of the calibrated robot, m. For another robot scale the
-/// [threshold](super::MslstConfig::on_robot).
+/// Robot unit in which MSLST measures: the diameter of the calibrated robot, m. For another robot
+/// scale the [threshold](super::MslstConfig::on_robot).
 pub const ROBOT_UNIT: f64 = 0.5;
 
-/// Returns a scan as MSLST's quantizer sees it: in robot units, and turned by the compass, to the nearest beam,
-/// so that "a particular location is distinct no matter which way the robot is facing".
+/// Returns a scan as MSLST's quantizer sees it: in robot units, and turned by the compass, to the
+/// nearest beam, so that "a particular location is distinct no matter which way the robot is
+/// facing".
 ///
 /// Beam 0 looks north, the others follow counter-clockwise.
 ///

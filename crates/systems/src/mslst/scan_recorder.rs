@@ -8,11 +8,11 @@ use super::north_scan::north_scan;
 use crate::baselines::AvoidBrain;
 use crate::{Brain, Doing, TimeStep};
 
-/// Phase I: "the robot wanders the maze at random, using the Avoid brain … It records its input vector at every
-/// time step."
+/// Phase I: "the robot wanders the maze at random, using the Avoid brain … It records its input
+/// vector at every time step."
 ///
-/// Each scan is [turned to the north](super::heading_free). Time steps in which ranges or heading drop out record
-/// nothing.
+/// Each scan is [turned to the north](super::heading_free). Time steps in which ranges or heading
+/// drop out record nothing.
 #[derive(Clone, Debug)]
 pub struct ScanRecorder {
     scans: Vec<Vec<f64>>,

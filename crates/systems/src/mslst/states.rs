@@ -30,8 +30,8 @@ pub struct States {
 }
 
 impl States {
-    /// "We then ran equilibrium GNG on the sensor data to categorize these vectors into discrete states." The scans
-    /// are shown once, in the order they were recorded.
+    /// "We then ran equilibrium GNG on the sensor data to categorize these vectors into discrete
+    /// states." The scans are shown once, in the order they were recorded.
     ///
     /// # Errors
     /// If there are none, or they differ in length or hold what is no number.
@@ -60,8 +60,8 @@ impl States {
         Ok(Self { models, quantizer })
     }
 
-    /// "The number of the GNG state that most closely matches the current input vector"; ties go to the lower
-    /// number.
+    /// "The number of the GNG state that most closely matches the current input vector"; ties go to
+    /// the lower number.
     ///
     /// # Errors
     /// If the scan has another length than the models or holds what is no number.

@@ -12,11 +12,12 @@ use super::{MslstMap, States};
 use crate::baselines::AvoidBrain;
 use crate::{Brain, Doing, TimeStep};
 
-/// Phase II: "the robot wanders at random as in Phase I, but this time instead of recording sensor data it
-/// determines the closest-matching GNG state at the start of every high-level action", and maps it.
+/// Phase II: "the robot wanders at random as in Phase I, but this time instead of recording sensor
+/// data it determines the closest-matching GNG state at the start of every high-level action", and
+/// maps it.
 ///
-/// An action that was cut short after a step succeeded ("MSLST will not record it as a failed action"). Where the
-/// robot is put down anew, the graph begins anew.
+/// An action that was cut short after a step succeeded ("MSLST will not record it as a failed
+/// action"). Where the robot is put down anew, the graph begins anew.
 #[derive(Clone, Debug)]
 pub struct Topology {
     states: States,
@@ -29,7 +30,8 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// Returns the graph of the one place where `first` was sensed, to be grown for `actions` actions.
+    /// Returns the graph of the one place where `first` was sensed, to be grown for `actions`
+    /// actions.
     #[must_use]
     pub fn new(states: States, actions: u32, first: &TimeStep) -> Self {
         let state = state_of(&states, first).unwrap_or(0);

@@ -33,11 +33,13 @@ pub struct PlacesMapper {
     judged: usize,
     /// Keyframes without a corridor since the last with one.
     open: Vec<usize>,
-    /// The places in the order that they were come to: what each is, and the keyframe in its middle.
+    /// The places in the order that they were come to: what each is, and the keyframe in its
+    /// middle.
     visits: Vec<(SiteKind, usize)>,
 }
 
-/// How far about a place counts to its middle, in corridor widths, and how often the middle is looked for from where it was found before.
+/// How far about a place counts to its middle, in corridor widths, and how often the middle is
+/// looked for from where it was found before.
 const MIDDLE_WIDTHS: f64 = 1.0;
 const CLIMBED: u32 = 8;
 /// A closure of a greater squared error is not believed.
@@ -66,8 +68,8 @@ impl PlacesMapper {
         &self.matching
     }
 
-    /// Returns the places in the order that they were come to; one that was recognized stands again, with the number of the first.
-    /// O(places · log places + edges).
+    /// Returns the places in the order that they were come to; one that was recognized stands
+    /// again, with the number of the first. O(places · log places + edges).
     #[must_use]
     pub fn sites(&self) -> Vec<SitePlace> {
         let graph = self.matching.graph();
@@ -99,8 +101,8 @@ impl PlacesMapper {
         self.visits.len()
     }
 
-    /// Returns the place that it came to as number `visit`, counted from 0, as far as it was seen. The way by which the robot left is known when it has
-    /// come to the next. O(keyframes).
+    /// Returns the place that it came to as number `visit`, counted from 0, as far as it was seen.
+    /// The way by which the robot left is known when it has come to the next. O(keyframes).
     #[must_use]
     pub fn site(&self, visit: usize) -> Option<Site> {
         let (kind, keyframe) = *self.visits.get(visit)?;
@@ -150,7 +152,8 @@ impl PlacesMapper {
         Site::quarter(from_axis(axis, left))
     }
 
-    /// Returns the way to the place that it came to as number `visit`; `None` of the first. O(keyframes on the way · keyframes).
+    /// Returns the way to the place that it came to as number `visit`; `None` of the first.
+    /// O(keyframes on the way · keyframes).
     #[must_use]
     pub fn way_to(&self, visit: usize) -> Option<SiteWay> {
         let (from, to) = (self.site(visit.checked_sub(1)?)?, self.site(visit)?);
@@ -178,14 +181,16 @@ impl PlacesMapper {
         })
     }
 
-    /// Returns the way from where the robot stood in a place to its middle, along the building's axes, m.
+    /// Returns the way from where the robot stood in a place to its middle, along the building's
+    /// axes, m.
     fn to_middle(&self, site: &Site) -> Option<Vector> {
         let axis = self.matching.axis_about(site.keyframe)?;
         let off = site.middle - self.pose(site.keyframe).position;
         Some(from_axis(axis, Heading::EAST).rotate(off))
     }
 
-    /// Returns where the first of some keyframes lies that is farther off than a corridor is wide, or the last.
+    /// Returns where the first of some keyframes lies that is farther off than a corridor is wide,
+    /// or the last.
     fn far_off(&self, from: usize, others: impl Iterator<Item = usize>) -> Vector {
         let here = self.pose(from).position;
         let mut off = Vector::zeros();
@@ -198,7 +203,8 @@ impl PlacesMapper {
         off
     }
 
-    /// Takes the place that it came to as number `visit` for one it came to before, if the scans match; returns whether they do.
+    /// Takes the place that it came to as number `visit` for one it came to before, if the scans
+    /// match; returns whether they do.
     ///
     /// # Errors
     /// If a measurement does not fit.

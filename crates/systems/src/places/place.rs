@@ -28,7 +28,8 @@ pub enum SiteKind {
 const OPEN_WIDTHS: f64 = 1.25;
 
 impl SiteKind {
-    /// Returns what a scan of a `ring` that looks along the axes of a building shows, where corridors are `width` m wide.
+    /// Returns what a scan of a `ring` that looks along the axes of a building shows, where
+    /// corridors are `width` m wide.
     #[must_use]
     pub fn of(scan: &Scan, width: f64) -> Self {
         let open = ways_on(scan, width);
@@ -41,8 +42,8 @@ impl SiteKind {
     }
 }
 
-/// Returns in which of the four quarters a way leads on, as a scan of a ring that looks along the axes of a building shows, where corridors are
-/// `width` m wide.
+/// Returns in which of the four quarters a way leads on, as a scan of a ring that looks along the
+/// axes of a building shows, where corridors are `width` m wide.
 pub(super) fn ways_on(scan: &Scan, width: f64) -> [bool; 4] {
     [0, 1, 2, 3].map(|quarter| is_open(&scan.ranges, &scan.ring, quarter, width))
 }

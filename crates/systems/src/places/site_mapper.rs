@@ -44,8 +44,9 @@ pub enum SiteMapperError<B, M> {
     },
 }
 
-/// A mapper of moves between places, shown the scans of a log: junctions, bends, dead ends and rooms are detected, and the mapper is told of the
-/// ways between them. It alone says which places it knows; where the scans match too, the poses are corrected by that.
+/// A mapper of moves between places, shown the scans of a log: junctions, bends, dead ends and
+/// rooms are detected, and the mapper is told of the ways between them. It alone says which places
+/// it knows; where the scans match too, the poses are corrected by that.
 #[derive(Debug)]
 pub struct SiteMapper<O: OfSites> {
     places: PlacesMapper,
@@ -84,7 +85,8 @@ impl<O: OfSites> SiteMapper<O> {
         self.places.matching()
     }
 
-    /// Returns the keyframe of each visit with the place that the mapper takes it for. O(visits · log map).
+    /// Returns the keyframe of each visit with the place that the mapper takes it for. O(visits ·
+    /// log map).
     #[must_use]
     pub fn keyframes_of_visits(&self) -> Vec<(usize, Option<u32>)> {
         let keyframes = self.places.sites().into_iter().map(|site| site.keyframe);
@@ -119,7 +121,8 @@ impl<O: OfSites> SiteMapper<O> {
         }
     }
 
-    /// Tells the mapper of what is left, and makes the poses agree with the places that it recognized.
+    /// Tells the mapper of what is left, and makes the poses agree with the places that it
+    /// recognized.
     ///
     /// # Errors
     /// If the mapper refuses a way, or a measurement does not fit.
@@ -147,7 +150,8 @@ impl<O: OfSites> Mapper for SiteMapper<O> {
         self.tell(self.places.visit_count().saturating_sub(1))
     }
 
-    /// Returns the mapper's map; a place lies in the middle of where the robot stood that came to it.
+    /// Returns the mapper's map; a place lies in the middle of where the robot stood that came to
+    /// it.
     fn map(&self) -> MapView {
         let mut stood: BTreeMap<u32, Vec<Point>> = BTreeMap::new();
         for (keyframe, place) in self.keyframes_of_visits() {

@@ -14,7 +14,8 @@ pub struct Site {
     pub middle: Point,
     /// What it is.
     pub kind: SiteKind,
-    /// Which of the four ways along the building's axes lead on, counter-clockwise from the first axis.
+    /// Which of the four ways along the building's axes lead on, counter-clockwise from the first
+    /// axis.
     pub open: [bool; 4],
     /// What is around the robot there. The first beam looks along the first axis.
     pub around: Scan,
@@ -22,7 +23,8 @@ pub struct Site {
     pub came_by: usize,
 }
 
-/// The way from one place to the next, as the scans on it tell it. Nothing was recognized to measure it.
+/// The way from one place to the next, as the scans on it tell it. Nothing was recognized to
+/// measure it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SiteWay {
     /// The place at its beginning.
@@ -49,7 +51,8 @@ pub struct SiteStep {
 }
 
 impl Site {
-    /// Returns the quarter counter-clockwise from the first axis, by its number, that a heading lies nearest to.
+    /// Returns the quarter counter-clockwise from the first axis, by its number, that a heading
+    /// lies nearest to.
     #[must_use]
     pub fn quarter(heading: Heading) -> usize {
         let quarters = libm::round(heading.radians() / FRAC_PI_2);
@@ -66,7 +69,8 @@ pub(super) fn ring(corridor_width: f64) -> Ring {
 const BEAMS: u32 = 72;
 const REACH_WIDTHS: f64 = 4.0;
 
-/// Returns where the middle of the free ground lies that a scan shows within `reach`, m, in the scan's frame.
+/// Returns where the middle of the free ground lies that a scan shows within `reach`, m, in the
+/// scan's frame.
 pub(super) fn middle_of(scan: &Scan, reach: f64) -> Vector {
     let (mut area, mut moment) = (0.0, Vector::zeros());
     for (beam, range) in (0..).zip(&scan.ranges) {

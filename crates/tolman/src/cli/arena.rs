@@ -57,10 +57,12 @@ pub(super) struct Arguments {
         conflicts_with = "mazes"
     )]
     family: String,
-    /// How many worlds of each family: small and middle ones in turns; 2, or with --own-verdict at most 40 [default: 2]
+    /// How many worlds of each family: small and middle ones in turns; 2, or with --own-verdict at
+    /// most 40 [default: 2]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     worlds: Option<u32>,
-    /// How often a robot is put down in each world to find out where it is, and as often to go to the goal
+    /// How often a robot is put down in each world to find out where it is, and as often to go to
+    /// the goal
     #[arg(long, value_name = "N", default_value_t = 1)]
     starts: u32,
     /// What all chance follows from
@@ -69,10 +71,12 @@ pub(super) struct Arguments {
     /// Write a line of JSON for each world instead of the table
     #[arg(long)]
     json: bool,
-    /// Measure how long a system thinks for each time step of learning, the simulator aside: one world after the other
+    /// Measure how long a system thinks for each time step of learning, the simulator aside: one
+    /// world after the other
     #[arg(long)]
     cost: bool,
-    /// Judge what systems make of their own maps by 100 right and 100 wrong ones: worlds become harder while most maps are right
+    /// Judge what systems make of their own maps by 100 right and 100 wrong ones: worlds become
+    /// harder while most maps are right
     #[arg(long, conflicts_with_all = ["mazes", "json", "cost", "condition", "starts"])]
     own_verdict: bool,
 }

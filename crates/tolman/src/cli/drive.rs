@@ -15,10 +15,11 @@ use super::sent_out::SentOut;
 use super::{App, Failure, OrBadInput};
 use crate::system::MapText;
 
-/// Puts a robot down in a maze or a world and sends it to the goal by a learned map; exits 1 if it does not arrive
+/// Puts a robot down in a maze or a world and sends it to the goal by a learned map; exits 1 if it
+/// does not arrive
 ///
-/// It finds out where it is, goes, and plans anew where something is not as the map has it. Of the maps of several mazes it
-/// finds out which is that of this one.
+/// It finds out where it is, goes, and plans anew where something is not as the map has it. Of the
+/// maps of several mazes it finds out which is that of this one.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -31,7 +32,8 @@ Examples:
   tolman learn --system gngslam --world mazes/worlds/pitch.json --out pitch-map.json
   tolman drive --map pitch-map.json --world mazes/worlds/pitch.json --seed 3 --replay drive.html")]
 pub(super) struct Arguments {
-    /// The map, made by `tolman learn`; may be given several times, if the system can tell maps apart
+    /// The map, made by `tolman learn`; may be given several times, if the system can tell maps
+    /// apart
     #[arg(long, value_name = "FILE", required = true)]
     map: Vec<PathBuf>,
     #[command(flatten)]

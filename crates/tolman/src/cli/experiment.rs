@@ -47,7 +47,8 @@ pub(super) struct Arguments {
     /// A maze file of any format in place of the experiment's own; may be given several times
     #[arg(long = "maze", value_name = "FILE")]
     mazes: Vec<PathBuf>,
-    /// Time steps after which a run in a maze has failed, in place of the experiment's own (baselines, mslst)
+    /// Time steps after which a run in a maze has failed, in place of the experiment's own
+    /// (baselines, mslst)
     #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..))]
     limit: Option<u32>,
     /// The folder of results, instead of results/NAME; without NAME, the folder of those folders
@@ -60,10 +61,12 @@ pub(super) struct Arguments {
     #[arg(long, num_args = 3, value_names = ["TABLE", "ROW", "RUN"], requires = "name")]
     #[arg(allow_hyphen_values = true, conflicts_with_all = ["check", "json", "list"])]
     replay: Vec<String>,
-    /// Say which runs of two folders of results differ and in what, and nothing else; exit with 1 if any do
+    /// Say which runs of two folders of results differ and in what, and nothing else; exit with 1
+    /// if any do
     #[arg(long, num_args = 2, value_names = ["DIR", "DIR"], exclusive = true)]
     compare: Vec<PathBuf>,
-    /// Exit with 3 if a table disagrees with the paper, or none of the paper's values could be judged
+    /// Exit with 3 if a table disagrees with the paper, or none of the paper's values could be
+    /// judged
     #[arg(long)]
     check: bool,
     /// Write each summary.json on standard output instead of the tables

@@ -1,8 +1,8 @@
 //! What a verb can end with, and how it is told.
 //!
-//! One rule for all verbs: 0 where all was done that was asked for, robots that were sent to a place arrived, mice that
-//! were to solve a maze solved it; else the code of the [`Failure`], and a message on stderr. What was found is written either
-//! way.
+//! One rule for all verbs: 0 where all was done that was asked for, robots that were sent to a
+//! place arrived, mice that were to solve a maze solved it; else the code of the [`Failure`], and a
+//! message on stderr. What was found is written either way.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -16,7 +16,8 @@ use super::interrupt::INTERRUPTED;
 pub(super) enum Failure {
     /// Whoever called is to give something else.
     BadInput(anyhow::Error),
-    /// The input was sound, but the machine was not, or the work came to nothing: a robot did not arrive, no way is known.
+    /// The input was sound, but the machine was not, or the work came to nothing: a robot did not
+    /// arrive, no way is known.
     Failed(anyhow::Error),
     /// All was done, but `--check` found a table to disagree with the paper.
     Disagrees(anyhow::Error),
@@ -72,7 +73,8 @@ pub(super) fn note(what: &str) {
     let _ = writeln!(anstream::stderr(), "note: {what}");
 }
 
-/// An error and the causes behind it in one line, each told once: some errors tell their cause themselves.
+/// An error and the causes behind it in one line, each told once: some errors tell their cause
+/// themselves.
 fn told(error: &anyhow::Error) -> String {
     let mut told = String::new();
     for cause in error.chain().map(ToString::to_string) {

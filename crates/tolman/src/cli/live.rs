@@ -1,7 +1,7 @@
 //! A run shown as it goes: on the terminal, or as one line where there is none to draw on.
 //!
-//! Nothing of the run depends on who looks: it is made step by step as ever, and each step waits until it has
-//! been shown.
+//! Nothing of the run depends on who looks: it is made step by step as ever, and each step waits
+//! until it has been shown.
 
 mod pace;
 mod palette;

@@ -8,14 +8,15 @@ use super::replay_file::{self, Overwrite};
 /// How somebody looks at a run.
 #[derive(clap::Args)]
 pub(super) struct Looks {
-    /// Show it on the terminal as it goes; space pauses, → steps, + and - change the speed, q stops looking
+    /// Show it on the terminal as it goes; space pauses, → steps, + and - change the speed, q stops
+    /// looking
     #[arg(long)]
     pub(super) live: bool,
     /// Draw its way over the maze or the world
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
-    /// Write the run down step by step, as JSON lines: first what ran where, then for every step what was commanded, what came of it
-    /// and what was sensed
+    /// Write the run down step by step, as JSON lines: first what ran where, then for every step
+    /// what was commanded, what came of it and what was sensed
     #[arg(long, value_name = "FILE")]
     pub(super) trace: Option<PathBuf>,
     /// Write a replay: one HTML file that plays the run in any browser

@@ -173,7 +173,8 @@ impl Watched {
     }
 }
 
-/// A maze as mms has it, whatever else it says: the mouse starts in the south-west, and the goal is the middle.
+/// A maze as mms has it, whatever else it says: the mouse starts in the south-west, and the goal is
+/// the middle.
 fn of_mms(maze: &Maze) -> Maze {
     let mut maze = maze.clone();
     maze.set_start(Some((Cell::new(0, 0), Direction::North)));

@@ -168,8 +168,8 @@ impl App<'_> {
     }
 }
 
-/// The command: parses the command line, does what it says by what `catalogue` knows, and returns the exit code. `build` is
-/// what reports say they were made by.
+/// The command: parses the command line, does what it says by what `catalogue` knows, and returns
+/// the exit code. `build` is what reports say they were made by.
 #[must_use]
 pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
     called::set(catalogue.program);

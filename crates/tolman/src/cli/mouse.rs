@@ -1,4 +1,5 @@
-//! `tolman mouse`: a micromouse explores mazes, proves its run and makes it, under the paper's rules or those of mms.
+//! `tolman mouse`: a micromouse explores mazes, proves its run and makes it, under the paper's
+//! rules or those of mms.
 
 mod drawing;
 mod mms;
@@ -49,10 +50,13 @@ pub(super) struct Arguments {
     /// Speak the protocol of the simulator mms on stdin and stdout
     #[arg(long, conflicts_with_all = ["maze", "search", "seed", "worst", "jobs", "json", "live", "svg", "trace", "replay"])]
     mms: bool,
-    /// When the mouse has explored enough; by default when its run is proven, with --mms when it has been at the goal
+    /// When the mouse has explored enough; by default when its run is proven, with --mms when it
+    /// has been at the goal
     #[arg(long, value_parser = words(UNTIL), conflicts_with = "search")]
     until: Option<Until>,
-    /// How to explore: certify (until the run is proven), certify-worth (what --until worth does), certify-plain (as certify, without rollouts), or as the paper does: target, counter-50, counter-75, random
+    /// How to explore: certify (until the run is proven), certify-worth (what --until worth does),
+    /// certify-plain (as certify, without rollouts), or as the paper does: target, counter-50,
+    /// counter-75, random
     #[arg(long, value_name = "SEARCH", default_value_t = Searcher::Certify)]
     search: Searcher,
     /// What the chance of the searches that have any follows from

@@ -21,7 +21,8 @@ use super::{Failure, OrBadInput, file};
 
 /// Arenas of the place map of GNG-SLAM, and data sets gathered in them
 ///
-/// An arena is `pitch`, the paper's, `hall`, `l-room`, or `random-` with a number, such as `random-7`.
+/// An arena is `pitch`, the paper's, `hall`, `l-room`, or `random-` with a number, such as
+/// `random-7`.
 #[derive(Subcommand)]
 pub(super) enum Verb {
     World(World),
@@ -30,7 +31,8 @@ pub(super) enum Verb {
     Score(Score),
 }
 
-/// Writes an arena as a tolman-world, for --world: the destination lies before the blue goal, the start before the yellow one
+/// Writes an arena as a tolman-world, for --world: the destination lies before the blue goal, the
+/// start before the yellow one
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
@@ -45,7 +47,8 @@ pub(super) struct World {
     out: Option<PathBuf>,
 }
 
-/// Lets a Pioneer 2-DX wander in an arena and writes down the records of places that it takes, with the truth beside them
+/// Lets a Pioneer 2-DX wander in an arena and writes down the records of places that it takes, with
+/// the truth beside them
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
@@ -85,7 +88,8 @@ pub(super) struct Show {
     json: bool,
 }
 
-/// Learns the paper's place map of a data set (40 × 30 pixels hsv and odometry, Table 3.1) and scores it
+/// Learns the paper's place map of a data set (40 × 30 pixels hsv and odometry, Table 3.1) and
+/// scores it
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:

@@ -1,4 +1,5 @@
-//! `tolman race`: a micromouse of the competitions explores mazes, proves its fast run with diagonals, and hands out its moves.
+//! `tolman race`: a micromouse of the competitions explores mazes, proves its fast run with
+//! diagonals, and hands out its moves.
 
 mod params;
 mod shown;
@@ -21,7 +22,8 @@ use super::words::words;
 use super::{Failure, OrBadInput, maze};
 use params::Params;
 
-/// Sends a micromouse of the competitions through mazes: it explores, proves its fast run, and hands out its moves
+/// Sends a micromouse of the competitions through mazes: it explores, proves its fast run, and
+/// hands out its moves
 #[derive(clap::Args)]
 #[command(after_help = "\
 The mouse drives cell by cell and looks at the walls around it. Once it has been at a goal and no run can be faster than the

@@ -13,7 +13,8 @@ use tolman_robot::Trajectory;
 
 use super::{Failure, OrBadInput};
 
-/// Tells how right a trajectory is: against relative poses that were verified, or against another trajectory
+/// Tells how right a trajectory is: against relative poses that were verified, or against another
+/// trajectory
 #[derive(clap::Args)]
 #[command(
     group(ArgGroup::new("judge").args(["relations", "truth"]).required(true)),

@@ -21,7 +21,8 @@ pub(super) struct Pursued {
     pub(super) told: String,
 }
 
-/// Lets a system pursue a task to its end, shows it to who looks, and writes down what was asked for.
+/// Lets a system pursue a task to its end, shows it to who looks, and writes down what was asked
+/// for.
 ///
 /// # Errors
 /// If robot or system fail, somebody interrupts, or a file cannot be written.

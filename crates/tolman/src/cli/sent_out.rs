@@ -25,8 +25,8 @@ pub(super) struct SentOut {
     #[arg(long, value_name = "SETTING=VALUE", value_parser = setting)]
     set: Vec<(String, String)>,
     /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
-    /// and degrees, from the south-west corner of a maze or as a world has it, counter-clockwise from
-    /// east
+    /// and degrees, from the south-west corner of a maze or as a world has it, counter-clockwise
+    /// from east
     #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
     start: Option<Start>,
     /// Give up after so many time steps

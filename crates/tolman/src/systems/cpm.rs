@@ -231,7 +231,8 @@ impl Ground {
     }
 }
 
-/// Time steps after which a robot has failed where nothing else is said: in a maze its own patience ends it.
+/// Time steps after which a robot has failed where nothing else is said: in a maze its own patience
+/// ends it.
 fn patient(course: &Course) -> u32 {
     match course.is_free() {
         true => course.step_limit().saturating_mul(FREE_STEPS),
@@ -279,7 +280,8 @@ fn keep(cpm: &cpm::Cpm, mode: Mode, origin: &Origin) -> Result<Option<String>, B
     Ok(Some(file.to_json()?))
 }
 
-/// Why a map of a free world is unfinished, as far as it knows itself: nobody has counted what is there.
+/// Why a map of a free world is unfinished, as far as it knows itself: nobody has counted what is
+/// there.
 fn unfinished(map: &CpMap) -> Option<String> {
     let open = map.open_ports().count();
     (open > 0).then(|| {

@@ -37,7 +37,8 @@ const PRESETS: [(&str, &str); 1] = [(
 /// What of it works in mazes alone.
 const OFFICE: &str = "the diktiometry's office";
 
-/// What can be set when it learns: of the robot's walk, and of the world, which is made of the maze.
+/// What can be set when it learns: of the robot's walk, and of the world, which is made of the
+/// maze.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Learning {

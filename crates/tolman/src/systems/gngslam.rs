@@ -20,7 +20,8 @@ use tolman_systems::gngslam::{
 
 use crate::system::{LearnedMap, MapText, Setup, SystemEntry, start_anywhere};
 
-/// The [online system of GNG-SLAM](OnlineSlam) on a robot with sonars and a camera, or with a laser.
+/// The [online system of GNG-SLAM](OnlineSlam) on a robot with sonars and a camera, or with a
+/// laser.
 #[derive(Clone, Copy, Debug)]
 pub struct GngSlamEntry;
 
@@ -249,15 +250,16 @@ fn with(before: &[Point], made: &[Founding]) -> Vec<Point> {
 /// Places of a right map are off by less than this, as the root of the mean square, m.
 const MOST_ERROR: f64 = 0.5;
 
-/// A place shows what is this near: in a maze as a share of the corridors' width, in a free world m.
+/// A place shows what is this near: in a maze as a share of the corridors' width, in a free world
+/// m.
 const NEAR_IN_MAZE: f64 = 0.8;
 const NEAR: f64 = 1.5;
 
 /// The share of the floor that a finished map has places near.
 const MOST_COVERED: f64 = 0.9;
 
-/// Why a map is wrong or unfinished as one of this course, of which it is known where the robot truly was when each place was made;
-/// `None` if it is right.
+/// Why a map is wrong or unfinished as one of this course, of which it is known where the robot
+/// truly was when each place was made; `None` if it is right.
 fn complaint(
     graph: &PlaceGraph,
     sightings: &[LandmarkSighting],

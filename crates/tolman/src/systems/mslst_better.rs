@@ -142,8 +142,8 @@ fn laid_over(chart: &ScanChart, sites: &[Point]) -> Option<LaidOver> {
     LaidOver::of_places(places, sites)
 }
 
-/// Why a map is wrong or unfinished as one of this course, of which it is known where the robot truly was when each place was made;
-/// `None` if it is right.
+/// Why a map is wrong or unfinished as one of this course, of which it is known where the robot
+/// truly was when each place was made; `None` if it is right.
 fn complaint(chart: &ScanChart, sites: &[Point], course: &Course) -> Option<String> {
     if chart.goal().is_empty() {
         return Some("the robot never sensed the goal: give it more --steps".to_owned());

@@ -75,8 +75,8 @@ impl Devtools {
         })
     }
 
-    /// Calls a method, of a session if one is given, and returns its answer. Events that come before it are
-    /// kept.
+    /// Calls a method, of a session if one is given, and returns its answer. Events that come
+    /// before it are kept.
     #[track_caller]
     pub(crate) fn call(&mut self, session: Option<&str>, method: &str, params: &Value) -> Value {
         self.last_id += 1;

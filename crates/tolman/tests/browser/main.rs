@@ -1,5 +1,5 @@
-//! The pages that the command writes, as a browser shows them: `cargo xtask ci` runs these tests where chromium
-//! is installed, `cargo test -p tolman --test browser -- --ignored` by hand.
+//! The pages that the command writes, as a browser shows them: `cargo xtask ci` runs these tests
+//! where chromium is installed, `cargo test -p tolman --test browser -- --ignored` by hand.
 
 #![expect(
     clippy::unwrap_used,
@@ -45,7 +45,8 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// Lets `tolman` do what `words` say, in the workspace's folder; asks for success and returns what it wrote.
+/// Lets `tolman` do what `words` say, in the workspace's folder; asks for success and returns what
+/// it wrote.
 #[track_caller]
 fn tolman(words: &[&str]) -> String {
     ended(words, 0)

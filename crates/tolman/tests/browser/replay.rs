@@ -14,7 +14,8 @@ fn demo(name: &str) -> (PathBuf, PathBuf) {
     (folder, page)
 }
 
-/// The replay of so many steps in a maze of this size, from which a robot without a plan does not come out in so many.
+/// The replay of so many steps in a maze of this size, from which a robot without a plan does not
+/// come out in so many.
 fn long_run(folder: &Path, size: &str, steps: u32) -> PathBuf {
     let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
     let (maze, page) = (path("large-hard.maze"), path("run.html"));

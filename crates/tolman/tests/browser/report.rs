@@ -7,7 +7,8 @@ use serde_json::Value;
 use crate::tab::{Scheme, Tab};
 use crate::{folder, tab, tolman};
 
-/// The folder of this name and in it the report of a short experiment, in mazes of its own or in this one.
+/// The folder of this name and in it the report of a short experiment, in mazes of its own or in
+/// this one.
 fn report(name: &str, maze: Option<&str>) -> (PathBuf, PathBuf) {
     let folder = folder(name);
     let out = folder.join("baselines");

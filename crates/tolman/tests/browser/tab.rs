@@ -115,8 +115,8 @@ impl Tab {
         }
     }
 
-    /// Clicks into the middle of the first element that a CSS selector means, as a mouse does: whatever lies above it
-    /// gets the click.
+    /// Clicks into the middle of the first element that a CSS selector means, as a mouse does:
+    /// whatever lies above it gets the click.
     #[track_caller]
     pub(crate) fn click(&mut self, selector: &str) {
         let place = self.eval(&format!(
@@ -133,7 +133,8 @@ impl Tab {
         }
     }
 
-    /// Strikes a key, by the names that the web has for it (`KeyboardEvent.key` and the code of the key of old).
+    /// Strikes a key, by the names that the web has for it (`KeyboardEvent.key` and the code of the
+    /// key of old).
     #[track_caller]
     pub(crate) fn strike(&mut self, key: &str, code: u32) {
         let text = match key {
@@ -215,8 +216,8 @@ impl Tab {
         }
     }
 
-    /// Asks that something is to be seen, in the light that is preferred, and nothing beyond the edge of the window;
-    /// leaves a picture of it in `folder`.
+    /// Asks that something is to be seen, in the light that is preferred, and nothing beyond the
+    /// edge of the window; leaves a picture of it in `folder`.
     #[track_caller]
     pub(crate) fn assert_seen(&mut self, folder: &Path, scheme: Scheme, width: u32) {
         let picture = folder.join(format!("{scheme:?}-{width}.png").to_lowercase());

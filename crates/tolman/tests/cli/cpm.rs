@@ -234,7 +234,8 @@ fn corridors_of_a_width_that_the_robot_cannot_tell_are_told() {
     tolman_in(&folder, &learn("maze.maze")).done();
 }
 
-/// Four cells without a wall between them, where a robot that follows corridors overlooks junctions.
+/// Four cells without a wall between them, where a robot that follows corridors overlooks
+/// junctions.
 const ROOM: &str = "\
 name = Room
 corridor_width = 0.25

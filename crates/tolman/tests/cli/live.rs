@@ -1,4 +1,5 @@
-//! Runs that are looked at: on a terminal of 100 × 40 characters, which `script` of util-linux makes.
+//! Runs that are looked at: on a terminal of 100 × 40 characters, which `script` of util-linux
+//! makes.
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -9,7 +10,8 @@ use super::{CORRIDOR, folder, tolman_in};
 /// What stands beside the picture of a run.
 const SHOWN: &[u8] = b"heading";
 
-/// The exit code of the command, and what it drew on a terminal until a key made it stop; `None`, told, where there is no `script`.
+/// The exit code of the command, and what it drew on a terminal until a key made it stop; `None`,
+/// told, where there is no `script`.
 #[expect(clippy::print_stderr, reason = "a test that is left out says so")]
 fn drawn(folder: &Path, arguments: &str) -> Option<(Option<i32>, String)> {
     let tolman = env!("CARGO_BIN_EXE_tolman");

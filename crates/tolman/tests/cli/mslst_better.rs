@@ -1,4 +1,5 @@
-//! The better MSLST by the command: it learns a maze, and its map is looked at, checked and driven by.
+//! The better MSLST by the command: it learns a maze, and its map is looked at, checked and driven
+//! by.
 
 use std::fs;
 

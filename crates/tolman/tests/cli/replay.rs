@@ -11,7 +11,8 @@ fn data(file: &Path) -> serde_json::Value {
     serde_json::from_str(&data[..data.find("</script>").unwrap()]).unwrap()
 }
 
-/// A folder with a maze and the traces of a run that stopped early, of the whole run and of another one.
+/// A folder with a maze and the traces of a run that stopped early, of the whole run and of another
+/// one.
 fn traces(name: &str) -> std::path::PathBuf {
     let folder = folder(&format!("replay-{name}"));
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();

@@ -19,8 +19,8 @@ pub enum MapCheck {
 }
 
 impl PlaneMaze {
-    /// Compares a map with this world, given where the robot is on both. Only corridors that can be reached count.
-    /// O(fragments · log fragments).
+    /// Compares a map with this world, given where the robot is on both. Only corridors that can be
+    /// reached count. O(fragments · log fragments).
     #[must_use]
     pub fn check(&self, map: &CpMap, at: Port, truly_at: WorldPort) -> MapCheck {
         let Some(known) = self.correspondence(map, at, truly_at) else {
@@ -38,8 +38,9 @@ impl PlaneMaze {
         }
     }
 
-    /// For each junction that the map has ways to, the port of this world that is its port 0, given where the robot is on
-    /// both; none if the map is wrong somewhere. O(fragments · log fragments).
+    /// For each junction that the map has ways to, the port of this world that is its port 0, given
+    /// where the robot is on both; none if the map is wrong somewhere. O(fragments · log
+    /// fragments).
     #[must_use]
     pub fn correspondence(
         &self,

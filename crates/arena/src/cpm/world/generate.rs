@@ -19,8 +19,8 @@ pub struct MazeConfig {
     pub rows: u32,
     /// How many of the openings that a tree of corridors can do without are there; 0 to 1.
     pub loops: f64,
-    /// How many cells have an opening across their corner that could be used: 0 for ports in four directions only, up to 1 for
-    /// junctions of up to eight ports.
+    /// How many cells have an opening across their corner that could be used: 0 for ports in four
+    /// directions only, up to 1 for junctions of up to eight ports.
     pub diagonals: f64,
     /// Common patterns of the dictionary, at least 2; the paper has 31.
     pub patterns: u32,
@@ -37,8 +37,8 @@ pub struct MazeConfig {
 /// How the corridors of a random world differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Likeness {
-    /// "Every path-fragment in the environment is distinctive": f_S < 0.8 for all pairs in both directions, and, unless they shall be
-    /// symmetrical, for each and its inverse.
+    /// "Every path-fragment in the environment is distinctive": f_S < 0.8 for all pairs in both
+    /// directions, and, unless they shall be symmetrical, for each and its inverse.
     Distinctive,
     /// As many kinds of corridors, at least 1. Those of one kind and length look the same.
     Kinds(u32),
@@ -75,7 +75,8 @@ pub enum MazeConfigError {
 }
 
 impl MazeConfig {
-    /// A maze like the paper's Maze-3: 4 × 4 cells, junctions of three and four ports, 31 patterns, distinctive.
+    /// A maze like the paper's Maze-3: 4 × 4 cells, junctions of three and four ports, 31 patterns,
+    /// distinctive.
     #[must_use]
     pub const fn small() -> Self {
         Self {
@@ -91,7 +92,8 @@ impl MazeConfig {
         }
     }
 
-    /// One of the mazes of all sorts: from trees to all loops there may be, ports in four directions or in eight.
+    /// One of the mazes of all sorts: from trees to all loops there may be, ports in four
+    /// directions or in eight.
     #[must_use]
     pub fn any(number: u32) -> Self {
         Self {
@@ -149,18 +151,21 @@ impl MazeConfig {
 }
 
 impl PlaneMaze {
-    /// A random maze: a random tree of corridors on a grid of cells, some loops, a start and a goal, in dead ends if there are any.
-    /// Cells with two ways out are no places but bends of a corridor.
+    /// A random maze: a random tree of corridors on a grid of cells, some loops, a start and a
+    /// goal, in dead ends if there are any. Cells with two ways out are no places but bends of a
+    /// corridor.
     ///
     /// # Errors
-    /// [`MazeConfigError`] if a field is outside its range or the corridors cannot all be distinctive.
+    /// [`MazeConfigError`] if a field is outside its range or the corridors cannot all be
+    /// distinctive.
     pub fn random(config: &MazeConfig, rng: &mut impl Rng) -> Result<Self, MazeConfigError> {
         config.check()?;
         let dictionary = random_dictionary(config.patterns, rng)?;
         Self::random_of(dictionary, config, rng)
     }
 
-    /// The same, of the patterns of a dictionary, whatever number the configuration has: another maze for one robot.
+    /// The same, of the patterns of a dictionary, whatever number the configuration has: another
+    /// maze for one robot.
     ///
     /// # Errors
     /// [`MazeConfigError`] as [`random`](Self::random), or if there are less than two patterns.
@@ -298,8 +303,9 @@ fn openings(config: &MazeConfig, rng: &mut impl Rng) -> Vec<(u32, u32)> {
     candidates
 }
 
-/// Random prototypes of 11 features from 0 to 1, as the paper's, in pairs that are each other half turned, and a last one that is its own
-/// if the number is odd. To turn half round is to exchange the first five features with the next five, which keeps distances.
+/// Random prototypes of 11 features from 0 to 1, as the paper's, in pairs that are each other half
+/// turned, and a last one that is its own if the number is odd. To turn half round is to exchange
+/// the first five features with the next five, which keeps distances.
 fn random_dictionary(patterns: u32, rng: &mut impl Rng) -> Result<Dictionary, DictionaryError> {
     let mut prototypes: Vec<(Vec<f64>, PatternId)> = Vec::with_capacity(patterns as usize);
     for id in 0..patterns {

@@ -6,21 +6,22 @@ use tolman_planners::{Graph, steps_from};
 use super::{PlaneMaze, WorldPort};
 
 impl PlaneMaze {
-    /// How many corridors the shortest walk passes that begins at the start, ends anywhere, and has been through all that can be
-    /// reached: the yardstick of an exploration, with perfect knowledge. None where more than 16 places have an odd number
-    /// of ports, for which there is no patience.
+    /// How many corridors the shortest walk passes that begins at the start, ends anywhere, and has
+    /// been through all that can be reached: the yardstick of an exploration, with perfect
+    /// knowledge. None where more than 16 places have an odd number of ports, for which there is no
+    /// patience.
     #[must_use]
     pub fn shortest_covering_walk(&self) -> Option<u32> {
         shortest_covering_walk(self, self.start.place)
     }
 }
 
-/// How many arcs the shortest walk passes that begins at a start, ends anywhere, and has been through all that can be
-/// reached: the yardstick of an exploration, with perfect knowledge. None where more than 16 places have an odd number
-/// of ports, for which there is no patience.
+/// How many arcs the shortest walk passes that begins at a start, ends anywhere, and has been
+/// through all that can be reached: the yardstick of an exploration, with perfect knowledge. None
+/// where more than 16 places have an odd number of ports, for which there is no patience.
 ///
-/// The open Chinese postman's walk: odd places are joined in pairs by shortest ways, walked twice, but for one, where the walk
-/// ends. O(2ⁿ · n) in the number n of odd places.
+/// The open Chinese postman's walk: odd places are joined in pairs by shortest ways, walked twice,
+/// but for one, where the walk ends. O(2ⁿ · n) in the number n of odd places.
 pub(in crate::cpm) fn shortest_covering_walk(graph: &impl Graph, start: u32) -> Option<u32> {
     let from_start = steps_from(graph, [start]);
     let reached = |place: u32| from_start[place as usize].is_some();
@@ -58,7 +59,8 @@ pub(in crate::cpm) fn shortest_covering_walk(graph: &impl Graph, start: u32) -> 
         if done.count_ones() as usize + 1 == odd.len() {
             repeated = repeated.min(sum);
         }
-        // All have to be paired but one: the first may be it, which is tried by its being paired last.
+        // All have to be paired but one: the first may be it, which is tried by its being paired
+        // last.
         for first in core::iter::once(first).chain(left.clone().take(1)) {
             for second in (0..odd.len()).filter(|place| *place != first && done >> place & 1 == 0) {
                 if let Some(way) = steps[first][odd[second] as usize] {

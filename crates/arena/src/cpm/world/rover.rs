@@ -19,8 +19,8 @@ pub struct WalkerNoise {
     pub insertion: f64,
     /// The chance that an observation is not made; 0 to 1.
     pub deletion: f64,
-    /// Slip: how much longer or shorter than it is the robot takes a fragment for at most, as a part of its length;
-    /// 0 to less than 1. It makes as many more or fewer observations.
+    /// Slip: how much longer or shorter than it is the robot takes a fragment for at most, as a
+    /// part of its length; 0 to less than 1. It makes as many more or fewer observations.
     pub slip: f64,
     /// How far the heading that it believes to have may be off, rad; not negative.
     pub heading: f64,
@@ -70,7 +70,8 @@ pub struct PlaneWalker<'a> {
 pub enum WalkOutcome {
     /// It reached the end of the fragment.
     Arrived(Traversal),
-    /// It gave up, having observed this, and is back where it was, with the port it tried behind it.
+    /// It gave up, having observed this, and is back where it was, with the port it tried behind
+    /// it.
     TurnedBack(Vec<PatternId>),
 }
 
@@ -112,7 +113,8 @@ impl<'a> PlaneWalker<'a> {
         self.world.sighting(self.at.place)
     }
 
-    /// Turns and walks to the end of the fragment; if so many observations have not brought it there, it gives up.
+    /// Turns and walks to the end of the fragment; if so many observations have not brought it
+    /// there, it gives up.
     ///
     /// # Errors
     /// If the place has no such turn.
@@ -157,8 +159,8 @@ impl<'a> PlaneWalker<'a> {
         }))
     }
 
-    /// Walks as `explorer` decides until there is nothing more to do for `aim`. `see` is told of every fragment that
-    /// was walked to its end.
+    /// Walks as `explorer` decides until there is nothing more to do for `aim`. `see` is told of
+    /// every fragment that was walked to its end.
     ///
     /// # Errors
     /// [`CpmError`] if the explorer decides on a turn that is not there, or refuses what is met.
@@ -189,8 +191,8 @@ impl<'a> PlaneWalker<'a> {
         }
     }
 
-    /// Puts it into the midst of a corridor, entered at an end, after so many observations, and lets it walk on to the other end.
-    /// None if there is no such corridor.
+    /// Puts it into the midst of a corridor, entered at an end, after so many observations, and
+    /// lets it walk on to the other end. None if there is no such corridor.
     pub fn walk_on(
         &mut self,
         enter: CorridorEnd,
@@ -274,7 +276,8 @@ impl<'a> PlaneWalker<'a> {
         };
         let mut drift = || self.noise.heading * (2.0 * uniform(rng) - 1.0);
         let believed = rotated(truth, drift()) * stretch;
-        // The truth is what is believed, less the slip, turned back by the drift. A nanometre makes up for rounding.
+        // The truth is what is believed, less the slip, turned back by the drift. A nanometre makes
+        // up for rounding.
         let (slip, heading) = (self.noise.slip, self.noise.heading + 1e-9);
         let scale = Interval::new(1.0 / (1.0 + slip), 1.0 / (1.0 - slip)).ok()?;
         let side = |value: f64| (Interval::of(value).ok()? * scale).widened(1e-9).ok();

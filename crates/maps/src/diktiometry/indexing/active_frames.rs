@@ -30,12 +30,12 @@ impl ActiveFrame {
     }
 }
 
-/// The active frames after a displacement: "dropping frames which are not informative, and adding neighbors of active
-/// frames which appear both informative and relevant".
+/// The active frames after a displacement: "dropping frames which are not informative, and adding
+/// neighbors of active frames which appear both informative and relevant".
 ///
 /// `here` is the frame of the robot's place with the robot in it: always active, and where it says
-/// more of a neighbour than was carried along, that holds too. At most `cap` frames are kept, those with the narrowest box.
-/// O(active frames · degree · log).
+/// more of a neighbour than was carried along, that holds too. At most `cap` frames are kept, those
+/// with the narrowest box. O(active frames · degree · log).
 pub(crate) fn moved(
     map: &Diktiometry,
     active: &[ActiveFrame],
@@ -60,7 +60,8 @@ pub(crate) fn moved(
     let neighbours: Vec<ActiveFrame> = neighbours.collect();
     next.extend(neighbours);
     next.sort_by_key(|frame| frame.frame);
-    // What several ways say of one frame holds together; where they exclude each other, the narrower counts.
+    // What several ways say of one frame holds together; where they exclude each other, the
+    // narrower counts.
     next.dedup_by(|other, kept| {
         let same = other.frame == kept.frame;
         if same {
@@ -85,16 +86,17 @@ pub(crate) fn moved(
     next
 }
 
-/// The envelope of a frame, "the bounding interval of the position intervals of F's places"; of their nominal envelopes,
-/// since a frame that one place alone defines is a point otherwise. None without places.
+/// The envelope of a frame, "the bounding interval of the position intervals of F's places"; of
+/// their nominal envelopes, since a frame that one place alone defines is a point otherwise. None
+/// without places.
 fn envelope(map: &Diktiometry, frame: FrameId) -> Option<PointBox> {
     let places = map.frame(frame).places.iter();
     let boxes = places.map(|place| map.place(*place).envelope);
     boxes.reduce(PointBox::hull)
 }
 
-/// "(a) the robot's estimated position interval with respect to F contains the origin (ie, F), and (b) the center of the
-/// interval … is not within F's envelope": then it is not.
+/// "(a) the robot's estimated position interval with respect to F contains the origin (ie, F), and
+/// (b) the center of the interval … is not within F's envelope": then it is not.
 fn is_informative(map: &Diktiometry, frame: &ActiveFrame) -> bool {
     envelope(map, frame.frame).is_some_and(|envelope| {
         !frame.robot.contains(Point::origin()) || envelope.contains(frame.robot.middle())

@@ -17,7 +17,8 @@ use crate::diktiometry::{Config, PathGraph, Percepts, PerceptualIndexing, PlaceI
 /// How often the hypercube's size is doubled at most: from the tolerance to eight times it.
 const DOUBLINGS: u32 = 3;
 
-/// All views of all places, by their columns and, if that is asked for, by triangles of their edges.
+/// All views of all places, by their columns and, if that is asked for, by triangles of their
+/// edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ViewIndex {
     /// Whose they are.
@@ -39,8 +40,9 @@ impl ViewIndex {
         }
     }
 
-    /// The places that look most like a percept: of the sets that are found within more and more, the first that is not empty.
-    /// Nobody asks for the sets after it. The places are those that stand now, by id.
+    /// The places that look most like a percept: of the sets that are found within more and more,
+    /// the first that is not empty. Nobody asks for the sets after it. The places are those that
+    /// stand now, by id.
     pub(crate) fn most_alike(
         &self,
         percept: &Signature,

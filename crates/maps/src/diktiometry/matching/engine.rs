@@ -25,7 +25,8 @@ pub(crate) struct Chosen {
     /// None for a new place.
     pub(crate) candidate: Option<Candidate>,
     pub(super) look: Similarity,
-    /// Whether the robot can be at no other place: no other is near enough to it, or none that looks like what the robot sees.
+    /// Whether the robot can be at no other place: no other is near enough to it, or none that
+    /// looks like what the robot sees.
     pub(super) is_certain: bool,
 }
 
@@ -60,12 +61,12 @@ impl Chosen {
     }
 }
 
-/// Applies the matchers to the sets of candidates, the best set first: "the maximal applicable matchers are used … If no
-/// matchers apply, a new place is created."
+/// Applies the matchers to the sets of candidates, the best set first: "the maximal applicable
+/// matchers are used … If no matchers apply, a new place is created."
 ///
-/// `expected` is the first set; `plies` gives the sets of the other modules, asked for only where no CONTINUE takes precedence over
-/// all they could bring. The first set with a match that posits no error wins; only if there is none, the first with
-/// one that does stands against a new place.
+/// `expected` is the first set; `plies` gives the sets of the other modules, asked for only where
+/// no CONTINUE takes precedence over all they could bring. The first set with a match that posits
+/// no error wins; only if there is none, the first with one that does stands against a new place.
 pub(crate) fn choose(
     situation: &Situation<'_>,
     expected: &[Candidate],
@@ -121,7 +122,8 @@ fn matched(situation: &Situation<'_>, set: &[Candidate], doubts: &mut Vec<PlaceI
     found.flatten().collect()
 }
 
-/// The matches of the first set that has some without an error or, if there is none, some with one; these stand against a new place.
+/// The matches of the first set that has some without an error or, if there is none, some with one;
+/// these stand against a new place.
 fn applicable(sets: &[Vec<Chosen>]) -> Vec<Chosen> {
     let normal = |set: &Vec<Chosen>| -> Vec<Chosen> {
         let all = set.iter().copied();

@@ -13,11 +13,13 @@ pub enum Matcher {
     Continue,
     /// "Matches a place with consistent position estimate and view which was unexpected."
     Link,
-    /// α-MATCH "matches a place such that the projected robot position is consistent with the place's nominal envelope".
+    /// α-MATCH "matches a place such that the projected robot position is consistent with the
+    /// place's nominal envelope".
     Alpha,
     /// "A new place is added with a track's projected state."
     NewPlace,
-    /// β-MATCH "allows a match with a place near the track's projected position; the track is then 'snapped' to the place".
+    /// β-MATCH "allows a match with a place near the track's projected position; the track is then
+    /// 'snapped' to the place".
     Beta,
 }
 
@@ -45,7 +47,8 @@ enum Applicable {
     None,
 }
 
-/// The matcher that applies to a candidate; one that none can tell goes to `doubts`. Its views are compared with the percept once.
+/// The matcher that applies to a candidate; one that none can tell goes to `doubts`. Its views are
+/// compared with the percept once.
 pub(super) fn find(
     candidate: &Candidate,
     situation: &Situation<'_>,
@@ -76,8 +79,8 @@ pub(super) fn find(
 
 /// The matcher that applies to a candidate.
 ///
-/// The paper asks for a consistent view as well. Here an expected place where it is expected, and one that no other
-/// can be near, may look new: its view set grows.
+/// The paper asks for a consistent view as well. Here an expected place where it is expected, and
+/// one that no other can be near, may look new: its view set grows.
 fn applicable(
     candidate: &Candidate,
     situation: &Situation<'_>,

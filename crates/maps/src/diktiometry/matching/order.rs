@@ -1,10 +1,12 @@
 use crate::diktiometry::{Matcher, Precedence, Situation, Tracking};
 
 impl Situation<'_> {
-    /// Whether matcher `a` takes precedence over `b`: the *dynamic partial order*. `visits` are those of the place that α-MATCH would grow.
+    /// Whether matcher `a` takes precedence over `b`: the *dynamic partial order*. `visits` are
+    /// those of the place that α-MATCH would grow.
     ///
-    /// Source: paper, *Dynamic priorities*, for CONTINUE over LINK, and α-MATCH and new places against β-MATCH. Beyond it:
-    /// what needs no mapping error goes before what posits one, and α-MATCH goes before a new place at young places.
+    /// Source: paper, *Dynamic priorities*, for CONTINUE over LINK, and α-MATCH and new places
+    /// against β-MATCH. Beyond it: what needs no mapping error goes before what posits one, and
+    /// α-MATCH goes before a new place at young places.
     pub(super) fn precedes(&self, a: Matcher, b: Matcher, visits: u32) -> bool {
         use Matcher::{Alpha, Beta, Continue, Link, NewPlace};
         let Tracking { high, low, .. } = self.config.tracks;
@@ -13,7 +15,8 @@ impl Situation<'_> {
             return a < b;
         }
         match (a, b) {
-            // "The region just traversed has been well traversed (hence probably mapped) in the past."
+            // "The region just traversed has been well traversed (hence probably mapped) in the
+            // past."
             (Continue, Link) => self.traversals >= matching.well_traversed,
             (Continue | Link, Alpha | NewPlace | Beta) => true,
             (Alpha, NewPlace) => visits < matching.alpha_visits,

@@ -19,8 +19,8 @@ pub(crate) fn similarity(a: &Place, b: &Place, percepts: &Percepts) -> Similarit
 }
 
 impl Percepts {
-    /// Returns whether two looks may be of one place, turned by a column at most: a compass errs now by another angle than before. They may if
-    /// one is missing.
+    /// Returns whether two looks may be of one place, turned by a column at most: a compass errs
+    /// now by another angle than before. They may if one is missing.
     #[must_use]
     pub fn are_alike(&self, one: Option<&Signature>, other: Option<&Signature>) -> bool {
         let (Self::Signatures(kind), Some(one), Some(other)) = (self, one, other) else {
@@ -41,7 +41,8 @@ pub(crate) fn alike(view: &Signature, other: &Signature, kind: &SignatureKind) -
     (0..offsets).any(|offset| view.agreement(other, offset, kind.tolerance) >= kind.enough())
 }
 
-/// Adds a percept to a place's view set, if it has none like it and room is left; returns whether it did.
+/// Adds a percept to a place's view set, if it has none like it and room is left; returns whether
+/// it did.
 pub(crate) fn remember(
     place: &mut Place,
     percept: Option<&Signature>,

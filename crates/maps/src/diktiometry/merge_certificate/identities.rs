@@ -53,7 +53,8 @@ impl<'a> Identities<'a> {
         self.find(one) == self.find(other)
     }
 
-    /// Returns where an action leads from the place of a visit, as a visit that stands for its class.
+    /// Returns where an action leads from the place of a visit, as a visit that stands for its
+    /// class.
     pub(super) fn leads(&self, visit: usize, action: Action) -> Option<usize> {
         let to = self.leads[self.find(visit)].get(&action)?;
         Some(self.find(*to))
@@ -121,8 +122,8 @@ mod tests {
 
     use super::*;
 
-    /// What follows by the letter: visits after the same action from one place are to one place, and
-    /// so is one that a reverse leads back to.
+    /// What follows by the letter: visits after the same action from one place are to one place,
+    /// and so is one that a reverse leads back to.
     fn by_the_letter(config: &Config, actions: &[Action], joined: &[[usize; 2]]) -> Vec<usize> {
         let mut class: Vec<usize> = (0..=actions.len()).collect();
         let rename = |class: &mut Vec<usize>, one: usize, other: usize| {

@@ -20,11 +20,11 @@ pub(crate) struct Reached {
 
 /// The frames around `start`, those of best known position first, `start` itself before all.
 ///
-/// Dijkstra's algorithm on the width of the box; where several ways lead to a frame from frames reached before, its
-/// position is what they all allow. O(frames · degree · log frames).
+/// Dijkstra's algorithm on the width of the box; where several ways lead to a frame from frames
+/// reached before, its position is what they all allow. O(frames · degree · log frames).
 ///
-/// The paper searches the graph by plies and says that "the farther a frame is in the reference graph, the less useful
-/// information (in general) it gives"; width is that information itself.
+/// The paper searches the graph by plies and says that "the farther a frame is in the reference
+/// graph, the less useful information (in general) it gives"; width is that information itself.
 pub(crate) fn search(
     graph: &ReferenceGraph,
     start: FrameId,

@@ -30,8 +30,8 @@ pub(super) fn around(map: &Diktiometry, place: PlaceId) -> Vec<(PlaceId, PointBo
     places.collect()
 }
 
-/// Those of some places that may be one: once two places are merged, what lies around them follows. There may be as many pairs as the
-/// square of the places, so that nobody keeps them.
+/// Those of some places that may be one: once two places are merged, what lies around them follows.
+/// There may be as many pairs as the square of the places, so that nobody keeps them.
 pub(super) fn meeting(near: &[(PlaceId, PointBox)]) -> impl Iterator<Item = Pair> {
     near.iter().enumerate().flat_map(|(number, &(a, at))| {
         let others = near.iter().skip(number + 1);
@@ -49,7 +49,8 @@ pub(super) fn is_nearness_noted(map: &Diktiometry, place: PlaceId) -> bool {
     notes.iter().any(|note| note.ground == Ground::Position)
 }
 
-/// The notes at `place`, taken from it, with the places they mean by their names now; those that were settled elsewhere are left out.
+/// The notes at `place`, taken from it, with the places they mean by their names now; those that
+/// were settled elsewhere are left out.
 pub(super) fn take_notes(map: &mut Diktiometry, place: PlaceId) -> Vec<MergeNote> {
     let mut notes = core::mem::take(&mut map.place_mut(place).notes);
     let mut seen: Vec<PlaceId> = Vec::new();
@@ -65,7 +66,8 @@ pub(super) fn take_notes(map: &mut Diktiometry, place: PlaceId) -> Vec<MergeNote
     notes
 }
 
-/// The pairs noted at `place`, with what is known of them now. Notes that are settled are taken away.
+/// The pairs noted at `place`, with what is known of them now. Notes that are settled are taken
+/// away.
 pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> Vec<Pair> {
     let notes = take_notes(map, place);
     if notes.is_empty() {
@@ -124,8 +126,9 @@ fn least_distance(map: &Diktiometry, pair: &Pair, config: &Config) -> f64 {
     }
 }
 
-/// "When two places have estim sets that can be merged such that the resultant set has one estim with weight greater than
-/// a threshold and no other estim's weight is greater than a threshold fraction of the first, a merge is indicated."
+/// "When two places have estim sets that can be merged such that the resultant set has one estim
+/// with weight greater than a threshold and no other estim's weight is greater than a threshold
+/// fraction of the first, a merge is indicated."
 fn have_one_mode(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
     let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
     let shift = pair.offset.middle() + (a.position.middle() - b.position.middle());
@@ -143,8 +146,8 @@ fn heaviest_first(mut estims: Vec<Estim>) -> Vec<Estim> {
     estims
 }
 
-/// "Eventually the estim set will contain two estims with weight greater than a threshold, and with weight ratio
-/// (max/min) less than a threshold. So when this occurs, a split is indicated."
+/// "Eventually the estim set will contain two estims with weight greater than a threshold, and with
+/// weight ratio (max/min) less than a threshold. So when this occurs, a split is indicated."
 pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     let limits = &config.restructuring;
     if limits.geometric_split == Use::Off {

@@ -1,5 +1,5 @@
-//! Local path constraints: "each place has a consistent, if stochastic, input-output behavior (effects of performing
-//! actions)".
+//! Local path constraints: "each place has a consistent, if stochastic, input-output behavior
+//! (effects of performing actions)".
 
 use alloc::vec::Vec;
 
@@ -9,9 +9,10 @@ use super::geometric::Pair;
 use super::{Diagnosis, Verdict};
 use crate::diktiometry::{Action, Config, Diktiometry, Link, LinkId, PlaceId, Use};
 
-/// "If two places have nearly identical incoming and outgoing action link sets (greater than a large fraction go to the
-/// same place via equivalent actions), then the places should be merged. The places also should have been visited often
-/// enough." No ground where proofs are asked for. Where an action certainly leads to different places from the two, they are not one. O(degree²).
+/// "If two places have nearly identical incoming and outgoing action link sets (greater than a
+/// large fraction go to the same place via equivalent actions), then the places should be merged.
+/// The places also should have been visited often enough." No ground where proofs are asked for.
+/// Where an action certainly leads to different places from the two, they are not one. O(degree²).
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     let limits = &config.restructuring;
     if limits.local_merge == Use::Off {
@@ -57,13 +58,14 @@ fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bo
             .is_none_or(|(a, b)| (a - b).contains(Point::origin()))
 }
 
-/// "If the incoming links can be partitioned into two sets such that the sets' 'images' (the sets of outgoing links taken
-/// after coming in on each link in a set) are (nearly) disjoint, then a split is indicated."
+/// "If the incoming links can be partitioned into two sets such that the sets' 'images' (the sets
+/// of outgoing links taken after coming in on each link in a set) are (nearly) disjoint, then a
+/// split is indicated."
 ///
-/// Images of different *actions* say only that the robot turned here or there; a split is indicated where the same
-/// action led to different places. The paper's images are of links, so that is what they are compared by: two incoming
-/// links belong together when some action led from both to the same place, and apart when it never did although both
-/// know the action. O(degree²).
+/// Images of different *actions* say only that the robot turned here or there; a split is indicated
+/// where the same action led to different places. The paper's images are of links, so that is what
+/// they are compared by: two incoming links belong together when some action led from both to the
+/// same place, and apart when it never did although both know the action. O(degree²).
 pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     let limits = &config.restructuring;
     let here = map.place(place);

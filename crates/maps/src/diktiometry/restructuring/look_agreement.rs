@@ -1,7 +1,8 @@
 //! Looks as evidence of identity, where the map has learned that they are.
 //!
-//! Beyond the paper, which compares histories of places that were considered and rejected. After a long way the box of a
-//! position has room for several places; where looks are many, it is told by what the places along the same actions look like.
+//! Beyond the paper, which compares histories of places that were considered and rejected. After a
+//! long way the box of a position has room for several places; where looks are many, it is told by
+//! what the places along the same actions look like.
 
 use alloc::vec::Vec;
 
@@ -16,23 +17,27 @@ use crate::diktiometry::{
 /// Pairs of places that are compared at most.
 const COMPARED: usize = 64;
 
-/// For how many places one may be taken where an action relates the two to one place ([`share_a_way`]): how often, at most, it leads
-/// elsewhere than it did, or not back, since the world has changed or the place is two.
+/// For how many places one may be taken where an action relates the two to one place
+/// ([`share_a_way`]): how often, at most, it leads elsewhere than it did, or not back, since the
+/// world has changed or the place is two.
 const ELSEWHERE: f64 = 1e-3;
 
 /// Whether two places may be merged by what they and the places along the same actions look like.
 ///
-/// Where the same actions lead from one place, there is the same place. If the two are different, so are the places that the same
-/// actions lead to from them, and each pair of them looks alike by a chance of about p ([`Looks`](crate::diktiometry::Looks)).
-/// With k kinds of looks in agreement and n places that the one may be taken for, one that it is not does all that with a chance
-/// of about n · pᵏ at most: p is the mean over all pairs, and some looks are commoner than others. There are as many places as kinds of
-/// looks, and two more, for all that is known: how many are on the map says nothing while it is not folded. Where one action led from one place to
-/// both, the one is taken for the other only if the action has led elsewhere.
+/// Where the same actions lead from one place, there is the same place. If the two are different,
+/// so are the places that the same actions lead to from them, and each pair of them looks alike by
+/// a chance of about p ([`Looks`](crate::diktiometry::Looks)). With k kinds of looks in agreement
+/// and n places that the one may be taken for, one that it is not does all that with a chance of
+/// about n · pᵏ at most: p is the mean over all pairs, and some looks are commoner than others.
+/// There are as many places as kinds of looks, and two more, for all that is known: how many are on
+/// the map says nothing while it is not folded. Where one action led from one place to both, the
+/// one is taken for the other only if the action has led elsewhere.
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     if config.restructuring.look_merge == Use::Off {
         return Verdict::Abstain;
     }
-    // Looks stretch what geometry allows, never break it: also where geometry has no say of its own.
+    // Looks stretch what geometry allows, never break it: also where geometry has no say of its
+    // own.
     if !pair.offset.contains(Point::origin()) {
         return Verdict::Reject;
     }
@@ -48,7 +53,8 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::propose_if(enough)
 }
 
-/// Whether one action led to both from one place, or from both to one from where the action back leads to either.
+/// Whether one action led to both from one place, or from both to one from where the action back
+/// leads to either.
 fn share_a_way(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
     let Pair { a, b, .. } = *pair;
     let paths = &map.paths;
@@ -62,13 +68,15 @@ fn share_a_way(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
         })
 }
 
-/// Where b lies as seen from a by all that is known, m: geometry has its say before a merge. O(frames · degree · log frames).
+/// Where b lies as seen from a by all that is known, m: geometry has its say before a merge.
+/// O(frames · degree · log frames).
 pub(super) fn offset_anywhere(map: &Diktiometry, a: PlaceId, b: PlaceId) -> PointBox {
     let known = map.displacement(a, b, &SearchLimits::UNLIMITED);
     known.unwrap_or(PointBox::UNBOUNDED)
 }
 
-/// The pairs noted at `place` that are one by their looks, without a search of the neighbourhood. Notes that looks settle are taken away.
+/// The pairs noted at `place` that are one by their looks, without a search of the neighbourhood.
+/// Notes that looks settle are taken away.
 pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> Vec<Pair> {
     let Some(wanted) = wanted_anywhere(map, config) else {
         return Vec::new();
@@ -102,8 +110,8 @@ pub(crate) fn learn_of_two(
     map.looks.count(look, neighbours);
 }
 
-/// How two places look from which the same action leads to those of a pair, or else to which it leads from them; none if there are
-/// none of either.
+/// How two places look from which the same action leads to those of a pair, or else to which it
+/// leads from them; none if there are none of either.
 fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Option<Similarity> {
     let paths = &map.paths;
     let before = paths.incoming(a).find_map(|(_, link)| {
@@ -122,7 +130,8 @@ fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Optio
     Some(similarity(one, other, &config.percepts))
 }
 
-/// How many kinds of looks have to agree where geometry knows nothing; none if looks tell nothing there.
+/// How many kinds of looks have to agree where geometry knows nothing; none if looks tell nothing
+/// there.
 pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usize> {
     match config.restructuring.look_merge {
         Use::On => enough(map, f64::INFINITY, config),
@@ -130,7 +139,8 @@ pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usiz
     }
 }
 
-/// How many kinds of looks have to agree if there is room for so many places; none if there are not as many kinds.
+/// How many kinds of looks have to agree if there is room for so many places; none if there are not
+/// as many kinds.
 fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
     let others = room.min(f64::from(map.looks.kinds) + 2.0);
     map.looks.enough(config.restructuring.look_error / others)
@@ -147,8 +157,8 @@ pub(super) enum Agreement {
     Broken,
 }
 
-/// Whether `wanted` kinds of looks agree along the same actions from two places, wherever they are, and nothing speaks against it that
-/// the two are one.
+/// Whether `wanted` kinds of looks agree along the same actions from two places, wherever they are,
+/// and nothing speaks against it that the two are one.
 pub(super) fn agreement(
     map: &Diktiometry,
     a: PlaceId,

@@ -6,7 +6,8 @@ use crate::diktiometry::{
     Config, Diktiometry, Exits, Fate, Link, LinkId, Percepts, PlaceId, Successor, merge_estims,
 };
 
-/// Makes one place of two, the older; none, and nothing done, if what is known of their frames forbids it.
+/// Makes one place of two, the older; none, and nothing done, if what is known of their frames
+/// forbids it.
 ///
 /// O(relations and links of the younger · log degree of the older).
 pub(super) fn merge(
@@ -54,8 +55,9 @@ pub(super) fn merge(
     Some(kept)
 }
 
-/// Puts both places at one point, and brings what is known of the one's frame to the other's. Where the frame that was left
-/// lies in that of `kept`; none, and nothing done, if that contradicts a relation.
+/// Puts both places at one point, and brings what is known of the one's frame to the other's. Where
+/// the frame that was left lies in that of `kept`; none, and nothing done, if that contradicts a
+/// relation.
 fn join_frames(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) -> Option<PointBox> {
     let [(home, there), (left, here)] = [kept, lost].map(|place| map.site(place));
     let shift = if home == left {
@@ -88,7 +90,8 @@ fn join_frames(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) -> Option<Po
     Some(shift)
 }
 
-/// Lets the links of `lost` begin and end at `kept`; what becomes the same link is counted together.
+/// Lets the links of `lost` begin and end at `kept`; what becomes the same link is counted
+/// together.
 fn move_links(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) {
     let mut renamed: Vec<(LinkId, LinkId)> = Vec::new();
     let mut ids = map.place(lost).links();

@@ -1,4 +1,5 @@
-//! Constraints of a static world: an action leads from a place to one place, and its reverse from there back.
+//! Constraints of a static world: an action leads from a place to one place, and its reverse from
+//! there back.
 //!
 //! Beyond the paper, whose world may change.
 
@@ -6,7 +7,8 @@ use super::Verdict;
 use super::geometric::Pair;
 use crate::diktiometry::{Action, Config, Diktiometry, PlaceId, WorldKind};
 
-/// Two places that one action leads to from one place are one. Geometry has its say all the same. O(degree²).
+/// Two places that one action leads to from one place are one. Geometry has its say all the same.
+/// O(degree²).
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     if config.world == WorldKind::Changing {
         return Verdict::Abstain;
@@ -15,7 +17,8 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::propose_if(beside(map, pair.a, config).any(leads_to_both))
 }
 
-/// The places and actions that lead to a place: those that did, and those whose reverse led there from it.
+/// The places and actions that lead to a place: those that did, and those whose reverse led there
+/// from it.
 fn beside<'a>(
     map: &'a Diktiometry,
     place: PlaceId,

@@ -1,4 +1,5 @@
-//! Transients: "non-existent states and transitions hallucinated due to nonreproducible conditions".
+//! Transients: "non-existent states and transitions hallucinated due to nonreproducible
+//! conditions".
 
 use alloc::vec::Vec;
 
@@ -6,8 +7,9 @@ use crate::diktiometry::{
     Config, Counts, Diktiometry, Fate, LinkStatus, PlaceId, Restructured, Transients, Use,
 };
 
-/// Elides the links from `place`'s neighbours to it and from it, and the places they lead to, that are met far less often than
-/// they are expected. A place that tracks are at (`occupied`) stays. O(degree).
+/// Elides the links from `place`'s neighbours to it and from it, and the places they lead to, that
+/// are met far less often than they are expected. A place that tracks are at (`occupied`) stays.
+/// O(degree).
 pub(super) fn elide(
     map: &mut Diktiometry,
     place: PlaceId,
@@ -51,7 +53,8 @@ pub(crate) fn elide_place(map: &mut Diktiometry, id: PlaceId) {
     }
 }
 
-/// Whether something is met, with 99 % certainty, in less than the configured share of the times it is expected.
+/// Whether something is met, with 99 % certainty, in less than the configured share of the times it
+/// is expected.
 fn is_transient(counts: &Counts, config: &Transients) -> bool {
     counts.rate_at_most(config.fading) < config.rate
 }

@@ -4,8 +4,8 @@ use super::super::{GenerateError, chance};
 use super::pen::Pen;
 use crate::{Cell, Direction, Maze};
 
-/// Draws a comb: a spine along the south, and in every other column a tooth of any length. The start is the spine's west end,
-/// the goal the end that is farthest from it. O(cells).
+/// Draws a comb: a spine along the south, and in every other column a tooth of any length. The
+/// start is the spine's west end, the goal the end that is farthest from it. O(cells).
 ///
 /// # Errors
 /// [`GenerateError`] below 3 × 2 cells or above 1024 a side.

@@ -7,8 +7,8 @@ use crate::{Cell, Maze};
 /// The longest corridor of a ladder, cells.
 const LONGEST: u16 = 15;
 
-/// Draws a ring: one loop of four equal sides, as large as fits. Start and goal lie opposite each other, anywhere on it.
-/// O(cells).
+/// Draws a ring: one loop of four equal sides, as large as fits. Start and goal lie opposite each
+/// other, anywhere on it. O(cells).
 ///
 /// # Errors
 /// [`GenerateError`] below 3 × 3 cells or above 1024 a side.
@@ -29,8 +29,9 @@ pub fn ring(size: (u16, u16), rng: &mut impl Rng) -> Result<Maze, GenerateError>
     Ok(pen.finish_anywhere(rng))
 }
 
-/// Draws a ladder: two equal square loops side by side that share a rung. The corridors between corners and forks have
-/// 1 to 15 cells, by chance as many as fit. Start and goal lie anywhere, far from each other. O(cells).
+/// Draws a ladder: two equal square loops side by side that share a rung. The corridors between
+/// corners and forks have 1 to 15 cells, by chance as many as fit. Start and goal lie anywhere, far
+/// from each other. O(cells).
 ///
 /// # Errors
 /// [`GenerateError`] below 5 × 3 cells or above 1024 a side.
@@ -81,7 +82,8 @@ fn rungs(mut pen: Pen, corridor: u16, rng: &mut impl Rng) -> Maze {
     pen.finish_anywhere(rng)
 }
 
-/// Draws an eight: two loops of any sides that share one crossing. Start and goal lie anywhere, far from each other. O(cells).
+/// Draws an eight: two loops of any sides that share one crossing. Start and goal lie anywhere, far
+/// from each other. O(cells).
 ///
 /// # Errors
 /// [`GenerateError`] below 5 × 5 cells or above 1024 a side.

@@ -14,7 +14,8 @@ impl Pen {
     /// Returns a pen for a maze of this size.
     ///
     /// # Errors
-    /// [`GenerateError::Small`] if it has not at least `least` columns and rows, [`GenerateError::Size`] if it is too large.
+    /// [`GenerateError::Small`] if it has not at least `least` columns and rows,
+    /// [`GenerateError::Size`] if it is too large.
     pub(super) fn new(
         drawing: &'static str,
         (width, height): (u16, u16),
@@ -47,7 +48,8 @@ impl Pen {
         }
     }
 
-    /// Draws a corridor of so many cells onward from `from`, and returns the last one: earlier at the border.
+    /// Draws a corridor of so many cells onward from `from`, and returns the last one: earlier at
+    /// the border.
     pub(super) fn line(&mut self, from: Cell, direction: Direction, cells: u16) -> Cell {
         let mut at = from;
         for _ in 0..cells {
@@ -60,7 +62,8 @@ impl Pen {
         at
     }
 
-    /// Draws the outline of a rectangle with this south-west corner, so many cells further to the east and north.
+    /// Draws the outline of a rectangle with this south-west corner, so many cells further to the
+    /// east and north.
     pub(super) fn rectangle(&mut self, corner: Cell, width: u16, height: u16) {
         let east = self.line(corner, Direction::East, width);
         self.line(corner, Direction::North, height);
@@ -78,8 +81,8 @@ impl Pen {
         cells.filter(|cell| self.maze.degree(*cell) > 0).collect()
     }
 
-    /// Returns the maze with this start, looking through its first opening, and the drawn cell farthest from it as goal: of
-    /// several one by chance.
+    /// Returns the maze with this start, looking through its first opening, and the drawn cell
+    /// farthest from it as goal: of several one by chance.
     pub(super) fn finish(mut self, start: Cell, rng: &mut impl Rng) -> Maze {
         let steps = self.maze.steps_to(&[start]);
         let drawn = self.drawn();

@@ -4,8 +4,9 @@ use super::super::{GenerateError, chance};
 use super::pen::Pen;
 use crate::{Cell, Direction, Maze};
 
-/// Draws a spiral: one corridor that winds inwards from the south-west corner, to the right or to the left, and ends at any
-/// of the last cells. The start is its outer end, the goal its inner one. O(cells).
+/// Draws a spiral: one corridor that winds inwards from the south-west corner, to the right or to
+/// the left, and ends at any of the last cells. The start is its outer end, the goal its inner one.
+/// O(cells).
 ///
 /// # Errors
 /// [`GenerateError`] below 3 × 3 cells or above 1024 a side.

@@ -4,8 +4,8 @@ use super::super::{GenerateError, chance};
 use super::pen::Pen;
 use crate::{Cell, Direction, Maze};
 
-/// Draws a star: four arms of any length from a hub, each with a bend to its right at the end, or none. The start is the end
-/// of one arm, the goal the end that is farthest from it. O(cells).
+/// Draws a star: four arms of any length from a hub, each with a bend to its right at the end, or
+/// none. The start is the end of one arm, the goal the end that is farthest from it. O(cells).
 ///
 /// # Errors
 /// [`GenerateError`] below 3 × 3 cells or above 1024 a side.

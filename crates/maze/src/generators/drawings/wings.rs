@@ -4,8 +4,9 @@ use super::super::{GenerateError, Perfect, chance};
 use super::pen::Pen;
 use crate::{Cell, Direction, Maze};
 
-/// Draws wings: a spine from west to east, and on it two wings side by side, or four, two of them mirrored to the south. All
-/// wings are the same perfect maze. The start is the west end of the spine. O(cells).
+/// Draws wings: a spine from west to east, and on it two wings side by side, or four, two of them
+/// mirrored to the south. All wings are the same perfect maze. The start is the west end of the
+/// spine. O(cells).
 ///
 /// # Errors
 /// [`GenerateError`] below 5 × 5 cells or above 1024 a side.

@@ -11,7 +11,8 @@ pub(super) struct Column<'a> {
     eye: Point,
     /// How high the eye sits, m.
     eye_height: f64,
-    /// Where it looks, of length 1 along the camera's axis, so that depths are distances from the picture's plane.
+    /// Where it looks, of length 1 along the camera's axis, so that depths are distances from the
+    /// picture's plane.
     direction: Vector,
     /// The walls it meets, the nearest first.
     met: Vec<Met<'a>>,
@@ -37,7 +38,8 @@ pub(super) struct Pixel {
 }
 
 impl<'a> Column<'a> {
-    /// The column that looks along `direction`, of length 1 along the camera's axis, at `walls`. O(walls).
+    /// The column that looks along `direction`, of length 1 along the camera's axis, at `walls`.
+    /// O(walls).
     pub(super) fn new(
         eye: Point,
         eye_height: f64,
@@ -65,8 +67,8 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// What it sees at `upward` of the axis, as the tangent of the angle: the first wall that reaches up and down to there,
-    /// or the floor before it.
+    /// What it sees at `upward` of the axis, as the tangent of the angle: the first wall that
+    /// reaches up and down to there, or the floor before it.
     pub(super) fn pixel(&self, upward: f64, backdrop: &Backdrop, shine: &Shine) -> Pixel {
         let floor = if upward < 0.0 {
             -self.eye_height / upward

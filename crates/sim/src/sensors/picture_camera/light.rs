@@ -12,9 +12,11 @@ pub struct Light {
     pub cast: [f64; 3],
     /// From where most of it comes.
     pub from: Heading,
-    /// How much brighter a wall is that faces the light, as a share; one that faces away is as much darker.
+    /// How much brighter a wall is that faces the light, as a share; one that faces away is as much
+    /// darker.
     pub shade: f64,
-    /// How much of full light glowing walls cast over the whole picture, as a share, where they fill it.
+    /// How much of full light glowing walls cast over the whole picture, as a share, where they
+    /// fill it.
     pub glare: f64,
     /// How all that changes.
     pub drift: LightDrift,
@@ -59,8 +61,9 @@ impl Light {
         }
     }
 
-    /// Daylight through windows that look to `from`, and lamps: it changes within some fifty pictures, and windows glare.
-    /// The paper names changing light and gives no values (section 3.4).
+    /// Daylight through windows that look to `from`, and lamps: it changes within some fifty
+    /// pictures, and windows glare. The paper names changing light and gives no values (section
+    /// 3.4).
     #[must_use]
     pub const fn daylight(from: Heading) -> Self {
         Self {
@@ -102,7 +105,8 @@ impl Light {
     }
 }
 
-/// Where the light has drifted: standard normal numbers, each to be scaled by its standard deviation.
+/// Where the light has drifted: standard normal numbers, each to be scaled by its standard
+/// deviation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Weather {
     now: Option<Drifts>,

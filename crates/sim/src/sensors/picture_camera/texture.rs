@@ -1,10 +1,11 @@
-/// Returns how much lighter or darker a surface is at a point of the room than its colour says, −1 … 1: stains that are
-/// always at the same place, larger ones and smaller ones on top.
+/// Returns how much lighter or darker a surface is at a point of the room than its colour says, −1
+/// … 1: stains that are always at the same place, larger ones and smaller ones on top.
 pub(super) fn stain(x: f64, y: f64, height: f64) -> f64 {
     0.6 * patch([x, y, height], 0.43, 1) + 0.4 * patch([x, y, height], 0.11, 2)
 }
 
-/// A number for each cube of the room's space, −1 … 1. No wall at a round coordinate lies between two cubes.
+/// A number for each cube of the room's space, −1 … 1. No wall at a round coordinate lies between
+/// two cubes.
 fn patch(point: [f64; 3], size: f64, layer: u32) -> f64 {
     let cube = point.map(|along| ((along + 0.0737) / size).floor() as i32 as u32);
     let mixed = cube.iter().fold(layer, |hash, index| mix(hash ^ index));

@@ -192,7 +192,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
             let is_wall = match self.walls.knowledge(end, side) {
                 Knowledge::Wall => true,
                 Knowledge::Open => false,
-                // Older simulators know no distance: what stands right beside the mouse is asked for without.
+                // Older simulators know no distance: what stands right beside the mouse is asked
+                // for without.
                 Knowledge::Unknown if open == 0 => self.link.truth(command)?,
                 Knowledge::Unknown => self.link.truth(&format!("{command} {}", 2 * open + 1))?,
             };
@@ -313,7 +314,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
                         crashes: self.crashes,
                     });
                 }
-                // One of the walls seen last is not as it seemed, and with it what was planned on it.
+                // One of the walls seen last is not as it seemed, and with it what was planned on
+                // it.
                 self.walls.undo(DOUBTFUL);
                 self.hoped = None;
                 return self.go_back();

@@ -45,18 +45,22 @@ pub struct NoisyMouse {
     rng: ChaCha8Rng,
 }
 
-/// Readings taken in a stop at least, and at most while a side of the cell that a sensor looks at is not known.
+/// Readings taken in a stop at least, and at most while a side of the cell that a sensor looks at
+/// is not known.
 const LOOKS: (u32, u32) = (4, 16);
-/// A mouse nearer to a wall ahead does not drive on, from its middle, m: so many readings in a row have to say so.
+/// A mouse nearer to a wall ahead does not drive on, from its middle, m: so many readings in a row
+/// have to say so.
 const TOO_NEAR: (f64, u32) = (0.055, 3);
-/// How far ahead of the middle of its cell, as a share of the pitch, a mouse is that bumps into the wall of that cell, and not into a post.
+/// How far ahead of the middle of its cell, as a share of the pitch, a mouse is that bumps into the
+/// wall of that cell, and not into a post.
 const AT_WALL: (f64, f64) = (0.1, 0.4);
 /// How often what is believed is doubted before the mouse takes itself for stuck.
 const DOUBTS: u32 = 12;
 /// A turn or a place this near is reached, rad and m.
 const CLOSE: (f64, f64) = (0.03, 0.004);
-/// The share of its full speed that the mouse drives with. What its wheels and sensors get wrong in a time step is independent
-/// of the next: the smaller the time steps, the more of it averages out, and the rules count no time.
+/// The share of its full speed that the mouse drives with. What its wheels and sensors get wrong in
+/// a time step is independent of the next: the smaller the time steps, the more of it averages out,
+/// and the rules count no time.
 const PACE: f64 = 0.25;
 /// Time steps after which a step of the paper's rules is given up.
 const PATIENCE: u32 = 800;
@@ -173,8 +177,9 @@ impl NoisyMouse {
         decision.unwrap_or(MoveDecision::Stuck)
     }
 
-    /// Returns what `plan` comes to. Every maze has a way to its goal: while `plan` is `stuck`, some wall is believed in that does not
-    /// stand, and all are doubted, so that the mouse looks again at those for which least speaks.
+    /// Returns what `plan` comes to. Every maze has a way to its goal: while `plan` is `stuck`,
+    /// some wall is believed in that does not stand, and all are doubted, so that the mouse looks
+    /// again at those for which least speaks.
     fn unless_stuck<T: PartialEq>(&mut self, stuck: T, plan: impl Fn(&mut Self) -> T) -> T {
         for _ in 0..DOUBTS {
             let planned = plan(self);
@@ -260,7 +265,8 @@ impl NoisyMouse {
         Ok(())
     }
 
-    /// Takes in that it touched something while it drove to `side`: the wall of its cell there, unless that is too near or far.
+    /// Takes in that it touched something while it drove to `side`: the wall of its cell there,
+    /// unless that is too near or far.
     fn bumped(&mut self, side: Direction) {
         let cell = self.cell();
         let off = self.pose().position - self.belief.middle(cell);

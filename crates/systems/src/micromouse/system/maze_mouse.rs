@@ -150,7 +150,8 @@ where
 }
 
 impl<S: Search> MazeMouse<S> {
-    /// Takes in the walls that are seen from here. `Some` if there were no ranges, or they contradict the map.
+    /// Takes in the walls that are seen from here. `Some` if there were no ranges, or they
+    /// contradict the map.
     fn look<R: Body>(&mut self, robot: &mut R) -> Result<Option<Standing>, R::Error> {
         let cell = self.at;
         let Some(rays) = self.pilot.look(robot, self.config.middle(cell))? else {

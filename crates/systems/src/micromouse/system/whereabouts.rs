@@ -7,8 +7,8 @@ use tolman_robot::{Compass, Odometry, Ranges, Rolls, Scan, TurnTranslate};
 use super::MazeMouseConfig;
 use super::sight::{self, TOLERANCE};
 
-/// Returns where a mouse is that was at `pose` a time step before and was told `command`, by its wheels, its compass and the
-/// walls.
+/// Returns where a mouse is that was at `pose` a time step before and was told `command`, by its
+/// wheels, its compass and the walls.
 ///
 /// Walls stand on the lines of the grid. A range that ends near a line tells how far the robot is
 /// from it, so that the wheels need be right to less than half a cell between two walls.
@@ -32,7 +32,8 @@ pub(super) fn next_pose(
     pose
 }
 
-/// From `pose` to where the walls say that the mouse is: the mean over all beams that meet one, on each axis.
+/// From `pose` to where the walls say that the mouse is: the mean over all beams that meet one, on
+/// each axis.
 fn correction(scan: &Scan, pose: Pose, config: &MazeMouseConfig) -> Vector {
     let pitch = config.pitch;
     let (mut sum, mut count) = (Vector::zeros(), Vector::zeros());

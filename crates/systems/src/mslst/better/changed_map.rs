@@ -38,8 +38,9 @@ impl ChangedMap {
         &self.now
     }
 
-    /// Notes that these walls bar the way at a standpoint. Draws them when they have done so often enough and another way leads to the goal;
-    /// returns whether it did. O(1), or as making a map ready takes.
+    /// Notes that these walls bar the way at a standpoint. Draws them when they have done so often
+    /// enough and another way leads to the goal; returns whether it did. O(1), or as making a map
+    /// ready takes.
     pub(super) fn bar(&mut self, walls: &[Point], at: Point) -> bool {
         self.barred += 1;
         if self.barred < ENOUGH || self.is_cut_off {

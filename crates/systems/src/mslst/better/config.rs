@@ -11,7 +11,8 @@ pub struct BetterConfig {
     pub diameter: f64,
     /// Standard deviation of what the wheels rolled in a time step, as a share of it.
     pub odometry_sd: f64,
-    /// Standard deviation of how far a wall pushed the robot aside in a time step in which it touched one, m.
+    /// Standard deviation of how far a wall pushed the robot aside in a time step in which it
+    /// touched one, m.
     pub slide_sd: f64,
     /// What its motors do.
     pub motors: Motors,
@@ -52,7 +53,8 @@ pub enum BetterPart {
     Exploration,
     /// It plans for a robot that misses; without it for one whose motors do as they are told.
     Chances,
-    /// It does what is best on average over all it believes; without it what is best where it most likely is.
+    /// It does what is best on average over all it believes; without it what is best where it most
+    /// likely is.
     Average,
     /// It takes the absence of the goal's landmark as evidence.
     Absence,

@@ -1,8 +1,10 @@
 use tolman_planners::Decisions;
 
-/// What each action costs at each standpoint, facing along either axis, until the goal is reached, on average: ten bytes a standpoint.
+/// What each action costs at each standpoint, facing along either axis, until the goal is reached,
+/// on average: ten bytes a standpoint.
 ///
-/// The plan's decisions themselves take thirty times as much, and are not needed once this is known.
+/// The plan's decisions themselves take thirty times as much, and are not needed once this is
+/// known.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ActionCosts {
     /// The least cost at each standpoint, in [`LEAST_UNIT`]s.
@@ -17,12 +19,13 @@ const OPTIONS: usize = 8;
 pub(super) const HOPELESS: f32 = 1e4;
 /// Steps in which the least costs are kept, time steps.
 const LEAST_UNIT: f64 = 0.25;
-/// Steps in which the others are, time steps: an action that costs 32 more is as good as one that costs 100 more.
+/// Steps in which the others are, time steps: an action that costs 32 more is as good as one that
+/// costs 100 more.
 const MORE_UNIT: f64 = 0.125;
 
 impl ActionCosts {
-    /// Returns those of [`OPTIONS`] in turn for every standpoint, where `states` are the costs of the states of `decisions`.
-    /// O(ends of decisions).
+    /// Returns those of [`OPTIONS`] in turn for every standpoint, where `states` are the costs of
+    /// the states of `decisions`. O(ends of decisions).
     pub(super) fn of(decisions: &Decisions, states: &[f32]) -> Self {
         let standpoints = states.len() * decisions.actions() / OPTIONS;
         let mut costs = Self {
@@ -48,7 +51,8 @@ impl ActionCosts {
             .push(options.map(|cost| libm::round((cost - least) / MORE_UNIT) as u8));
     }
 
-    /// Returns the time steps to the goal on average by an option at a standpoint; [`HOPELESS`] where there is no such.
+    /// Returns the time steps to the goal on average by an option at a standpoint; [`HOPELESS`]
+    /// where there is no such.
     pub(super) fn cost(&self, standpoint: u32, option: usize) -> f64 {
         let standpoint = standpoint as usize;
         let (Some(least), Some(more)) = (self.least.get(standpoint), self.more.get(standpoint))

@@ -5,7 +5,8 @@ use tolman_maze::Direction;
 
 /// Which actions failed of late, and where the robot believed to be.
 ///
-/// A map does not say why an action fails again and again; whatever the reason is, something else is worth a try.
+/// A map does not say why an action fails again and again; whatever the reason is, something else
+/// is worth a try.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Failures {
     last: VecDeque<(Point, Direction)>,

@@ -8,8 +8,8 @@ use tolman_robot::{LaserSensing, Ring, Robot, TurnTranslate};
 
 use super::Motors;
 
-/// The robot as it imagines itself on its own map: it senses what the nearest standpoint would show, and its motors miss as
-/// its own do.
+/// The robot as it imagines itself on its own map: it senses what the nearest standpoint would
+/// show, and its motors miss as its own do.
 pub(super) struct Imagined<'a> {
     standpoints: &'a Standpoints,
     views: StandpointViews,

@@ -9,10 +9,11 @@ use super::BetterConfig;
 use super::costs::{ActionCosts, HOPELESS};
 use super::rehearsal::{rehearse, state};
 
-/// What the better system has learned, made ready for navigation: where it can stand, what it sees there, and what it costs to
-/// get to the goal.
+/// What the better system has learned, made ready for navigation: where it can stand, what it sees
+/// there, and what it costs to get to the goal.
 ///
-/// With the belief of who navigates it takes less than 1 KiB for each place. While it is made ready, its plan takes some hundred times as much.
+/// With the belief of who navigates it takes less than 1 KiB for each place. While it is made
+/// ready, its plan takes some hundred times as much.
 #[derive(Clone, Debug)]
 pub struct BetterMap {
     pub(super) config: BetterConfig,
@@ -20,7 +21,8 @@ pub struct BetterMap {
     costs: ActionCosts,
 }
 
-/// Costs count as settled when none changes by more, time steps; and at the latest after so many rounds.
+/// Costs count as settled when none changes by more, time steps; and at the latest after so many
+/// rounds.
 const SETTLED: f32 = 0.01;
 const MOST_SWEEPS: usize = 200;
 /// A standpoint so near is about where the robot is, m.
@@ -69,7 +71,8 @@ impl BetterMap {
         near.into_iter().any(leads)
     }
 
-    /// Returns the time steps to the goal on average from a standpoint by an action, facing along an axis.
+    /// Returns the time steps to the goal on average from a standpoint by an action, facing along
+    /// an axis.
     pub(super) fn cost(&self, number: u32, axis: usize, action: Direction) -> f64 {
         let option = axis * Direction::ALL.len() + action.index();
         self.costs.cost(number, option)

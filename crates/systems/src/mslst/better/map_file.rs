@@ -19,8 +19,8 @@ pub struct BetterMapFile {
     pub config: BetterConfig,
     /// The map.
     pub chart: ScanChart,
-    /// Where the robot truly was when each place was made, m, for pictures and for whoever checks the map alone; none if nobody
-    /// watched.
+    /// Where the robot truly was when each place was made, m, for pictures and for whoever checks
+    /// the map alone; none if nobody watched.
     pub sites: Vec<Point>,
 }
 

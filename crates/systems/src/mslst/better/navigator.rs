@@ -15,7 +15,8 @@ use super::rehearsal::facing;
 use super::{BetterMap, BetterPart};
 use crate::{Brain, Doing, RolledStep};
 
-/// Finds out where it is on its map, and does what leads to the goal soonest on average over all it believes.
+/// Finds out where it is on its map, and does what leads to the goal soonest on average over all it
+/// believes.
 #[derive(Clone, Debug)]
 pub struct BetterNavigator {
     maps: ChangedMap,

@@ -25,7 +25,8 @@ const STEPS_OF_ACTION: u32 = 2;
 /// A step that leads on leads so far at least, as a share of what an action does.
 const LEADS_ON: f64 = 0.1;
 
-/// Standard deviation of how far an action leads aside whose way the wheels do not tell, as a share of it.
+/// Standard deviation of how far an action leads aside whose way the wheels do not tell, as a share
+/// of it.
 const ASIDE: f64 = 0.05;
 
 impl Reckoning {
@@ -49,7 +50,8 @@ impl Reckoning {
         }
     }
 
-    /// Which way a time step led at whose end the compass says `now`; nothing where it has never said anything.
+    /// Which way a time step led at whose end the compass says `now`; nothing where it has never
+    /// said anything.
     fn along(&mut self, now: Option<Heading>) -> Option<Heading> {
         let (before, was_fresh) = (self.heading, self.is_fresh);
         (self.heading, self.is_fresh) = (now.or(before), now.is_some());
@@ -74,7 +76,8 @@ impl Reckoning {
         self.moved + self.rolled
     }
 
-    /// Ends an action. Of the steps in which such actions lead on, those that the wheels did not tell led as far as such steps do.
+    /// Ends an action. Of the steps in which such actions lead on, those that the wheels did not
+    /// tell led as far as such steps do.
     fn end(&mut self, action: Direction, outcome: Outcome, config: &BetterConfig) {
         let steps = match outcome {
             Outcome::Completed => STEPS_OF_ACTION,
@@ -103,7 +106,8 @@ mod tests {
     use super::*;
     use crate::TimeStep;
 
-    /// How far to the east a robot comes that goes there in steps of which the wheels tell so much, m, and how sure that is.
+    /// How far to the east a robot comes that goes there in steps of which the wheels tell so much,
+    /// m, and how sure that is.
     fn reckoned(told: &[Option<f64>], outcome: Outcome) -> (Vector, Vector) {
         let step = |doing, distance: Option<f64>| RolledStep {
             step: TimeStep {

@@ -22,8 +22,9 @@ const ASKEW: f64 = 5.0 * core::f64::consts::PI / 180.0;
 /// An action that has not ended by then counts as one that leads nowhere, time steps.
 const LONGEST_ACTION: u32 = 40;
 
-/// Tries every action in thought, with the robot's own layers on its own map, from every standpoint along every axis: what it costs
-/// in time steps, and where it leads. O(standpoints · tries · steps · beams).
+/// Tries every action in thought, with the robot's own layers on its own map, from every standpoint
+/// along every axis: what it costs in time steps, and where it leads. O(standpoints · tries · steps
+/// · beams).
 ///
 /// # Errors
 /// If the layers cannot read the ring.

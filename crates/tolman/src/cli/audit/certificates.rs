@@ -1,4 +1,5 @@
-//! The file of certificates: cycles by the ids and lines of the graph's file, so that other programs can check them.
+//! The file of certificates: cycles by the ids and lines of the graph's file, so that other
+//! programs can check them.
 
 use alloc::collections::BTreeMap;
 

@@ -32,10 +32,12 @@ Example:
 pub(super) struct Arguments {
     /// The pose graph as g2o writes it (VERTEX_SE2, EDGE_SE2), plain or gzipped
     graph: PathBuf,
-    /// What every stated standard deviation is multiplied by, or auto: as the graph's own short cycles tell
+    /// What every stated standard deviation is multiplied by, or auto: as the graph's own short
+    /// cycles tell
     #[arg(long, value_name = "S|auto", default_value = "1", value_parser = scale)]
     sigma_scale: Scale,
-    /// Measure the certificates in the folder again instead of making them; exits 1 if one does not hold
+    /// Measure the certificates in the folder again instead of making them; exits 1 if one does not
+    /// hold
     #[arg(long)]
     verify: bool,
     /// The folder for what is found [default: results/audit/NAME]

@@ -1,5 +1,5 @@
-//! The colours of the view, or none: of the sixteen that every terminal has and its owner has chosen, none of them one
-//! that vanishes on a light or on a dark ground.
+//! The colours of the view, or none: of the sixteen that every terminal has and its owner has
+//! chosen, none of them one that vanishes on a light or on a dark ground.
 
 use ratatui::style::{Color, Modifier, Style};
 use tolman_experiment::Ink;

@@ -16,7 +16,8 @@ use super::window::Window;
 /// A character of braille is so many dots wide and high.
 const DOTS: (u32, u32) = (2, 4);
 
-/// From one dot of the trail to the next, dots of the grid: so that it is told from walls without colours.
+/// From one dot of the trail to the next, dots of the grid: so that it is told from walls without
+/// colours.
 const TRAIL_SPACING: f64 = 2.0;
 
 /// From one dot of the destination's floor to the next.

@@ -36,7 +36,8 @@ pub(in crate::cli) struct Screen {
 }
 
 impl Screen {
-    /// Takes the terminal and shows the run before its first step. A panic gives the terminal back too.
+    /// Takes the terminal and shows the run before its first step. A panic gives the terminal back
+    /// too.
     ///
     /// # Errors
     /// If there is no terminal that can be drawn on; it is then as it was.

@@ -9,8 +9,8 @@ const LEAST_DOTS: f64 = 4.0;
 /// So many hops of the window are a window.
 const HOPS: f64 = 4.0;
 
-/// A piece of the world on a grid of dots. Lines of the world that lie whole cells apart lie whole dots
-/// apart on it, so that all walls look alike.
+/// A piece of the world on a grid of dots. Lines of the world that lie whole cells apart lie whole
+/// dots apart on it, so that all walls look alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Window {
     /// From the leftmost to the rightmost dot, m.
@@ -22,8 +22,8 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// The window of `columns` by `rows` dots on a world whose cells are `pitch` metres wide: all of it,
-    /// or, where its corridors would be too narrow to see, what surrounds `robot`.
+    /// The window of `columns` by `rows` dots on a world whose cells are `pitch` metres wide: all
+    /// of it, or, where its corridors would be too narrow to see, what surrounds `robot`.
     pub(super) fn on(bounds: Bounds, pitch: f64, robot: Point, columns: u32, rows: u32) -> Self {
         let (across, up) = (f64::from(columns) - 1.0, f64::from(rows) - 1.0);
         let metres = (bounds.width() / across).max(bounds.height() / up);
@@ -34,8 +34,8 @@ impl Window {
             let before = if extent <= dots + 0.5 {
                 -((dots - extent) / 2.0)
             } else {
-                // The robot is about the middle, but nothing beyond the world is; in hops, for a picture
-                // that moves with every step is hard to read.
+                // The robot is about the middle, but nothing beyond the world is; in hops, for a
+                // picture that moves with every step is hard to read.
                 let hop = (dots / HOPS).floor();
                 let middle = ((robot - least) / metres_per_dot / hop).round() * hop;
                 (middle - dots / 2.0).clamp(0.0, extent - dots)

@@ -28,7 +28,8 @@ Examples:
 #[derive(clap::Args)]
 #[group(skip)]
 pub(super) struct Arguments {
-    /// The log: CARMEN's or Wean Hall's lines, plain or packed by gzip, or a bag of ROS 2 (MCAP; feature `mcap`)
+    /// The log: CARMEN's or Wean Hall's lines, plain or packed by gzip, or a bag of ROS 2 (MCAP;
+    /// feature `mcap`)
     #[arg(long, value_name = "FILE", required = true)]
     log: Option<PathBuf>,
     /// What finds the way
@@ -44,17 +45,20 @@ pub(super) struct Arguments {
 enum System {
     /// Scans are matched to those before, and to places seen before: the dense baseline
     ScanMatching,
-    /// Scans are matched to those before; junctions, bends, dead ends and rooms are places, and recognized
+    /// Scans are matched to those before; junctions, bends, dead ends and rooms are places, and
+    /// recognized
     Places,
     /// Scans are matched to those before alone
     Matching,
     /// The wheels alone
     Odometry,
-    /// The same places; the diktiometry finds out which are the same by bounds on the ways between them
+    /// The same places; the diktiometry finds out which are the same by bounds on the ways between
+    /// them
     Diktiometry,
     /// The same places; CPM finds out which are the same by what was seen on the ways between them
     Cpm,
-    /// The same places; the place graph of GNG-SLAM finds out which are the same by what the laser reads there
+    /// The same places; the place graph of GNG-SLAM finds out which are the same by what the laser
+    /// reads there
     Gngslam,
     /// Refused: it learns from actions, which no log names
     Mslst,

@@ -15,7 +15,8 @@ use crate::cli::ground::{Ground, required};
 use crate::cli::{App, Failure, OrBadInput, file};
 use crate::system::{LearnedMap, MapText};
 
-/// Finds the way of a robot in its log and maps what its laser saw; with a subcommand, looks at a learned map
+/// Finds the way of a robot in its log and maps what its laser saw; with a subcommand, looks at a
+/// learned map
 #[derive(clap::Args)]
 #[command(
     args_conflicts_with_subcommands = true,

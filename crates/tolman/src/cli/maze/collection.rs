@@ -17,8 +17,8 @@ pub(in crate::cli) struct Collection {
 }
 
 impl Collection {
-    /// Reads all mazes for mice that a path names. Those for robots in a folder are skipped with a line on stderr: whoever
-    /// wants one names its file.
+    /// Reads all mazes for mice that a path names. Those for robots in a folder are skipped with a
+    /// line on stderr: whoever wants one names its file.
     ///
     /// # Errors
     /// If it names none.
@@ -47,7 +47,8 @@ impl Collection {
     }
 }
 
-/// Why a maze is one for robots, if it is: a mouse's has a start, and cells as wide as the rules say.
+/// Why a maze is one for robots, if it is: a mouse's has a start, and cells as wide as the rules
+/// say.
 fn for_robots(file: &MazeFile) -> Option<&'static str> {
     if file.corridor_width.is_some() {
         return Some("it says how wide its corridors are");
@@ -55,8 +56,8 @@ fn for_robots(file: &MazeFile) -> Option<&'static str> {
     file.maze.start().is_none().then_some("it marks no start")
 }
 
-/// Lets `work` happen to each maze, `jobs` at a time or one a core, behind a progress bar. The results are in the order of
-/// the mazes.
+/// Lets `work` happen to each maze, `jobs` at a time or one a core, behind a progress bar. The
+/// results are in the order of the mazes.
 ///
 /// # Errors
 /// What `work` fails with, or if no threads can be started.
@@ -85,7 +86,8 @@ pub(in crate::cli) fn each<'a, T: Send>(
     })
 }
 
-/// Fails if the mouse did not solve some of the mazes, each a file and whether it did. A single one is named.
+/// Fails if the mouse did not solve some of the mazes, each a file and whether it did. A single one
+/// is named.
 ///
 /// # Errors
 /// A failure.
@@ -133,7 +135,8 @@ impl Unsound {
         self.0.len()
     }
 
-    /// Complains of each, and fails if there are any. A single maze that is alone speaks for itself.
+    /// Complains of each, and fails if there are any. A single maze that is alone speaks for
+    /// itself.
     pub(in crate::cli) fn complain(mut self, sound: usize) -> Result<(), Failure> {
         let (bad, all) = (self.len(), self.len() + sound);
         if all == 1

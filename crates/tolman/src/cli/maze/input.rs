@@ -32,7 +32,8 @@ pub(super) fn parse(path: &Path) -> Result<MazeFile, Failure> {
         .or_bad_input()
 }
 
-/// The maze files that a path names: itself, or what lies in the folder, by name, without hidden files.
+/// The maze files that a path names: itself, or what lies in the folder, by name, without hidden
+/// files.
 ///
 /// # Errors
 /// If the folder cannot be read or holds no file.

@@ -78,7 +78,8 @@ impl Way {
         Self::of_pitch(name, maze, header, PITCH)
     }
 
-    /// The same in cells of another size: `pitch` is from the middle of a cell to that of the next, m.
+    /// The same in cells of another size: `pitch` is from the middle of a cell to that of the next,
+    /// m.
     ///
     /// # Errors
     /// If the maze marks no start.
@@ -104,7 +105,8 @@ impl Way {
         })
     }
 
-    /// Lets `looks` watch it from now on, step by step, if that is asked for; `step_limit` is the most steps it may have.
+    /// Lets `looks` watch it from now on, step by step, if that is asked for; `step_limit` is the
+    /// most steps it may have.
     ///
     /// # Errors
     /// If the terminal has gone.

@@ -32,8 +32,8 @@ pub(in crate::cli) struct Outing {
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
-    /// and degrees, from the south-west corner of a maze or as a world has it, counter-clockwise from
-    /// east
+    /// and degrees, from the south-west corner of a maze or as a world has it, counter-clockwise
+    /// from east
     #[arg(
         long,
         value_name = "WHERE",
@@ -41,8 +41,8 @@ pub(in crate::cli) struct Outing {
         allow_hyphen_values = true
     )]
     start: Start,
-    /// Give up after so many time steps; if not given, in proportion to the length of the corridors, as
-    /// many for each metre as the Large maze's 500
+    /// Give up after so many time steps; if not given, in proportion to the length of the
+    /// corridors, as many for each metre as the Large maze's 500
     #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
     steps: Option<u32>,
     #[command(flatten)]
@@ -73,7 +73,8 @@ fn course(ground: &Ground) -> Result<Course, Failure> {
 /// Sends the mind that `mind` makes out, and tells what became of it.
 ///
 /// # Errors
-/// Bad input if maze, start or files do not serve; what the mind's maker says; a failure if the robot did not arrive.
+/// Bad input if maze, start or files do not serve; what the mind's maker says; a failure if the
+/// robot did not arrive.
 pub(in crate::cli) fn carry_out(
     arguments: &Outing,
     name: Name<'_>,

@@ -5,13 +5,15 @@ use super::Vote;
 use super::feature_tree::{Feature, FeatureTree};
 use crate::diktiometry::{Signature, SignatureKind, ViewRotation};
 
-/// All views of all places, by their columns: "an input signature's columns are used to index the columns close to them,
-/// marking each signature found at the offset implied by the column match. When enough of a database signature's
-/// columns have been marked, the signature's place is suggested as a match candidate."
+/// All views of all places, by their columns: "an input signature's columns are used to index the
+/// columns close to them, marking each signature found at the offset implied by the column match.
+/// When enough of a database signature's columns have been marked, the signature's place is
+/// suggested as a match candidate."
 ///
-/// What is found is that. But columns are indexed as many at once as possible, since one column says little: if `enough` of the columns
-/// agree, then of `columns - enough + 1` groups of columns at least one agrees as a whole, since those that do not are too few to
-/// spoil each. Only views that share a group with the percept are compared with it column by column.
+/// What is found is that. But columns are indexed as many at once as possible, since one column
+/// says little: if `enough` of the columns agree, then of `columns - enough + 1` groups of columns
+/// at least one agrees as a whole, since those that do not are too few to spoil each. Only views
+/// that share a group with the percept are compared with it column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ColumnIndex {
     /// One a group; where views may be turned, one of the groups that begin at all columns.
@@ -44,7 +46,8 @@ impl ColumnIndex {
         }
     }
 
-    /// The views of which enough columns are near enough to those of a percept in a hypercube of `size` tolerances.
+    /// The views of which enough columns are near enough to those of a percept in a hypercube of
+    /// `size` tolerances.
     pub(super) fn within(&self, percept: &Signature, kind: &SignatureKind, size: f64) -> Vec<u32> {
         let groups = Groups::of(kind);
         let tolerance = kind.tolerance * size;

@@ -14,10 +14,12 @@ pub(super) struct Feature {
 /// Features that are not in a tree yet, at most.
 const LOOSE: usize = 32;
 
-/// A k-d tree of features to which features are added one by one: in truth several balanced trees (the middle of every range splits
-/// it, by one coordinate after the other), one for each binary digit of their number, and some loose features behind them.
+/// A k-d tree of features to which features are added one by one: in truth several balanced trees
+/// (the middle of every range splits it, by one coordinate after the other), one for each binary
+/// digit of their number, and some loose features behind them.
 ///
-/// Source: J. L. Bentley, J. B. Saxe, "Decomposable searching problems I: Static-to-dynamic transformation", the logarithmic method.
+/// Source: J. L. Bentley, J. B. Saxe, "Decomposable searching problems I: Static-to-dynamic
+/// transformation", the logarithmic method.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FeatureTree {
     features: Vec<Feature>,
@@ -34,8 +36,8 @@ impl FeatureTree {
         }
     }
 
-    /// Visits the features that differ from `middle` nowhere by more than `half_sizes`, value by value. O(n^(1 − 1/d) + visited) for
-    /// features of d values.
+    /// Visits the features that differ from `middle` nowhere by more than `half_sizes`, value by
+    /// value. O(n^(1 − 1/d) + visited) for features of d values.
     pub(super) fn within(
         &self,
         middle: &[f64],

@@ -1,8 +1,9 @@
 //! The second form of perceptual indexing: triples of features as triangles.
 //!
-//! Source: S. Atiya, G. Hager, "Real-time vision-based robot localization", which the paper names beside columns: vertical edges
-//! of the image, each three of them a triangle whose sides are compared as intervals, the triangles sorted by the longest side.
-//! Theirs have sides in metres, from two cameras; here an edge is known by its bearing, so that the sides are angles.
+//! Source: S. Atiya, G. Hager, "Real-time vision-based robot localization", which the paper names
+//! beside columns: vertical edges of the image, each three of them a triangle whose sides are
+//! compared as intervals, the triangles sorted by the longest side. Theirs have sides in metres,
+//! from two cameras; here an edge is known by its bearing, so that the sides are angles.
 
 use alloc::vec::Vec;
 
@@ -13,15 +14,16 @@ use crate::diktiometry::{Signature, SignatureKind, ViewRotation};
 /// How many edges of a view are kept, the clearest: 56 triangles.
 const EDGES: usize = 8;
 
-/// How many borders of a percept are asked for, the clearest: 560 triangles, however many columns there are. Twice the edges that are kept, since
-/// noise can make others clearer than those.
+/// How many borders of a percept are asked for, the clearest: 560 triangles, however many columns
+/// there are. Twice the edges that are kept, since noise can make others clearer than those.
 const BORDERS: usize = 2 * EDGES;
 
 /// All views of all places, by triangles of their edges.
 ///
-/// An *edge* is the border between two columns that differ, with its *contrast*, by how much in each row. Three edges are a
-/// triangle: its sides are the angles between them, its corners the contrasts. Both are the same however the robot is turned, and
-/// contrasts are the same however bright it is.
+/// An *edge* is the border between two columns that differ, with its *contrast*, by how much in
+/// each row. Three edges are a triangle: its sides are the angles between them, its corners the
+/// contrasts. Both are the same however the robot is turned, and contrasts are the same however
+/// bright it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct TriangleIndex {
     tree: FeatureTree,
@@ -66,9 +68,10 @@ impl Seen {
 impl TriangleIndex {
     /// Takes in a view. Views with fewer than three edges have no triangle and are never found.
     ///
-    /// An edge is kept if noise alone cannot make it, and borders of a percept are asked for whether it can or not: so a view whose
-    /// values are seen again within the tolerance is found by all its triangles, as long as it has no more borders than are asked for
-    /// or its edges are clearer than all others by four tolerances.
+    /// An edge is kept if noise alone cannot make it, and borders of a percept are asked for
+    /// whether it can or not: so a view whose values are seen again within the tolerance is found
+    /// by all its triangles, as long as it has no more borders than are asked for or its edges are
+    /// clearer than all others by four tolerances.
     pub(super) fn insert(&mut self, view: &Signature, kind: &SignatureKind) {
         let mut edges = borders(view);
         edges.retain(|edge| edge.clearness() > kind.tolerance);
@@ -88,7 +91,8 @@ impl TriangleIndex {
         }
     }
 
-    /// The views of which enough triangles are those of a percept, their contrasts within `size` times what noise may do. O(√(triangles)) for each triangle asked for.
+    /// The views of which enough triangles are those of a percept, their contrasts within `size`
+    /// times what noise may do. O(√(triangles)) for each triangle asked for.
     pub(super) fn within(&self, percept: &Seen, kind: &SignatureKind, size: f64) -> Vec<u32> {
         // Each of the two columns at an edge may differ by the tolerance. Sides are whole columns.
         let mut half_sizes = Vec::from([0.0; SIDES]);
@@ -160,7 +164,8 @@ fn side(from: &Edge, to: &Edge, columns: usize) -> usize {
     (to.column + columns - from.column) % columns
 }
 
-/// The triangle told from the beginning of its longest side on; from each of them if several are the longest.
+/// The triangle told from the beginning of its longest side on; from each of them if several are
+/// the longest.
 fn turns(triangle: Triangle<'_>, columns: usize) -> impl Iterator<Item = Feature> + use<'_> {
     let [a, b, c] = triangle;
     let turns = [[a, b, c], [b, c, a], [c, a, b]];
@@ -207,7 +212,8 @@ mod tests {
         }
     }
 
-    /// What is seen of a place by a robot that is turned by some columns, each value wrong and all of them brighter.
+    /// What is seen of a place by a robot that is turned by some columns, each value wrong and all
+    /// of them brighter.
     fn seen(view: &[f64], turned: usize, noise: &[f64], brighter: f64) -> Signature {
         let values = (0..view.len()).map(|at| {
             let there = (at + turned * ROWS) % view.len();
@@ -294,7 +300,8 @@ mod tests {
         assert!((1..COLUMNS).all(|turned| found(turned).is_empty()));
     }
 
-    /// As many columns as a laser has beams, most of them of one wall: four clear edges are found among the borders that noise makes.
+    /// As many columns as a laser has beams, most of them of one wall: four clear edges are found
+    /// among the borders that noise makes.
     #[test]
     fn views_of_many_columns_are_asked_for_by_few_triangles() {
         const MANY: usize = 2000;

@@ -1,4 +1,5 @@
-//! `ours|ours-plain|scirs2 FILE UNITS PERIOD`: inputs per second of processor time at the end, mean squared error, units.
+//! `ours|ours-plain|scirs2 FILE UNITS PERIOD`: inputs per second of processor time at the end, mean
+//! squared error, units.
 
 use cpu_time::ThreadTime;
 use tolman_quantizers::{ErrorKind, Gng, GngConfig, Lanes, Quantizer, UnitSearch};
