@@ -1,4 +1,4 @@
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
 use core::error::Error;
 use std::path::Path;
 
@@ -13,6 +13,9 @@ use tolman_systems::cpm::CpmOfSites;
 use tolman_systems::diktiometry::DiktiometryOfSites;
 use tolman_systems::gngslam::PlaceGraphOfSites;
 use tolman_systems::places::{OfSites, PlacesConfig, PlacesMapper, SiteMapper};
+
+/// Two places nearer than this are one, m: half a corridor's width.
+const DOUBLED_M: f64 = 1.0;
 
 /// The scans of a log, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -278,6 +281,24 @@ impl MappedLog {
         visits
             .filter_map(|(keyframe, place)| Some([last.insert(place, keyframe)?, keyframe]))
             .collect()
+    }
+
+    /// Counts the places that the way found has within 1 m of one that was founded before: the
+    /// same, met again and not recognized. O(places²).
+    #[must_use]
+    pub fn doubled(&self) -> usize {
+        let scans: BTreeSet<_> = self.founded.values().copied().collect();
+        let at: Vec<_> = scans
+            .iter()
+            .filter_map(|scan| Some(self.poses.get(*scan)?.position))
+            .collect();
+        let is_doubled = |number: &usize| {
+            let before = &at[..*number];
+            before
+                .iter()
+                .any(|place| (*place - at[*number]).norm() < DOUBLED_M)
+        };
+        (0..at.len()).filter(is_doubled).count()
     }
 
     fn with_places(

@@ -33,9 +33,17 @@ pub struct PlacesMapper {
     judged: usize,
     /// Keyframes without a corridor since the last with one.
     open: Vec<usize>,
-    /// The places in the order that they were come to: what each is, and the keyframe in its
-    /// middle.
-    visits: Vec<(SiteKind, usize)>,
+    /// The places in the order that they were come to.
+    visits: Vec<Visit>,
+}
+
+#[derive(Clone, Debug)]
+struct Visit {
+    kind: SiteKind,
+    /// The keyframe halfway through the place.
+    keyframe: usize,
+    /// The middle of the free ground there, as seen from the keyframe.
+    middle: Point,
 }
 
 /// How far about a place counts to its middle, in corridor widths, and how often the middle is
@@ -68,8 +76,9 @@ impl PlacesMapper {
         &self.matching
     }
 
-    /// Returns the places in the order that they were come to; one that was recognized stands
-    /// again, with the number of the first. O(places · log places + edges).
+    /// Returns the places in the order that they were come to; one that was recognized, or that
+    /// lies where another does by the poses, stands again, with the number of the first. O(places²
+    /// + edges).
     #[must_use]
     pub fn sites(&self) -> Vec<SitePlace> {
         let graph = self.matching.graph();
@@ -81,18 +90,23 @@ impl PlacesMapper {
             }
         }
         let mut ids: BTreeMap<usize, u32> = BTreeMap::new();
-        let visits = (0..).zip(&self.visits);
-        let site = visits.map(|(number, (kind, keyframe))| {
-            let known = same.get(keyframe).and_then(|old| ids.get(old));
-            let id = known.copied().unwrap_or(number);
-            ids.insert(*keyframe, id);
-            SitePlace {
-                kind: *kind,
-                keyframe: *keyframe,
+        let middles: Vec<Point> = (self.visits.iter())
+            .map(|visit| self.middle(visit))
+            .collect();
+        let mut sites: Vec<SitePlace> = Vec::new();
+        for (number, visit) in (0..).zip(&self.visits) {
+            let here = middles[sites.len()];
+            let recognized = same.get(&visit.keyframe).and_then(|old| ids.get(old));
+            let there = || Some(sites[self.lies_at(here, &middles[..sites.len()])?].id);
+            let id = recognized.copied().or_else(there).unwrap_or(number);
+            ids.insert(visit.keyframe, id);
+            sites.push(SitePlace {
+                kind: visit.kind,
+                keyframe: visit.keyframe,
                 id,
-            }
-        });
-        site.collect()
+            });
+        }
+        sites
     }
 
     /// Returns how many places it has come to.
@@ -105,7 +119,8 @@ impl PlacesMapper {
     /// The way by which the robot left is known when it has come to the next. O(keyframes).
     #[must_use]
     pub fn site(&self, visit: usize) -> Option<Site> {
-        let (kind, keyframe) = *self.visits.get(visit)?;
+        let this = self.visits.get(visit)?;
+        let keyframe = this.keyframe;
         let axis = self.matching.axis_about(keyframe)?;
         let around = self
             .matching
@@ -118,21 +133,35 @@ impl PlacesMapper {
         // A way that the robot took leads on, whatever the scans show.
         let mut open = ways_on(&around, self.config.corridor_width);
         open[came_by] = true;
-        if let Some((_, next)) = self.visits.get(visit + 1) {
-            open[self.left_by(axis, keyframe, *next)] = true;
+        if let Some(next) = self.visits.get(visit + 1) {
+            open[self.left_by(axis, keyframe, next.keyframe)] = true;
         }
         Some(Site {
             keyframe,
-            middle: self.middle(keyframe),
-            kind,
+            middle: self.middle(this),
+            kind: this.kind,
             open,
             around,
             came_by,
         })
     }
 
+    /// Where the middle of a place lies by the poses.
+    fn middle(&self, visit: &Visit) -> Point {
+        self.pose(visit.keyframe).transform(visit.middle)
+    }
+
+    /// Returns the number of the first of some places whose middle is nearer than half a corridor's
+    /// width.
+    fn lies_at(&self, here: Point, middles: &[Point]) -> Option<usize> {
+        let near = self.config.corridor_width / 2.0;
+        middles
+            .iter()
+            .position(|middle| (*middle - here).norm() < near)
+    }
+
     /// Climbs from where the robot stood to the middle of the free ground there.
-    fn middle(&self, keyframe: usize) -> Point {
+    fn climb(&self, keyframe: usize) -> Point {
         let ring = self.detector.ring();
         let reach = MIDDLE_WIDTHS * self.config.corridor_width;
         let mut middle = self.pose(keyframe).position;
@@ -209,7 +238,8 @@ impl PlacesMapper {
     /// # Errors
     /// If a measurement does not fit.
     pub fn recognize(&mut self, visit: usize, before: usize) -> Result<bool, PlacesError> {
-        let keyframes = [visit, before].map(|visit| self.visits.get(visit).map(|site| site.1));
+        let keyframes =
+            [visit, before].map(|visit| self.visits.get(visit).map(|visit| visit.keyframe));
         match keyframes {
             [Some(here), Some(there)] => Ok(self.matching.recognize(here, there)?),
             _ => Ok(false),
@@ -292,13 +322,23 @@ impl PlacesMapper {
         let ring = self.detector.ring();
         let seen = self.matching.surroundings(keyframe, ring, self.axis());
         let width = self.config.corridor_width;
+        let here = self.climb(keyframe);
+        let last = self.visits.last().map(|visit| self.middle(visit));
+        if self.lies_at(here, last.as_slice()).is_some() {
+            // The robot has not left the place.
+            return Ok(());
+        }
         let kind = seen.map_or(SiteKind::DeadEnd, |scan| SiteKind::of(&scan, width));
         for old in self.near(keyframe) {
             if self.matching.recognize(keyframe, old)? {
                 break;
             }
         }
-        self.visits.push((kind, keyframe));
+        self.visits.push(Visit {
+            kind,
+            keyframe,
+            middle: self.pose(keyframe).inverse().transform(here),
+        });
         Ok(())
     }
 
@@ -307,7 +347,7 @@ impl PlacesMapper {
         let here = self.pose(keyframe).position;
         let reach = self.config.apart + self.matching.doubt(keyframe);
         let mut near: Vec<(f64, usize)> = (self.visits.iter())
-            .map(|(_, old)| *old)
+            .map(|visit| visit.keyframe)
             .filter(|old| self.way_between(*old, keyframe) > self.config.least_absence)
             .map(|old| ((self.pose(old).position - here).norm(), old))
             .filter(|(off, _)| *off < reach)

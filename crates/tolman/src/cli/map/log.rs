@@ -1,5 +1,6 @@
 //! `tolman map --log`: the way of a robot, found in its log.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -9,6 +10,7 @@ use clap::ValueEnum;
 use tolman_draw::{Figure, Page, PageTable};
 use tolman_formats::{dot, graphml, node_link_json, route_geojson, tum};
 use tolman_papers::real::{LogSystem, MapPicture, MappedLog, RobotLog, ros_map};
+use tolman_robot::MapLink;
 
 use crate::cli::bar::bar;
 use crate::cli::replay_file::{self, Overwrite};
@@ -109,7 +111,12 @@ fn doubt(found: &MappedLog, picture: &MapPicture) -> Option<String> {
         "its places may be one with another, or two were taken for one; the ways between them do not tell"
             .to_owned()
     });
-    by_itself.or_else(|| picture.doubt())
+    let doubled = found.doubled();
+    let by_its_places = (doubled > 0).then(|| {
+        let all = found.founded.len();
+        format!("{doubled} of its {all} places lie where the way found has another one, not recognized when the robot came back")
+    });
+    by_itself.or(by_its_places).or_else(|| picture.doubt())
 }
 
 /// What was found, a line each.
@@ -125,7 +132,9 @@ fn sentences(found: &MappedLog) -> Vec<String> {
         keyframes.len()
     )];
     if !places.places.is_empty() {
-        let (places, links) = (places.places.len(), places.links.len() / 2);
+        let ends = |link: &MapLink| (link.from.min(link.to), link.from.max(link.to));
+        let ways: BTreeSet<_> = places.links.iter().map(ends).collect();
+        let (places, links) = (places.places.len(), ways.len());
         told.push(format!("places: {places}, ways between them: {links}"));
     }
     told
