@@ -6,7 +6,7 @@ mod figures;
 mod five;
 mod order;
 mod shapes;
-mod sonar;
+pub(crate) mod sonar;
 mod states;
 mod streams;
 

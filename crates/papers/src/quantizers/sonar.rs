@@ -12,7 +12,7 @@ use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use tolman_formats::SonarTable;
 
 /// The table's name.
-pub(super) const NAME: &str = "sonar ring";
+pub(crate) const NAME: &str = "sonar ring";
 
 /// Where the log lies in the folder of data.
 const FILE: &str = "logs/scitos-sonar24/sensor_readings_24.data.gz";
@@ -28,7 +28,7 @@ const PASSES: u32 = 5;
 
 /// The log: readings in metres, each with what the wall-following robot did, in the order of time.
 #[derive(Debug)]
-pub(super) struct Log {
+pub(crate) struct Log {
     readings: Vec<([f64; SONARS], usize)>,
     /// What it can do, in the order of the log.
     actions: Vec<String>,
@@ -36,7 +36,7 @@ pub(super) struct Log {
 
 impl Log {
     /// The log, if it is there.
-    pub(super) fn find() -> Result<Option<Self>, BoxError> {
+    pub(crate) fn find() -> Result<Option<Self>, BoxError> {
         let path = data::folder().map(|folder| folder.join(FILE));
         match path {
             Some(path) if path.exists() => Self::read(&path).map(Some),
@@ -62,7 +62,7 @@ impl Log {
         Ok(Self { readings, actions })
     }
 
-    pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+    pub(crate) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         // Four laps: three to learn, one to be asked about.
         let (learnt, asked) = self.readings.split_at(self.readings.len() * 3 / 4);
         let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
@@ -111,7 +111,7 @@ record! {
     }
 }
 
-pub(super) fn table() -> Table {
+pub(crate) fn table() -> Table {
     Table::of::<SonarRun>(NAME, "A ring of 24 sonars on a wall-following robot")
         .metrics_from(SonarRun::rms_error)
         .rows(ROWS.map(Row::new))

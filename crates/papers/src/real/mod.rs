@@ -26,6 +26,9 @@ use tolman_maps::audit::AuditConfig;
 use tolman_maps::scan_matching::ScanMatchingConfig;
 use tolman_systems::places::PlacesConfig;
 
+use crate::data;
+use crate::quantizers::sonar;
+
 pub use drawing::{MapPicture, ros_map};
 pub use graph::{GraphFile, GraphFileError};
 pub use log::{FoundClosure, LogSystem, MappedLog, RobotLog};
@@ -47,6 +50,7 @@ struct Real {
     small: small::Small,
     relations: relations::Intel,
     graphs: audit::Graphs,
+    sonar: Option<sonar::Log>,
 }
 
 /// What the runs depend on.
@@ -75,8 +79,9 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         small: small::Small::read()?,
         relations: relations::Intel::default(),
         graphs: audit::Graphs::find()?,
+        sonar: sonar::Log::find()?,
     };
-    let tables = vec![
+    let mut tables = vec![
         small::table(),
         relations::table(),
         trajectories::table(),
@@ -85,6 +90,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         tuc::table(),
         audit::table(&real.graphs, options),
     ];
+    tables.extend(real.sonar.is_some().then(sonar::table));
     let missing = [
         relations::missing(),
         trajectories::missing(),
@@ -92,6 +98,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         wean::missing(),
         tuc::missing(),
         real.graphs.missing(),
+        (real.sonar.is_none()).then(|| data::missing("the logs of a ring of sonars")),
     ];
     let missing: Vec<String> = missing.into_iter().flatten().collect();
     let skipped = (!missing.is_empty()).then(|| missing.join(" "));
@@ -100,15 +107,16 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
 
 impl Procedure for Real {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        match job.table {
-            small::NAME => self.small.run(job),
-            relations::NAME => self.relations.run(job),
-            trajectories::NAME => trajectories::run(job),
-            utias::NAME => utias::run(job),
-            wean::NAME => wean::run(job),
-            tuc::NAME => tuc::run(job),
-            audit::NAME => self.graphs.run(job),
-            table => Err(format!("there is no table {table}").into()),
+        match (job.table, &self.sonar) {
+            (small::NAME, _) => self.small.run(job),
+            (relations::NAME, _) => self.relations.run(job),
+            (trajectories::NAME, _) => trajectories::run(job),
+            (utias::NAME, _) => utias::run(job),
+            (wean::NAME, _) => wean::run(job),
+            (tuc::NAME, _) => tuc::run(job),
+            (audit::NAME, _) => self.graphs.run(job),
+            (sonar::NAME, Some(log)) => log.run(job),
+            (table, _) => Err(format!("there is no table {table}").into()),
         }
     }
 

@@ -14,10 +14,13 @@ pub(super) const NAME: &str = "small log";
 
 const PACKED: &[u8] = include_bytes!("../../logs/office.clf.gz");
 
-const ROWS: [(&str, LogSystem); 4] = [
+const ROWS: [(&str, LogSystem); 7] = [
     ("odometry", LogSystem::Odometry),
     ("matching", LogSystem::Matching),
     ("places", LogSystem::Places),
+    ("diktiometry", LogSystem::Diktiometry),
+    ("cpm", LogSystem::Cpm),
+    ("place graph", LogSystem::PlaceGraph),
     ("dense", LogSystem::ScanMatching),
 ];
 
@@ -37,6 +40,10 @@ record! {
         largest_m: f64 => lower("largest error").unit("m").at_least(0).decimals(3),
         /// Places seen again.
         closures: usize => neither("closures").decimals(0),
+        /// Places of the map.
+        places: usize => neither("places").decimals(0),
+        /// Places that lie within 1 m of one that was founded before.
+        doubled: usize => lower("doubled places").decimals(0),
     }
 }
 
@@ -66,6 +73,8 @@ impl Small {
             rms_m: score.rms,
             largest_m: score.largest,
             closures: found.closures,
+            places: found.places.places.len(),
+            doubled: found.doubled(),
         };
         Ok(run.fields()?)
     }

@@ -28,3 +28,30 @@ fn places_seen_again_are_recognized_and_none_that_were_not() {
     // Fewer places than visits, since it went round twice.
     assert!(found.places.places.len() > 3, "{:?}", found.places);
 }
+
+#[test]
+fn every_mapper_that_is_told_of_the_places_knows_them_again() {
+    let log = Small::read().unwrap().log;
+    let odometry = log.odometry();
+    let truth: Vec<Pose> = log.scans.iter().map(|scan| scan.noted).collect();
+    let places = log.map(LogSystem::Places, &odometry, |_| {}).unwrap();
+    for system in [LogSystem::Diktiometry, LogSystem::Cpm] {
+        let found = log.map(system, &odometry, |_| {}).unwrap();
+        assert_eq!(found.places.places.len(), places.places.places.len());
+        assert_eq!(found.doubled(), 0, "{system:?}");
+        for [before, here] in found.recognized() {
+            let [there, here] = [before, here].map(|keyframe| truth[found.keyframes[keyframe]]);
+            let off = (there.position - here.position).norm();
+            assert!(off < 2.0, "{system:?}: {off} m apart");
+        }
+    }
+}
+
+#[test]
+fn a_mapper_that_meets_places_again_and_does_not_know_them_says_so() {
+    let log = Small::read().unwrap().log;
+    let found = log
+        .map(LogSystem::PlaceGraph, &log.odometry(), |_| {})
+        .unwrap();
+    assert!(found.doubled() > 0 && found.places.places.len() > 8);
+}

@@ -1,6 +1,6 @@
 use tolman_geom::{Interval, IntervalError, Point, PointBox, PoseBox};
 use tolman_maps::diktiometry::{
-    Action, Config, Exits, FirstPlace, MoveOutcome, ObservedMove, Observer, StartError,
+    Action, Apart, Config, Exits, FirstPlace, MoveOutcome, ObservedMove, Observer, StartError,
 };
 
 use super::{Diktiometer, DiktiometerConfig, NoEye, RoutineConfig};
@@ -25,12 +25,14 @@ impl DiktiometryOfSites {
     pub fn indoor(corridor_width: f64) -> Self {
         let mapper = Config {
             // Whoever comes from elsewhere finds the middle of a place elsewhere.
-            place_radius: 0.2 * corridor_width,
-            ..Config::new(Config::compass_actions(), 0.75 * corridor_width)
+            place_radius: 0.15 * corridor_width,
+            // Two places less than a corridor's width apart, along both axes, would be one room.
+            apart: Apart::Side,
+            ..Config::new(Config::compass_actions(), corridor_width)
         };
         Self {
             mapper,
-            share: 0.002,
+            share: 0.005,
             margin: 0.0,
         }
     }
