@@ -24,7 +24,7 @@ fn main() {
     );
 }
 
-/// The commit, with a mark if the sources differ from it.
+/// Returns the commit, with a mark if the sources differ from it.
 fn commit() -> Option<String> {
     let commit = output("git", &["rev-parse", "--short=10", "HEAD"])?;
     let changes = output(
@@ -38,7 +38,7 @@ fn commit() -> Option<String> {
     })
 }
 
-/// The first line a program prints, if it can be run and succeeds.
+/// Returns the first line a program prints, if it can be run and succeeds.
 fn output(program: &str, arguments: &[&str]) -> Option<String> {
     let output = Command::new(program).args(arguments).output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;

@@ -47,8 +47,11 @@ fn the_runs_are_the_golden_ones_on_any_number_of_threads() {
     for jobs in [1, 2] {
         let runs = runs(jobs);
         for (number, (run, expected)) in (1..).zip(runs.lines().zip(expected.lines())) {
+            // Values count, and not the checksum behind them.
+            let (values, _) = run.split_once(",\"checksum\"").unwrap();
             assert_eq!(
-                run, expected,
+                format!("{values}}}"),
+                expected,
                 "line {number} of {GOLDEN}, {jobs} jobs; if the change is meant, look at what it does \
                  to the tables and set BLESS=1"
             );

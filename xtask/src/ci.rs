@@ -12,7 +12,7 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 
 use crate::workspace::{self, cargo, installed, succeed};
-use crate::{docs, golden, layers, mazes};
+use crate::{docs, golden, layers, mazes, prose};
 
 /// How a step went when it did not fail.
 pub(crate) enum Outcome {
@@ -29,6 +29,7 @@ type Step = (&'static str, fn() -> Result<Outcome>);
 const STEPS: &[Step] = &[
     ("format", || passes("fmt --all --check")),
     ("layers", || passed(layers::run())),
+    ("prose", || passed(prose::run())),
     ("links", || passed(docs::pages())),
     ("lints", || {
         passes("clippy --workspace --all-features --all-targets --quiet -- --deny warnings")
@@ -111,7 +112,7 @@ fn print_table(table: &[(&str, Duration, String)], total: Duration) {
 }
 
 /// With one seed for all property tests, so that a change passes or fails by what it changes; by
-/// hand they draw anew.
+/// hand they draw again.
 fn tests() -> Result<Outcome> {
     let mut test = cargo(if installed("cargo-nextest") {
         "nextest run --workspace --all-features --status-level fail"

@@ -1,5 +1,5 @@
-//! `cargo xtask docs`: the API documentation builds without a warning, and the links between the
-//! written pages lead somewhere.
+//! `cargo xtask docs`: the API documentation builds without a warning, the links between the
+//! written pages lead somewhere, and the moving picture of README is made again.
 
 mod links;
 
@@ -9,13 +9,21 @@ use anyhow::{Result, bail};
 
 use crate::workspace::{cargo, entries, read, root, succeed};
 
-/// Both halves.
+/// All of it.
 ///
 /// # Errors
-/// If rustdoc warns or a link leads nowhere.
+/// If rustdoc warns, a link leads nowhere or the demo fails.
 pub(crate) fn run() -> Result<()> {
     api()?;
+    moving_picture()?;
     pages()
+}
+
+/// Writes the moving picture of README from the run of `tolman demo`.
+fn moving_picture() -> Result<()> {
+    let demo = "run --quiet --package tolman -- demo --svg docs/images/demo.svg \
+                --out target/tmp/demo.html --force";
+    succeed(&mut cargo(demo))
 }
 
 /// `cargo doc` of the workspace with all its features, warnings denied.

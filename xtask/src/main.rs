@@ -13,6 +13,7 @@ mod experiment;
 mod golden;
 mod layers;
 mod mazes;
+mod prose;
 mod workspace;
 
 use std::ffi::OsString;
@@ -61,7 +62,11 @@ enum Verb {
         /// The bench to run; all of them when left out
         name: Option<String>,
     },
-    /// Builds the API documentation and checks the links of the written pages
+    /// Checks that comments keep to 100 columns, and that comments, messages and pages use plain
+    /// words
+    Prose,
+    /// Builds the API documentation, makes the moving picture of README and checks the links of the
+    /// written pages
     Docs,
 }
 
@@ -73,6 +78,7 @@ fn main() -> ExitCode {
         Verb::Layers => layers::run(),
         Verb::Mazes => mazes::run(),
         Verb::Bench { name } => bench::run(name.as_deref()),
+        Verb::Prose => prose::run(),
         Verb::Docs => docs::run(),
     };
     match done {

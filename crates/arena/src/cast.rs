@@ -36,7 +36,7 @@ impl Agent {
         Self::UnlocalizedOracle,
     ];
 
-    /// The name in tables.
+    /// Returns the name in tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -48,13 +48,13 @@ impl Agent {
         }
     }
 
-    /// What it is, in one line.
+    /// Returns what it is, in one line.
     #[must_use]
     pub const fn description(self) -> &'static str {
         match self {
             Self::Avoid => "MSLST's random wanderer that does not turn back before a dead end",
             Self::WallFollow => "MSLST's follower of the wall on its right",
-            Self::Random => "Any direction, each time anew: the floor",
+            Self::Random => "Any direction, each time again: the floor",
             Self::Oracle => "Knows the maze and where it is: the ceiling",
             Self::UnlocalizedOracle => {
                 "Knows the maze but not where it starts: the ceiling of localizing"
@@ -62,7 +62,7 @@ impl Agent {
         }
     }
 
-    /// The agent of that name in tables.
+    /// Returns the agent of that name in tables.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|agent| agent.name() == name)
@@ -78,7 +78,8 @@ pub struct Cast {
 }
 
 impl Cast {
-    /// A fresh mind that remembers no run. `course` and `robot` must be the same at every call.
+    /// Returns a fresh mind that remembers no run. `course` and `robot` must be the same at every
+    /// call.
     ///
     /// # Errors
     /// If the oracle cannot plan there.

@@ -37,8 +37,8 @@ pub fn explore(maze: &Maze, config: &SpeedRunConfig) -> Result<SpeedRunExplorati
     watch(maze, config, |_, _| {})
 }
 
-/// The same; `see` is told of every cell that the mouse looks at, and which of its sides are open,
-/// in the order of [`Direction::ALL`].
+/// Returns the same; `see` is told of every cell that the mouse looks at, and which of its sides
+/// are open, in the order of [`Direction::ALL`].
 ///
 /// # Errors
 /// As [`explore`].

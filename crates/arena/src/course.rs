@@ -23,7 +23,7 @@ use crate::pioneer::CORRIDOR_WIDTH;
 
 pub use terrain::{FreeWorld, Terrain};
 
-/// Why no robot can run in a maze or a world.
+/// Reason why no robot can run in a maze or a world.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CourseError {
@@ -205,7 +205,7 @@ impl Course {
         Ok(course)
     }
 
-    /// Whether it is a world whose walls stand anywhere, and no maze.
+    /// Returns whether it is a world whose walls stand anywhere, and no maze.
     #[must_use]
     pub const fn is_free(&self) -> bool {
         self.free.is_some()
@@ -222,7 +222,7 @@ impl Course {
         }
     }
 
-    /// The middle of a cell.
+    /// Returns the middle of a cell.
     #[must_use]
     pub fn cell_centre(&self, cell: Cell) -> Point {
         match &self.free {
@@ -276,8 +276,8 @@ impl Course {
         (libm::ceil(STEPS_PER_METRE * metres - 1e-9) as u32).max(LEAST_STEPS)
     }
 
-    /// Whether a way leads from a position to the destination: whether it lies in a cell that is
-    /// not walled off from it. In a free world a square beside it is as good.
+    /// Returns whether a way leads from a position to the destination: whether it lies in a cell
+    /// that is not walled off from it. In a free world a square beside it is as good.
     #[must_use]
     pub fn leads_on(&self, position: Point) -> bool {
         if let Some(free) = &self.free {
@@ -288,20 +288,20 @@ impl Course {
         cell.is_some_and(|cell| self.steps_from(cell).is_some())
     }
 
-    /// Where the robot is to go; `None` if the maze does not say.
+    /// Returns where the robot is to go; `None` if the maze does not say.
     #[must_use]
     pub fn destination(&self) -> Option<&Zone> {
         self.world.zone("destination")
     }
 
-    /// Whether a position lies in the destination.
+    /// Returns whether a position lies in the destination.
     #[must_use]
     pub fn is_destination(&self, position: Point) -> bool {
         self.destination()
             .is_some_and(|zone| zone.contains(position))
     }
 
-    /// The cells a run may start from: those outside the destination that can reach it.
+    /// Returns the cells a run may start from: those outside the destination that can reach it.
     pub fn starts(&self) -> impl Iterator<Item = Cell> + '_ {
         let cells = self.maze.grid().cells();
         cells.filter(|cell| self.steps_from(*cell).is_some_and(|steps| steps > 0))
@@ -311,9 +311,9 @@ impl Course {
         self.steps_to_goal[self.maze.grid().index(cell)]
     }
 
-    /// The length of the shortest way from the marked start to the destination, m; `None` if there
-    /// is none. In a free world it is that along squares, which may be longer by a factor of up to
-    /// √2.
+    /// Returns the length of the shortest way from the marked start to the destination, m; `None`
+    /// if there is none. In a free world it is that along squares, which may be longer by a factor
+    /// of up to √2.
     #[must_use]
     pub fn shortest_metres(&self) -> Option<f64> {
         if let Some(free) = &self.free {
@@ -324,9 +324,9 @@ impl Course {
         Some(f64::from(self.steps_from(start)?) * self.corridor_width)
     }
 
-    /// The first of four cells without a wall between them, if there are any: in rooms a robot that
-    /// follows corridors may go round for ever and take one way out for another. Of a free world
-    /// nothing is said.
+    /// Returns the first of four cells without a wall between them, if there are any: in rooms a
+    /// robot that follows corridors may go round forever and take one way out for another. Of a
+    /// free world nothing is said.
     #[must_use]
     pub fn room(&self) -> Option<Cell> {
         if self.is_free() {
@@ -349,14 +349,14 @@ impl Course {
         Simulated::new(Arc::clone(&self.world), robot, start, seed)
     }
 
-    /// The middle of a cell, looking in a direction.
+    /// Returns the middle of a cell, looking in a direction.
     #[must_use]
     pub fn in_cell(&self, cell: Cell, direction: Direction) -> Pose {
         Pose::new(self.cell_centre(cell), heading_of(direction))
     }
 
-    /// The middle of the cell that the maze marks as its start, looking as it says; the middle of a
-    /// free world's zone `start`, looking along the longest clear way.
+    /// Returns the middle of the cell that the maze marks as its start, looking as it says; the
+    /// middle of a free world's zone `start`, looking along the longest clear way.
     ///
     /// # Errors
     /// [`CourseError::NoStart`], [`CourseError::NoStartZone`].
@@ -368,9 +368,9 @@ impl Course {
         Ok(self.in_cell(cell, direction))
     }
 
-    /// A random start: any of [those cells](Self::starts), or of all where there is no destination,
-    /// with equal chance; any place in its middle from which the body would stand clear of walls on
-    /// all four sides, any heading. In a free world it is the middle of a square.
+    /// Returns a random start: any of [those cells](Self::starts), or of all where there is no
+    /// destination, with equal chance; any place in its middle from which the body would stand
+    /// clear of walls on all four sides, any heading. In a free world it is the middle of a square.
     pub fn random_start(&self, body: &Body, rng: &mut impl Rng) -> Pose {
         let mut cells: Vec<Cell> = self.starts().collect();
         if cells.is_empty() {
@@ -389,9 +389,9 @@ impl Course {
         Pose::new(self.cell_centre(cell) + offset, heading)
     }
 
-    /// The middle of any cell from which the destination can be reached, looking along a way out of
-    /// it; `None` if there are none. In a free world it is moved to the middle between what bounds
-    /// the robot on both sides.
+    /// Returns the middle of any cell from which the destination can be reached, looking along a
+    /// way out of it; `None` if there are none. In a free world it is moved to the middle between
+    /// what bounds the robot on both sides.
     #[must_use]
     pub fn anywhere(&self, seed: u64) -> Option<Pose> {
         let out_of = |cell| {

@@ -70,7 +70,7 @@ pub const START_STREAM: u64 = 3;
 /// What a mind is asked to do.
 const ARRIVE: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
 
-/// The random start of the run with this seed: see [`Course::random_start`].
+/// Returns the random start of the run with this seed: see [`Course::random_start`].
 #[must_use]
 pub fn random_start(course: &Course, body: &Body, seed: u64) -> Pose {
     course.random_start(body, &mut stream(seed, START_STREAM))

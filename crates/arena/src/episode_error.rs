@@ -10,7 +10,7 @@ use tolman_systems::ActorError;
 use crate::course::CourseError;
 use crate::run::{InRun, Limited, LimitedError};
 
-/// Why a run could not be made.
+/// Reason why a run could not be made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EpisodeError {
@@ -41,7 +41,7 @@ pub enum EpisodeError {
     Step {
         /// Which one, from 0.
         step: u32,
-        /// Why.
+        /// The underlying error.
         source: ActorError<LimitedError<StepError>, Infallible>,
     },
 }

@@ -22,7 +22,7 @@ pub struct Family {
     pub places: &'static str,
     /// Columns and rows of a small, a middle and a large one.
     pub sizes: [(u16, u16); 3],
-    /// Draws one of so many columns and rows.
+    /// Draws one drawing from its columns, rows and seed.
     pub draw: Draw,
 }
 
@@ -167,7 +167,7 @@ impl Family {
             .hard("what their systems were made for"),
     ];
 
-    /// All families that are known here: those of the arena, and what else can be drawn.
+    /// Returns all families that are known here: those of the arena, and what else can be drawn.
     #[must_use]
     pub fn all() -> Vec<Self> {
         let rooms = Self::new(
@@ -227,7 +227,7 @@ const PAPERS: [&str; 5] = [
     include_str!("../mazes/cpm-3.maze"),
 ];
 
-/// One of them; where it marks no start, that is the cell farthest from its goal.
+/// Returns one of them; where it marks no start, that is the cell farthest from its goal.
 fn papers(rng: &mut impl Rng) -> Result<Maze, BoxError> {
     let text = PAPERS[rng.random_range(0..PAPERS.len() as u32) as usize];
     let mut maze = tolman_maze::read(text)?.maze;

@@ -8,7 +8,7 @@
 //! [`micromouse`] is a paper's mouse and its referee; in the [`competition`] a micromouse explores
 //! a maze for its speed run. [`gngslam`] has the arenas and the data of the place map.
 //! [`log_score`] judges ways that were found from logs. [`mms`] is the protocol of the simulator of
-//! that name.
+//! that name; [`foreign`] runs programs of others under supervision.
 
 extern crate alloc;
 
@@ -24,6 +24,7 @@ pub mod diktiometry;
 pub mod episode;
 mod episode_error;
 pub mod family;
+pub mod foreign;
 pub mod gngslam;
 mod lingerer;
 pub mod log_score;

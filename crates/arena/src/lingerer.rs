@@ -43,7 +43,7 @@ impl Lingerer {
         }
     }
 
-    /// How many actions it took to have been everywhere; all, where it never had.
+    /// Returns how many actions it took to have been everywhere; all, where it never had.
     pub(crate) fn explored(&self) -> u32 {
         self.explored.unwrap_or(self.actions)
     }

@@ -22,7 +22,7 @@ use crate::lingerer::Lingerer;
 use crate::pioneer::CoursePioneer;
 use crate::run::{self, Ended, Limited};
 
-/// Why no map was learned.
+/// Reason why no map was learned.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LearnError {

@@ -38,7 +38,7 @@ pub trait Outing: InRun {
     /// Returns what its laser sees; `None` of a robot without one.
     fn scan(&self) -> Option<&Scan>;
 
-    /// Allows the robot so many further time steps, and no more.
+    /// Limits the robot to this many further time steps.
     fn allow(&mut self, _steps: u32) {}
 
     /// Makes the next action of `task`.
@@ -59,6 +59,11 @@ pub trait Outing: InRun {
     /// Returns the places that the system came to, in order, as it understands them now; empty if
     /// its places keep their names.
     fn visits(&self) -> Vec<Option<u32>>;
+
+    /// Returns how many places the system came to: as many as [`visits`](Self::visits) names.
+    fn visit_count(&self) -> usize {
+        self.visits().len()
+    }
 
     /// Returns how likely the system takes its map to be right, 0 … 1; `None` if it does not weigh
     /// that.
@@ -301,7 +306,8 @@ impl<R: Robot, S> fmt::Debug for Sent<R, S> {
 }
 
 impl<R: Robot, S> Sent<R, S> {
-    /// Sends `system` out with `robot`, which stands on `course` and may make so many time steps.
+    /// Sends out `system` with `robot`, which stands on `course`, for at most `step_limit` time
+    /// steps.
     pub fn new(course: Course, robot: R, step_limit: u32, system: S) -> Self {
         Self {
             course,
@@ -343,7 +349,7 @@ impl<R: Robot, S> Sent<R, S> {
         self.judging(move |system, _, task| judge(system, task))
     }
 
-    /// The same, with how each place was made, by id.
+    /// Returns the same, with how each place was made, by id.
     #[must_use]
     pub fn judging(
         self,
@@ -475,6 +481,10 @@ where
 
     fn visits(&self) -> Vec<Option<u32>> {
         self.system.visits()
+    }
+
+    fn visit_count(&self) -> usize {
+        self.system.visit_count()
     }
 
     fn certainty(&self) -> Option<f64> {

@@ -29,13 +29,14 @@ const BEAMS: u32 = 72;
 /// How far they reach, robot units.
 const REACH_UNITS: f64 = 2.5;
 
-/// The ring of 72 beams over the full circle that reaches 2.5 robot units.
+/// Returns the ring of 72 beams over the full circle that reaches 2.5 robot units.
 #[must_use]
 pub fn ring() -> Ring {
     Ring::full(BEAMS, REACH_UNITS * ROBOT_UNIT)
 }
 
-/// The robot as it was calibrated on the paper's baselines, and then frozen (see `docs/mslst.md`).
+/// Returns the robot as it was calibrated on the paper's baselines, and then frozen (see
+/// `docs/mslst.md`).
 #[must_use]
 pub fn calibrated() -> LaserPioneerConfig {
     LaserPioneerConfig {
@@ -56,9 +57,9 @@ pub fn calibrated() -> LaserPioneerConfig {
     }
 }
 
-/// The same robot with sensors that err, as the better MSLST is judged: encoders by `encoders` of
-/// each step (standard deviation) and by a share of up to 2 % that holds for the whole run, ranges
-/// by 2 %.
+/// Returns the same robot with sensors that err, as the better MSLST is judged: encoders by
+/// `encoders` of each step (standard deviation) and by a share of up to 2 % that holds for the
+/// whole run, ranges by 2 %.
 #[must_use]
 pub fn with_sensor_noise(robot: &LaserPioneerConfig, encoders: f64) -> LaserPioneerConfig {
     let mut noisy = robot.clone();
@@ -83,7 +84,7 @@ pub const fn body() -> Body {
     }
 }
 
-/// The same robot with perfect motors and sensors: what a planner reckons with.
+/// Returns the same robot with perfect motors and sensors: what a planner reckons with.
 #[must_use]
 pub fn without_noise(robot: &LaserPioneerConfig) -> LaserPioneerConfig {
     let perfect = LaserPioneerConfig::noiseless();

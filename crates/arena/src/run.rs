@@ -20,7 +20,7 @@ pub struct Limited<R: Robot> {
     stepping: Duration,
 }
 
-/// Why a robot in a run makes no step.
+/// Reason why a robot in a run makes no step.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum LimitedError<E> {
     /// The run has as many time steps as it may have.
@@ -46,7 +46,7 @@ impl<R: Robot> Limited<R> {
         }
     }
 
-    /// Allows it so many further time steps, and no more.
+    /// Limits it to `steps` further time steps.
     pub const fn allow(&mut self, steps: u32) {
         self.step_limit = self.steps.saturating_add(steps);
     }
@@ -154,6 +154,17 @@ pub enum TaskEnd {
     },
     /// The robot made as many time steps as it may.
     OutOfTime,
+}
+
+impl TaskEnd {
+    /// Returns why the system gave up; empty if it did not.
+    #[must_use]
+    pub fn why(&self) -> &str {
+        match self {
+            Self::GaveUp { why } => why,
+            Self::Done | Self::OutOfTime => "",
+        }
+    }
 }
 
 /// Lets `system` pursue `task` with `robot` until it is done, gives up, or is out of time.

@@ -41,19 +41,19 @@ impl<M: Model> Simulated<M> {
         })
     }
 
-    /// What really is, for scoring; no system sees it.
+    /// Returns what really is, for scoring; no system sees it.
     #[must_use]
     pub fn truth(&self) -> &Truth {
         self.solo.truth()
     }
 
-    /// What it is built to.
+    /// Returns what it is built to.
     #[must_use]
     pub fn model(&self) -> &M {
         self.solo.model()
     }
 
-    /// Where it was after every step.
+    /// Returns where it was after every step.
     #[must_use]
     pub fn path(&self) -> &[Pose] {
         &self.path
@@ -87,7 +87,7 @@ impl<M: Model> Simulated<M> {
         self.solo.simulation_mut().set_door(name, state)
     }
 
-    /// The world it is in.
+    /// Returns the world it is in.
     #[must_use]
     pub fn world(&self) -> &World {
         self.solo.simulation().world()

@@ -101,8 +101,8 @@ const LOOP: &str = "\
 +---+---+---+---+
 ";
 
-/// The map of the loop, and the loop with a wall since across its short way from the start to the
-/// goal.
+/// Returns the map of the loop, and the loop with a wall since across its short way from the start
+/// to the goal.
 fn learned_before() -> (BetterLearned, Course) {
     let course = |maze: &str| {
         let maze = tolman_maze::read(maze).unwrap();

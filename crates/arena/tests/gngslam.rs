@@ -54,7 +54,7 @@ impl Robot for Watched<'_> {
     }
 }
 
-/// The arena's robot with pictures of a few pixels: nobody looks at them here.
+/// Returns the arena's robot with pictures of a few pixels: nobody looks at them here.
 fn quick(pitch: &Pitch, seed: u64) -> Pioneer2dxConfig {
     let mut robot = pitch.robot(seed, 0.03).unwrap();
     robot.camera.width = 4;
@@ -86,8 +86,8 @@ fn wander(pitch: &Pitch, config: WandererConfig, legs: u32, seed: u64) -> Wander
     }
 }
 
-/// The cells where the middle of the robot can be: those that hold a place with room for half its
-/// width.
+/// Returns the cells where the middle of the robot can be: those that hold a place with room for
+/// half its width.
 fn reachable(pitch: &Pitch) -> BTreeSet<Cell> {
     let (bounds, steps) = (pitch.bounds(), 160);
     let points = (0..steps).flat_map(|x| (0..steps).map(move |y| (x, y)));

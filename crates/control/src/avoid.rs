@@ -48,7 +48,8 @@ struct Steps {
 }
 
 impl Avoid {
-    /// The paper's figures for a ring of `beams` on a robot `robot_unit` metres in diameter.
+    /// Returns the paper's figures for a ring of `beams` on a robot `robot_unit` metres in
+    /// diameter.
     #[must_use]
     pub fn paper(beams: u32, robot_unit: f64) -> Self {
         let share = |of_72: usize| (of_72 * beams as usize).div_ceil(72);

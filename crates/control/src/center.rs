@@ -16,7 +16,7 @@ pub struct Center {
 }
 
 impl Center {
-    /// The paper's gains.
+    /// Returns the paper's gains.
     #[must_use]
     pub const fn paper() -> Self {
         Self {

@@ -6,7 +6,7 @@ use tolman_robot::Ring;
 
 use crate::View;
 
-/// Why a ring of beams cannot be used to look for opposite walls.
+/// Reason why a ring of beams cannot be used to look for opposite walls.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RingError {
@@ -29,13 +29,13 @@ pub enum RingError {
         spacing: f64,
     },
     /// The corridor's width is no length.
-    #[error("a corridor {width} m wide is none: give a finite width above 0 m")]
+    #[error("the corridor is {width} m wide; give a finite width above 0 m")]
     Width {
         /// The width given, m.
         width: f64,
     },
     /// The robot's diameter is no length.
-    #[error("a robot {robot_unit} m in diameter is none: give a finite diameter above 0 m")]
+    #[error("the robot is {robot_unit} m in diameter; give a finite diameter above 0 m")]
     RobotUnit {
         /// The diameter given, m.
         robot_unit: f64,
@@ -77,7 +77,7 @@ impl CorridorDetector {
     /// The paper's 14 consecutive sums of 36.
     const RUN_SHARE: f64 = 14.0 / 36.0;
 
-    /// A detector for `ring` in corridors `width` metres wide.
+    /// Returns a detector for `ring` in corridors `width` metres wide.
     ///
     /// # Errors
     /// [`RingError`] if the ring is no full circle of quarters or the width is no length.
@@ -112,8 +112,8 @@ impl CorridorDetector {
         self.ring
     }
 
-    /// Whether a view can be read: a scan of the detector's ring with a number for every beam
-    /// (infinity is one: nothing met), and a heading.
+    /// Returns whether a view can be read: a scan of the detector's ring with a number for every
+    /// beam (infinity is one: nothing met), and a heading.
     #[must_use]
     pub fn reads(&self, view: View<'_>) -> bool {
         view.heading.is_finite()
@@ -122,8 +122,8 @@ impl CorridorDetector {
             && !view.scan.ranges.iter().any(|range| range.is_nan())
     }
 
-    /// The corridor that is in view, or none where it looks like a junction, a bend or an open
-    /// place (or where it does not [read](Self::reads) the view).
+    /// Returns the corridor that is in view, or none where it looks like a junction, a bend or an
+    /// open place (or where it does not [read](Self::reads) the view).
     #[must_use]
     pub fn detect(&self, view: View<'_>) -> Option<Corridor> {
         if !self.reads(view) {
@@ -153,7 +153,7 @@ impl CorridorDetector {
     }
 }
 
-/// Whether an axis is nearer to north–south or east–west than to a diagonal.
+/// Returns whether an axis is nearer to north–south or east–west than to a diagonal.
 fn runs_along_the_compass(axis: Heading) -> bool {
     let quarters = axis.radians() / FRAC_PI_2;
     (quarters - libm::round(quarters)).abs() <= 0.25

@@ -29,7 +29,7 @@ pub struct Situation<'a> {
 pub struct Proposal {
     /// The motor command.
     pub command: TurnTranslate,
-    /// How the action ends with this step; none while it goes on.
+    /// How the action ends with this step, or `None` while it goes on.
     pub ends: Option<Outcome>,
 }
 

@@ -5,7 +5,7 @@ use tolman_robot::TurnTranslate;
 
 use crate::{Layer, Outcome, Proposal, Situation};
 
-/// The heading of a compass direction.
+/// Returns the heading of a compass direction.
 #[must_use]
 pub const fn heading_of(direction: Direction) -> Heading {
     match direction {
@@ -16,7 +16,7 @@ pub const fn heading_of(direction: Direction) -> Heading {
     }
 }
 
-/// One metre in a compass direction, exactly along an axis.
+/// Returns one metre in a compass direction, exactly along an axis.
 #[must_use]
 pub const fn unit_of(direction: Direction) -> Vector {
     let (east, north) = direction.step();
@@ -69,7 +69,7 @@ const fn turning() -> Phase {
 }
 
 impl Move {
-    /// The paper's gains.
+    /// Returns the paper's gains.
     #[must_use]
     pub const fn paper() -> Self {
         Self {

@@ -44,7 +44,7 @@ pub struct Orient {
 }
 
 impl Orient {
-    /// The paper's gains for a ring of `beams` in corridors `width` metres wide.
+    /// Returns the paper's gains for a ring of `beams` in corridors `width` metres wide.
     #[must_use]
     pub fn paper(beams: u32, width: f64) -> Self {
         // The gain is given per beam of 5°; other rings turn the same for the same angle.
@@ -58,7 +58,7 @@ impl Orient {
         }
     }
 
-    /// Whether Move's `requested` turn contradicts Orient's own.
+    /// Returns whether Move's `requested` turn contradicts Orient's own.
     fn contradicts(&self, requested: f64, turn: f64) -> bool {
         requested * turn < 0.0 || (turn == 0.0 && requested.abs() > self.across_above)
     }

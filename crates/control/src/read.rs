@@ -33,7 +33,7 @@ pub(crate) fn at_least_zero<'de, D: Deserializer<'de>>(deserializer: D) -> Resul
     number(deserializer, holds, "a finite number of at least 0")
 }
 
-/// A number above 0. JSON knows no infinity and writes `null` for it.
+/// Returns a number above 0. JSON knows no infinity and writes `null` for it.
 pub(crate) fn positive_or_infinite<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<f64, D::Error> {

@@ -57,7 +57,7 @@ impl Layer for Settle {
         let halvings = self.changes.saturating_sub(self.patience);
         proposal.command.turn *= libm::exp2(-f64::from(halvings));
         if proposal.ends.is_some() {
-            // An action that is not followed by another starts anew.
+            // An action that is not followed by another starts again.
             self.last = 0.0;
             self.changes = 0;
         }

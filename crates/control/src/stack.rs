@@ -24,7 +24,7 @@ impl Stack {
     /// Returns a stack of any layers, the highest first, round one detector.
     ///
     /// Whether every action ends is up to the layers. [`Stack::paper`] ends them all; a stack
-    /// without [`Settle`] can turn to and fro for ever, and one without [`Move`] has no end of its
+    /// without [`Settle`] can turn to and fro forever, and one without [`Move`] has no end of its
     /// own. A [`Drive`](crate::Drive) breaks such an action off as [`Outcome::TimedOut`]; whoever
     /// calls [`correct`](Self::correct) counts the time steps.
     #[must_use]
@@ -41,7 +41,7 @@ impl Stack {
     /// through `ring`, in corridors `width` metres wide.
     ///
     /// # Errors
-    /// [`RingError`] if the ring is no full circle of quarters or a length is none.
+    /// [`RingError`] if the ring is no full circle of quarters or a length is invalid.
     pub fn paper(ring: Ring, robot_unit: f64, width: f64) -> Result<Self, RingError> {
         if !(robot_unit.is_finite() && robot_unit > 0.0) {
             return Err(RingError::RobotUnit { robot_unit });
@@ -75,16 +75,16 @@ impl Stack {
     }
 
     /// Starts a high-level action. Without it the stack goes north; an action that has ended and is
-    /// not followed by another starts anew.
+    /// not followed by another starts again.
     pub fn begin(&mut self, action: Direction) {
         for layer in &mut self.layers {
             layer.begin(action);
         }
     }
 
-    /// What to do in this time step, and whether the action ends with it. A view that cannot be
-    /// [read](CorridorDetector::reads), such as a scan of another ring or a compass that says NaN,
-    /// fails the action with the robot at rest. O(beams).
+    /// Returns what to do in this time step, and whether the action ends with it. A view that
+    /// cannot be [read](CorridorDetector::reads), such as a scan of another ring or a compass that
+    /// says NaN, fails the action with the robot at rest. O(beams).
     pub fn correct(&mut self, view: View<'_>, rng: &mut dyn Rng) -> Proposal {
         if !self.detector.reads(view) {
             return Proposal {

@@ -39,8 +39,8 @@ pub fn straightened(scan: &Scan) -> Scan {
     straight
 }
 
-/// The range of a beam to the line through the ends of those beside it; none where they lie on no
-/// line.
+/// Returns the range of a beam to the line through the ends of those beside it, or `None` where
+/// they lie on no line.
 fn on_a_line(scan: &Scan, beam: usize, beside: usize) -> Option<f64> {
     let beams = scan.ranges.len();
     if beams <= 2 * beside {
@@ -89,7 +89,7 @@ mod tests {
 
     use super::*;
 
-    /// A square room of one metre, seen from off its middle.
+    /// Returns a square room of one metre, seen from off its middle.
     fn room() -> Scan {
         let mut scan = Scan::clear(Ring::full(72, 1.25));
         for (index, range) in scan.ranges.iter_mut().enumerate() {

@@ -35,11 +35,11 @@ struct Beam {
     stuck: bool,
 }
 
-/// A beam that says so many times what both beside it say, or as many times less, contradicts them.
+/// Ratio, either way, at which a beam's range contradicts the ranges of both its neighbours.
 const CONTRADICTS: f64 = 1.25;
 /// What a contradiction adds to the doubts, of which each scan without one takes one away.
 const DOUBT: u8 = 2;
-/// A beam is stuck with so many doubts: after eight contradictions in a row at the soonest.
+/// Doubts at which a beam counts as stuck: eight contradictions in a row at the soonest.
 const ENOUGH: u8 = 16;
 /// No beam has more doubts.
 const MOST: u8 = 48;
@@ -63,7 +63,8 @@ impl StuckBeams {
         mended
     }
 
-    /// The nearer of what the sound beams on either side of a beam say; none where all are stuck.
+    /// Returns the nearer of what the sound beams on either side of a beam say, or `None` where all
+    /// are stuck.
     fn beside(&self, ranges: &[f64], beam: usize) -> Option<f64> {
         let count = ranges.len();
         let sound = |index: &usize| !self.beams[*index].stuck;
@@ -86,7 +87,7 @@ impl Beam {
     }
 }
 
-/// Whether a beam says much more, or much less, than both beams beside it.
+/// Returns whether a beam says much more, or much less, than both beams beside it.
 fn contradicts(ranges: &[f64], beam: usize) -> bool {
     let count = ranges.len();
     let (before, after) = (
@@ -105,7 +106,7 @@ mod tests {
 
     use super::*;
 
-    /// A scan in a corridor 1 m wide, `turned` by so many beams.
+    /// Returns a scan in a corridor 1 m wide, rotated by `turned` beams.
     fn corridor(turned: usize) -> Scan {
         let mut scan = Scan::clear(Ring::full(72, 1.25));
         for index in 0..72 {

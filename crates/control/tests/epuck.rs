@@ -63,7 +63,7 @@ fn look(pilot: &mut Pilot<Solo<Epuck>>) -> (Profile, Segments) {
     (profile, segments)
 }
 
-/// Where the robot is in its cell, and how many ways lead out of that.
+/// Returns where the robot is in its cell, and how many ways lead out of that.
 fn truth(pilot: &Pilot<Solo<Epuck>>, maze: &Maze) -> (Point, usize) {
     let solo = pilot.robot();
     let (world, pose) = (solo.simulation().world(), solo.truth().pose);
@@ -72,8 +72,8 @@ fn truth(pilot: &Pilot<Solo<Epuck>>, maze: &Maze) -> (Point, usize) {
     (Point::from(off), maze.degree(cell))
 }
 
-/// Drives for so many observations, at junctions always on by the next branch to the right; checks
-/// what it sees where it stands near the middle of a cell.
+/// Drives for `observations` observations, at junctions always on by the next branch to the right;
+/// checks what it sees where it stands near the middle of a cell.
 fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
     let mut pilot = pilot(maze, slip, seed);
     let (mut right, mut wrong) = (0, 0);
@@ -136,7 +136,7 @@ fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
     );
 }
 
-/// Every maze of the project that is drawn for this robot.
+/// Returns every maze of the project that is drawn for this robot.
 fn mazes() -> Vec<Maze> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../mazes");
     let mut files: Vec<_> = std::fs::read_dir(folder)

@@ -16,8 +16,8 @@ const UNIT: f64 = 0.5;
 const WIDTH: f64 = 1.9 * UNIT;
 const RING: fn() -> Ring = || Ring::full(72, 2.5 * UNIT);
 
-/// What the ring sees in an endless corridor along `axis`, `left` metres from the wall that lies to
-/// the left of the axis, looking to `heading`.
+/// Returns what the ring sees in an endless corridor along `axis`, `left` metres from the wall that
+/// lies to the left of the axis, looking to `heading`.
 fn corridor_scan(axis: Heading, left: f64, heading: Heading) -> Scan {
     let mut scan = Scan::clear(RING());
     let ring = scan.ring;
@@ -195,7 +195,8 @@ mod move_layer {
 mod orient {
     use super::*;
 
-    /// What becomes of `action` in a corridor along north, from `offset` degrees off the axis.
+    /// Returns what becomes of `action` in a corridor along north, from `offset` degrees off the
+    /// axis.
     fn outcome(action: Direction, offset_deg: f64) -> Proposal {
         let heading = Heading::from_degrees(90.0 + offset_deg);
         let scan = corridor_scan(Heading::NORTH, 0.5 * WIDTH, heading);

@@ -70,7 +70,7 @@ pub struct BoxPlot {
 }
 
 impl BoxPlot {
-    /// The finished picture.
+    /// Returns the finished picture.
     pub fn drawing(&self) -> Drawing {
         let width = LEFT + SLOT * (self.groups.len().max(1) as f64) + 8.0;
         let names = self
@@ -130,7 +130,7 @@ impl BoxPlot {
         }
     }
 
-    /// The five numbers of each box in words.
+    /// Returns the five numbers of each box in words.
     fn describe(&self) -> String {
         let mut text = format!(
             "Box plot of {} for each row of table {}.",

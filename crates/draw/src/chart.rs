@@ -35,7 +35,7 @@ enum Ticks {
 }
 
 impl Axis {
-    /// An axis on which equal differences are equally long, as far as the data go.
+    /// Returns an axis on which equal differences are equally long, as far as the data go.
     pub fn linear(title: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -53,8 +53,8 @@ impl Axis {
         self
     }
 
-    /// An axis on which equal ratios are equally long, in whole powers of ten. Values that are not
-    /// positive have no place on it.
+    /// Returns an axis on which equal ratios are equally long, in whole powers of ten. Values that
+    /// are not positive have no place on it.
     pub fn log(title: impl Into<String>) -> Self {
         Self {
             spacing: Spacing::Log,
@@ -76,7 +76,7 @@ impl Axis {
         self
     }
 
-    /// The scale for these values, with about so many steps.
+    /// Returns the scale for `values`, with about `steps` steps.
     fn scale(&self, values: impl Iterator<Item = f64>, steps: f64) -> Scale {
         let positive = self.spacing == Spacing::Log;
         let usable = |value: &f64| value.is_finite() && (!positive || *value > 0.0);
@@ -168,7 +168,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// A line through these values.
+    /// Returns a line through these values.
     pub fn new(label: impl Into<String>, series: Series, points: Vec<LinePoint>) -> Self {
         Self {
             label: label.into(),
@@ -190,7 +190,7 @@ pub struct LinePoint {
 }
 
 impl LinePoint {
-    /// A value without spread.
+    /// Returns a value without spread.
     pub const fn new(x: f64, y: f64) -> Self {
         Self { x, y, spread: None }
     }
@@ -235,7 +235,7 @@ impl Points {
 }
 
 impl Chart {
-    /// An empty chart, 520 by 320 user units.
+    /// Returns an empty chart, 520 by 320 user units.
     pub const fn new(x: Axis, y: Axis) -> Self {
         Self {
             x,
@@ -290,7 +290,7 @@ impl Chart {
         }));
     }
 
-    /// The finished picture; `description` says in words what it shows.
+    /// Returns the finished picture; `description` says in words what it shows.
     pub fn drawing(&self, description: impl Into<String>) -> Drawing {
         let (legend, legend_height) = self.legend();
         let top = TOP + legend_height;
@@ -354,7 +354,7 @@ impl Chart {
         })
     }
 
-    /// The labels in rows below the title, and the height of those rows.
+    /// Returns the labels in rows below the title, and the height of those rows.
     fn legend(&self) -> (Markup, f64) {
         let entries = self.layers.iter().filter_map(|layer| match layer {
             Layer::Line(line) => Some((&line.label, line.series, true)),
@@ -402,7 +402,7 @@ struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// Where a pair of values lies; `None` if it has no place.
+    /// Returns where a pair of values lies; `None` if it has no place.
     fn at(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         let at = (
             self.x.share(x) * self.width,
@@ -522,7 +522,7 @@ mod tests {
         chart.drawing("a test").body.into_string()
     }
 
-    /// A chart whose frame is 100 by 100.
+    /// Returns a chart whose frame is 100 by 100.
     fn square(x: Axis, y: Axis) -> Chart {
         Chart::new(x, y).sized(100.0 + LEFT + RIGHT, 100.0 + TOP + BOTTOM)
     }

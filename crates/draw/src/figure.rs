@@ -4,8 +4,8 @@ use maud::{Markup, PreEscaped, html};
 
 use super::number::tenths;
 
-/// The style rules of all drawings, with the colours of the light and the dark scheme. A file that
-/// stands alone carries them itself; a page carries them once.
+/// Returns the style rules of all drawings, with the colours of the light and the dark scheme. A
+/// file that stands alone carries them itself; a page carries them once.
 ///
 /// The reader's scheme decides, unless the root element's `data-theme` says `light` or `dark`.
 pub const fn style() -> &'static str {
@@ -51,7 +51,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// A figure without a caption that belongs to no table.
+    /// Returns a figure without a caption that belongs to no table.
     pub fn new(name: impl Into<String>, title: impl Into<String>, drawing: Drawing) -> Self {
         Self {
             name: name.into(),
@@ -76,12 +76,12 @@ impl Figure {
         self
     }
 
-    /// The picture as an element of a page that carries [`style`].
+    /// Returns the picture as an element of a page that carries [`style`].
     pub fn inline(&self) -> Markup {
         self.element(None, &html! {})
     }
 
-    /// The picture as a file of its own.
+    /// Returns the picture as a file of its own.
     pub fn standalone(&self) -> String {
         let backdrop = html! {
             style { (PreEscaped(style())) }
@@ -118,7 +118,7 @@ impl Figure {
     }
 }
 
-/// What no XML document may hold, not even escaped.
+/// Returns what no XML document may hold, not even escaped.
 const fn forbidden_in_xml(c: char) -> bool {
     matches!(c, '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}')
 }

@@ -40,8 +40,8 @@ pub struct FloorPlan {
 }
 
 impl FloorPlan {
-    /// A plan of a part of the world, `width` user units wide, without walls. Bounds without extent
-    /// show one square metre.
+    /// Returns a plan of a part of the world, `width` user units wide, without walls. Bounds
+    /// without extent show one square metre.
     pub fn of_bounds(bounds: &Bounds, width: f64) -> Self {
         let extent = |low: f64, high: f64| match high - low {
             extent if extent > 0.0 && extent.is_finite() => extent,
@@ -70,8 +70,8 @@ impl FloorPlan {
         }
     }
 
-    /// A plan that is `width` user units wide and holds all walls. Walls lie above every layer.
-    /// Without a wall of some extent the plan shows one square metre around it.
+    /// Returns a plan that is `width` user units wide and holds all walls. Walls lie above every
+    /// layer. Without a wall of some extent the plan shows one square metre around it.
     pub fn of_walls(walls: &[[Point; 2]], width: f64) -> Self {
         let bounds = Bounds::of(walls.iter().flatten().copied());
         let mut plan = Self::of_bounds(&bounds, width);
@@ -81,7 +81,7 @@ impl FloorPlan {
         plan
     }
 
-    /// A plan of a world that is `width` user units wide, with its walls and nothing else.
+    /// Returns a plan of a world that is `width` user units wide, with its walls and nothing else.
     pub fn of_world(world: &World, width: f64) -> Self {
         let walls = world.walls().iter();
         let walls: Vec<[Point; 2]> = walls.map(|wall| [wall.start, wall.end]).collect();
@@ -262,7 +262,7 @@ impl FloorPlan {
         self.layers.push(elements);
     }
 
-    /// Where a world position lies on the plan, in user units.
+    /// Returns where a world position lies on the plan, in user units.
     pub fn at(&self, position: Point) -> (f64, f64) {
         (
             MARGIN + (position.x - self.west) * self.scale,
@@ -270,7 +270,7 @@ impl FloorPlan {
         )
     }
 
-    /// The finished picture; `description` says in words what it shows.
+    /// Returns the finished picture; `description` says in words what it shows.
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let body = html! {
             rect class="floor" width=(tenths(self.width)) height=(tenths(self.height)) {}

@@ -124,7 +124,7 @@ impl GraphPicture {
         self.edges.push(edge);
     }
 
-    /// The elements, with coordinates as `at` gives them.
+    /// Returns the elements, with coordinates as `at` gives them.
     pub(super) fn markup(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Markup {
         html! {
             g class="graph" {
@@ -168,8 +168,8 @@ impl GraphPicture {
         }
     }
 
-    /// The labels of nodes, each with where its text begins: beside its node, where it covers least
-    /// of the nodes, the signs and the labels before it.
+    /// Returns the labels of nodes, each with where its text begins: beside its node, where it
+    /// covers least of the nodes, the signs and the labels before it.
     fn labels(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(&str, (f64, f64))> {
         let nodes = self.nodes.iter().filter(|node| is_finite(node));
         let labelled = nodes.clone().filter(|node| !node.label.is_empty());
@@ -201,7 +201,7 @@ impl GraphPicture {
         placed
     }
 
-    /// Where the label of a node may begin, the best place first.
+    /// Returns where the label of a node may begin, the best place first.
     fn beside_node(&self, (x, y): (f64, f64), width: f64) -> [(f64, f64); 8] {
         let gap = self.radius + 2.0;
         let (east, west, middle) = (x + gap, x - gap - width, x - width / 2.0);
@@ -229,7 +229,7 @@ impl GraphPicture {
         patches.collect()
     }
 
-    /// One path for each class of edges, so that hundreds stay few elements.
+    /// Returns one path for each class of edges, so that hundreds stay few elements.
     fn lines(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(Series, EdgeLine, String)> {
         let mut paths: Vec<(Series, EdgeLine, String)> = Vec::new();
         for (edge, [from, to]) in self.sound_edges() {
@@ -243,7 +243,7 @@ impl GraphPicture {
         paths
     }
 
-    /// The arrow heads, two thirds along their edges.
+    /// Returns the arrow heads, two thirds along their edges.
     fn heads(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(String, Series)> {
         let arrows = self
             .sound_edges()
@@ -269,7 +269,7 @@ impl GraphPicture {
             .collect()
     }
 
-    /// The edges between nodes that have a place, with the places.
+    /// Returns the edges between nodes that have a place, with the places.
     fn sound_edges(&self) -> impl Iterator<Item = (&GraphEdge, [Point; 2])> {
         let place = |index: usize| {
             let node = self.nodes.get(index).filter(|node| is_finite(node))?;
@@ -299,7 +299,7 @@ impl Patch {
         }
     }
 
-    /// A label that begins there, on its base line.
+    /// Returns a label that begins there, on its base line.
     fn of_text(x: f64, y: f64, width: f64) -> Self {
         Self {
             x: (x, x + width),
@@ -307,7 +307,7 @@ impl Patch {
         }
     }
 
-    /// The area that both cover.
+    /// Returns the area that both cover.
     fn overlap(&self, other: &Self) -> f64 {
         let along = |a: (f64, f64), b: (f64, f64)| (a.1.min(b.1) - a.0.max(b.0)).max(0.0);
         along(self.x, other.x) * along(self.y, other.y)
@@ -321,7 +321,7 @@ impl Default for GraphPicture {
 }
 
 impl GraphNode {
-    /// A plain node.
+    /// Returns a plain node.
     pub fn at(position: Point) -> Self {
         Self {
             position,
@@ -362,7 +362,7 @@ impl GraphNode {
 }
 
 impl GraphEdge {
-    /// A plain edge between the nodes of two indices.
+    /// Returns a plain edge between the nodes of two indices.
     pub const fn between(from: usize, to: usize) -> Self {
         Self {
             from,

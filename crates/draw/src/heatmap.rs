@@ -70,7 +70,7 @@ impl Hatching {
         share.copied().unwrap_or(0.0).clamp(0.0, 1.0)
     }
 
-    /// The width of [`Self::legend`].
+    /// Returns the width of [`Self::legend`].
     fn width(&self) -> f64 {
         40.0 + words::width(&self.title)
     }
@@ -111,7 +111,7 @@ fn hatch([x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
 }
 
 impl HeatMap {
-    /// The finished picture; `description` says in words what it shows.
+    /// Returns the finished picture; `description` says in words what it shows.
     pub fn drawing(&self, description: impl Into<String>) -> Drawing {
         let widest = |texts: &[String]| texts.iter().map(|t| words::width(t)).fold(0.0, f64::max);
         let written = self

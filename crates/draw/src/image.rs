@@ -25,7 +25,7 @@ pub struct Image {
     png: Vec<u8>,
 }
 
-/// Why pixels are no picture.
+/// Reason why pixels are no picture.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ImageError {
@@ -50,13 +50,14 @@ pub enum ImageError {
         width: u32,
         /// Rows.
         height: u32,
-        /// Why.
+        /// The underlying error.
         source: png::EncodingError,
     },
 }
 
 impl Image {
-    /// A picture of one value for each pixel, 0 black and 255 white, row by row from the top left.
+    /// Returns a picture of one value for each pixel, 0 black and 255 white, row by row from the
+    /// top left.
     ///
     /// # Errors
     /// If there are not `width` × `height` values, or none.
@@ -64,7 +65,7 @@ impl Image {
         Self::new(width, height, 1, png::ColorType::Grayscale, pixels)
     }
 
-    /// A picture of red, green and blue for each pixel, row by row from the top left.
+    /// Returns a picture of red, green and blue for each pixel, row by row from the top left.
     ///
     /// # Errors
     /// If there are not `width` × `height` × 3 values, or none.
@@ -104,7 +105,7 @@ impl Image {
         Ok(Self { width, height, png })
     }
 
-    /// The picture `width` user units wide; `description` says in words what it shows.
+    /// Returns the picture `width` user units wide; `description` says in words what it shows.
     pub fn drawing(&self, description: impl Into<String>, width: f64) -> Drawing {
         let height = width * f64::from(self.height) / f64::from(self.width);
         let data = self.data();
@@ -119,7 +120,8 @@ impl Image {
         }
     }
 
-    /// The picture as an element of another, with its top left corner and its size in user units.
+    /// Returns the picture as an element of another, with its top left corner and its size in user
+    /// units.
     pub(super) fn element(&self, (x, y): (f64, f64), (width, height): (f64, f64)) -> Markup {
         html! {
             image class="pixels" href=(self.data()) x=(tenths(x)) y=(tenths(y)) width=(tenths(width))

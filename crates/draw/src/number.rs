@@ -1,7 +1,7 @@
 //! Coordinates and labels as short text.
 
-/// A coordinate rounded to a tenth of a unit, without a needless `.0`. Coordinates that are not
-/// finite are drawn at 0.
+/// Returns a coordinate rounded to a tenth of a unit, without a needless `.0`. Coordinates that are
+/// not finite are drawn at 0.
 pub(super) fn tenths(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     let sign = if tenths < 0 { "-" } else { "" };
@@ -17,7 +17,7 @@ pub(super) fn line(places: impl IntoIterator<Item = (f64, f64)>) -> String {
     joined(&places.into_iter().map(place).collect::<Vec<_>>())
 }
 
-/// The same, without a place that rounds to the one before.
+/// Returns the same, without a place that rounds to the one before.
 pub(super) fn short_line(places: impl IntoIterator<Item = (f64, f64)>) -> String {
     let mut places: Vec<String> = places.into_iter().map(place).collect();
     places.dedup();
@@ -35,13 +35,13 @@ fn joined(places: &[String]) -> String {
     }
 }
 
-/// A value without needless zeros, with at most so many decimals.
+/// Returns `value` with at most `decimals` decimals and no trailing zeros.
 pub(super) fn trimmed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The least and the greatest of values and of `extent`.
+/// Returns the least and the greatest of values and of `extent`.
 pub(super) fn extent(values: impl Iterator<Item = f64>, extent: (f64, f64)) -> (f64, f64) {
     values.fold(extent, |(low, high), value| {
         (low.min(value), high.max(value))
@@ -51,8 +51,8 @@ pub(super) fn extent(values: impl Iterator<Item = f64>, extent: (f64, f64)) -> (
 /// Of no values: nothing is below its low end or above its high end.
 pub(super) const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
-/// The label of a value on an axis with this distance between labels: as many decimals as that
-/// needs, digits in groups of three, powers of ten where there would be too many.
+/// Returns the label of a value on an axis with this distance between labels: as many decimals as
+/// that needs, digits in groups of three, powers of ten where there would be too many.
 pub(super) fn tick_label(value: f64, step: f64) -> String {
     let exponent = libm::log10(step.abs()).floor();
     if exponent >= 5.0 && value.abs() > 0.0 {

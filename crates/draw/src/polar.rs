@@ -36,7 +36,8 @@ pub struct PolarPlot {
 }
 
 impl PolarPlot {
-    /// An empty plot with `size` user units to each side whose outer ring lies at `reach` metres.
+    /// Returns an empty plot with `size` user units to each side whose outer ring lies at `reach`
+    /// metres.
     pub const fn new(reach: f64, size: f64) -> Self {
         Self {
             reach,
@@ -71,7 +72,7 @@ impl PolarPlot {
         });
     }
 
-    /// The finished picture; `description` says in words what it shows.
+    /// Returns the finished picture; `description` says in words what it shows.
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let middle = tenths(self.middle());
         let (half, full) = (0.5 * self.radius(), self.radius());
@@ -105,7 +106,7 @@ impl PolarPlot {
         0.5 * self.size - MARGIN
     }
 
-    /// Where a beam ends.
+    /// Returns where a beam ends.
     fn at(&self, bearing: f64, range: f64) -> (f64, f64) {
         let share = range / self.reach;
         let share = if share.is_finite() {

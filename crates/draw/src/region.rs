@@ -45,7 +45,7 @@ pub enum Region {
 }
 
 impl Region {
-    /// A box along the axes of the world.
+    /// Returns a box along the axes of the world.
     pub fn within(bounds: &Bounds) -> Self {
         let middle = bounds.min + 0.5 * (bounds.max - bounds.min);
         Self::Box {
@@ -55,10 +55,10 @@ impl Region {
         }
     }
 
-    /// The ellipse of so many standard deviations around the mean of a Gaussian: half its axes are
-    /// the square roots of the covariance's eigenvalues, times `deviations`. An eigenvalue that
-    /// rounding has made negative counts as 0; of the two entries off the diagonal their mean
-    /// counts.
+    /// Returns the ellipse of `deviations` standard deviations around the mean of a Gaussian: half
+    /// its axes are the square roots of the covariance's eigenvalues, times `deviations`. An
+    /// eigenvalue that rounding has made negative counts as 0; of the two entries off the diagonal
+    /// their mean counts.
     pub fn of_covariance(mean: Point, covariance: [[f64; 2]; 2], deviations: f64) -> Self {
         let [[xx, xy], [yx, yy]] = covariance;
         let xy = f64::midpoint(xy, yx);

@@ -29,8 +29,8 @@ pub(super) struct Tick {
 }
 
 impl Scale {
-    /// A linear axis from 0 to a round number that takes in all values up to `max`, with about
-    /// `steps` steps. An axis for nothing ends at 1.
+    /// Returns a linear axis from 0 to a round number that takes in all values up to `max`, with
+    /// about `steps` steps. An axis for nothing ends at 1.
     pub(super) fn up_to(max: f64, steps: f64) -> Self {
         let max = if max.is_finite() && max > 0.0 {
             max
@@ -41,8 +41,8 @@ impl Scale {
         Self::linear_with_step(0.0, (max / step).ceil() * step, step)
     }
 
-    /// A linear axis with just these ends and about `steps` steps. Ends that are no interval become
-    /// one of length 1.
+    /// Returns a linear axis with just these ends and about `steps` steps. Ends that are no
+    /// interval become one of length 1.
     pub(super) fn linear(low: f64, high: f64, steps: f64) -> Self {
         let (low, high) = proper(low, high);
         Self::linear_with_step(low, high, round_step((high - low) / steps))
@@ -70,8 +70,8 @@ impl Scale {
         }
     }
 
-    /// A logarithmic axis with whole powers of ten at its ends, which must be positive. Few decades
-    /// have ticks at 2 and 5 as well, many only at some powers.
+    /// Returns a logarithmic axis with whole powers of ten at its ends, which must be positive. Few
+    /// decades have ticks at 2 and 5 as well, many only at some powers.
     pub(super) fn log(low: f64, high: f64) -> Self {
         let (low, high) = if low > 0.0 && high >= low && high.is_finite() {
             (low, high)
@@ -110,13 +110,13 @@ impl Scale {
         }
     }
 
-    /// The difference between the ends; `None` on a logarithmic axis.
+    /// Returns the difference between the ends; `None` on a logarithmic axis.
     pub(super) fn length(&self) -> Option<f64> {
         (self.spacing == Spacing::Linear).then_some(self.high - self.low)
     }
 
-    /// Where a value lies, from 0 at the low end to 1 at the high end. Not finite for a value that
-    /// has no place, such as 0 on a logarithmic axis.
+    /// Returns where a value lies, from 0 at the low end to 1 at the high end. Not finite for a
+    /// value that has no place, such as 0 on a logarithmic axis.
     pub(super) fn share(&self, value: f64) -> f64 {
         match self.spacing {
             Spacing::Linear => (value - self.low) / (self.high - self.low),
@@ -142,7 +142,7 @@ fn proper(low: f64, high: f64) -> (f64, f64) {
     }
 }
 
-/// The least of 1, 2 and 5 times a power of ten that is not below `rough`.
+/// Returns the least of 1, 2 and 5 times a power of ten that is not below `rough`.
 fn round_step(rough: f64) -> f64 {
     let power = libm::pow(10.0, libm::log10(rough).floor());
     [1.0, 2.0, 5.0]

@@ -11,7 +11,7 @@ impl Series {
     /// How many colours there are before they repeat.
     pub const COLOURS: u32 = 7;
 
-    /// The CSS class that gives an element its colour.
+    /// Returns the CSS class that gives an element its colour.
     pub const fn class(self) -> &'static str {
         const CLASSES: [&str; Series::COLOURS as usize] = [
             "series-0", "series-1", "series-2", "series-3", "series-4", "series-5", "series-6",

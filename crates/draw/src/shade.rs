@@ -58,7 +58,7 @@ impl Shade {
         self
     }
 
-    /// A value as text.
+    /// Returns a value as text.
     pub(super) fn text(&self, value: f64) -> String {
         format!("{value:.0$}", usize::from(self.decimals))
     }
@@ -73,14 +73,14 @@ impl Shade {
         }
     }
 
-    /// The attribute that gives an element with the class `heat` its depth.
+    /// Returns the attribute that gives an element with the class `heat` its depth.
     pub(super) fn opacity(&self, value: f64) -> String {
         // Text upon it must be readable at full depth, and the least value must not look like none.
         format!("{:.2}", 0.06 + 0.84 * self.share(value))
     }
 
-    /// The class of text upon a value: what stands out more from this depth, be the page light or
-    /// dark.
+    /// Returns the class of text upon a value: what stands out more from this depth, be the page
+    /// light or dark.
     pub(super) fn text_class(&self, value: f64) -> &'static str {
         if self.share(value) > 0.8 { "upon" } else { "" }
     }
@@ -88,7 +88,7 @@ impl Shade {
     /// The height of [`Self::legend`].
     pub(super) const LEGEND: f64 = 34.0;
 
-    /// A bar of all depths with its ends named, from `x` on.
+    /// Returns a bar of all depths with its ends named, from `x` on.
     pub(super) fn legend(&self, x: f64, y: f64) -> Markup {
         const STEPS: u32 = 24;
         const STEP: f64 = 5.0;

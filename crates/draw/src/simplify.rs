@@ -3,10 +3,10 @@
 /// How far a line may lie beside what it stands for, user units: less than the eye sees.
 const BESIDE: f64 = 0.3;
 
-/// The corners of a line that matter: no position left out lies farther than [`BESIDE`] from the
-/// line through those that are kept (Douglas and Peucker, "Algorithms for the reduction of the
-/// number of points required to represent a digitized line or its caricature", 1973). The ends are
-/// kept.
+/// Returns the corners of a line that matter: no position left out lies farther than [`BESIDE`]
+/// from the line through those that are kept (Douglas and Peucker, "Algorithms for the reduction of
+/// the number of points required to represent a digitized line or its caricature", 1973). The ends
+/// are kept.
 ///
 /// O(n log n) for most lines, O(n²) at worst.
 pub(super) fn simplified(line: &[(f64, f64)]) -> Vec<(f64, f64)> {

@@ -29,7 +29,7 @@ pub struct Tiles {
 }
 
 impl Tiles {
-    /// No tiles yet, so many to a row, at least one.
+    /// Returns an empty sheet with `columns` tiles to a row, at least one.
     pub const fn new(columns: usize) -> Self {
         Self {
             columns: if columns == 0 { 1 } else { columns },
@@ -47,7 +47,7 @@ impl Tiles {
         self.tile(caption, image.drawing(caption, width));
     }
 
-    /// The finished picture; `description` says in words what it shows.
+    /// Returns the finished picture; `description` says in words what it shows.
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let widest = |size: fn(&Drawing) -> f64| {
             self.tiles

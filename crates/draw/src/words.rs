@@ -12,8 +12,8 @@ pub(super) fn width(text: &str) -> f64 {
     6.6 * text.chars().count() as f64
 }
 
-/// The words of a text in lines of at most `most` characters where words allow it; at most three
-/// lines, of which the last may end in `…`.
+/// Returns the words of a text in lines of at most `most` characters where words allow it; at most
+/// three lines, of which the last may end in `…`.
 pub(super) fn lines(text: &str, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

@@ -72,7 +72,7 @@ pub struct Contrast {
 }
 
 impl Contrast {
-    /// How two samples differ, not corrected; `None` if one has no numbers.
+    /// Returns how two samples differ, not corrected; `None` if one has no numbers.
     pub(super) fn of(a: &[f64], b: &[f64]) -> Option<Self> {
         let p = tolman_stats::mann_whitney(a, b, Method::Auto).ok()?.p;
         let a12 = tolman_stats::a12(a, b).ok()?;
@@ -103,7 +103,8 @@ impl Analysis {
         Self { tables }
     }
 
-    /// The values that do not match the paper's, each with its table and metric, for `--check`.
+    /// Returns the values that do not match the paper's, each with its table and metric, for
+    /// `--check`.
     pub fn disagreements(&self) -> impl Iterator<Item = (&Table, &Metric, &Measured)> {
         self.values().filter(|(_, _, measured)| {
             let verdict = measured.verdict.as_ref();
@@ -120,7 +121,7 @@ impl Analysis {
             .collect()
     }
 
-    /// Every measured value with its table and metric.
+    /// Returns every measured value with its table and metric.
     pub fn values(&self) -> impl Iterator<Item = (&Table, &Metric, &Measured)> {
         self.tables.iter().flat_map(|table| {
             table.metrics.iter().flat_map(move |metric| {

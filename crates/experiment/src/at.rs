@@ -20,7 +20,7 @@ pub(super) fn at<T>(action: &'static str, path: &Path, result: io::Result<T>) ->
     })
 }
 
-/// The same of a path that need not be there: `None` where nothing is.
+/// Returns the same of a path that need not be there: `None` where nothing is.
 pub(super) fn if_there<T>(
     action: &'static str,
     path: &Path,

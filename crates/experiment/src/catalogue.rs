@@ -15,8 +15,20 @@ pub struct Entry {
     pub runs: u32,
     /// Runs of each row under `--quick`, for a first look.
     pub quick_runs: u32,
+    /// What the tour of all experiments shows of it; `None` leaves it out.
+    pub tour: Option<Tour>,
     /// Makes it ready: reads the mazes that the options name.
     pub open: fn(&Options) -> Result<Experiment, BoxError>,
+}
+
+/// What the tour of all experiments shows of one: its main tables, in a few seconds.
+#[derive(Clone, Copy, Debug)]
+pub struct Tour {
+    /// The names of the tables.
+    pub tables: &'static [&'static str],
+    /// Runs of each row; `None` for those of `--quick`, which tables with a number of their own
+    /// need.
+    pub runs: Option<u32>,
 }
 
 /// Makes the experiment of a catalogue that bears this name ready.

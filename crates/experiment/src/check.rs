@@ -79,7 +79,7 @@ fn table(table: &Table) -> Result<(), String> {
         if let Some(name) = values.find(|name| !is_metric(name)) {
             let row = &row.name;
             return Err(format!(
-                "row {row:?} has the paper's {name:?}, which is no metric"
+                "row {row:?} has the paper's {name:?}, which is not a metric"
             ));
         }
     }
@@ -90,7 +90,7 @@ fn table(table: &Table) -> Result<(), String> {
     let is_row = |name: &String| table.rows.iter().any(|row| row.name == *name);
     let mut named = references.chain(others).chain(compared);
     if let Some(name) = named.find(|name| !is_row(name)) {
-        return Err(format!("it is compared with {name:?}, which is no row"));
+        return Err(format!("it is compared with {name:?}, which is not a row"));
     }
     columns(table)?;
     for metric in &table.metrics {
@@ -130,14 +130,16 @@ fn metric(table: &Table, metric: &Metric) -> Result<(), String> {
     for (field, kinds) in metric.statistic.fields() {
         let column = table.record.column(field);
         if !column.is_some_and(|column| kinds.contains(&column.kind)) {
-            return Err(format!("of {field:?}, which is no field of kind {kinds:?}"));
+            return Err(format!(
+                "of {field:?}, which is not a field of kind {kinds:?}"
+            ));
         }
     }
     Ok(())
 }
 
 /// The names of a run's own parts in `runs.jsonl`.
-pub(super) const RESERVED: [&str; 4] = ["table", "row", "run", "seed"];
+pub(super) const RESERVED: [&str; 5] = ["table", "row", "run", "seed", "checksum"];
 
 /// Refuses a run, just played or read back, that is no record of its table or has a value that none
 /// can have.
@@ -148,7 +150,7 @@ pub(super) fn run(experiment: &Experiment, run: &Run) -> Result<(), BoxError> {
     };
     for (name, field) in run.fields.iter() {
         let Some(column) = table.record.column(name) else {
-            return Err(format!("{name:?} is no field of the table's runs").into());
+            return Err(format!("{name:?} is not a field of the table's runs").into());
         };
         if field.kind() != column.kind {
             return Err(format!("{name} is {field:?} and not a {:?}", column.kind).into());

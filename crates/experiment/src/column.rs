@@ -131,7 +131,7 @@ impl Column {
         )
     }
 
-    /// Whether the range leaves no value.
+    /// Returns whether the range leaves no value.
     pub(super) fn is_void(&self) -> bool {
         let sound = |bound: Option<f64>| bound.is_none_or(|bound| !bound.is_nan());
         let ordered = match (self.low, self.high) {

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::at::at;
-use super::{Error, Fields, Run};
+use super::{Error, Fields, Run, runs_file};
 
 /// Compares the `runs.jsonl` of two folders of results. Every value counts to its last bit; the
 /// order of the lines does not. What else lies in the folders is not read.
@@ -66,7 +66,7 @@ struct Found {
 }
 
 impl Differences {
-    /// Whether both folders hold the same runs with the same values.
+    /// Returns whether both folders hold the same runs with the same values.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
@@ -94,9 +94,9 @@ impl fmt::Display for Differences {
     }
 }
 
-/// What differs between a run of the first folder and its fellow of the second: the name of the
-/// field, or `the run`, and how.
-fn changes(a: Option<&Run>, b: Option<&Run>) -> Vec<(String, String)> {
+/// Returns what differs between a run of the first folder and its fellow of the second: the name of
+/// the field, or `the run`, and how.
+pub(super) fn changes(a: Option<&Run>, b: Option<&Run>) -> Vec<(String, String)> {
     let (Some(a), Some(b)) = (a, b) else {
         let what = told(a.map(|_| ""), b.map(|_| ""));
         return vec![("the run".to_owned(), what)];
@@ -114,7 +114,7 @@ fn changes(a: Option<&Run>, b: Option<&Run>) -> Vec<(String, String)> {
     changed.collect()
 }
 
-/// A field as it stands in the file, which has every bit of it.
+/// Returns a field as it stands in the file, which has every bit of it.
 fn written(fields: &Fields, name: &str) -> Option<String> {
     let field = fields.get(name)?;
     Some(serde_json::to_string(field).unwrap_or_default())
@@ -145,7 +145,9 @@ fn runs_of(folder: &Path) -> Result<BTreeMap<Key, Run>, Error> {
             line,
             what,
         };
-        let run: Run = serde_json::from_str(text).map_err(|error| refuse(error.to_string()))?;
+        let (run, intact) =
+            runs_file::read_line(text.as_bytes()).map_err(|error| refuse(error.to_string()))?;
+        intact.map_err(refuse)?;
         let key = (run.table.clone(), run.row.clone(), run.run);
         if runs.insert(key, run).is_some() {
             return Err(refuse("it repeats a run".to_owned()));

@@ -21,7 +21,7 @@ pub(super) struct ConfigFile {
 }
 
 impl ConfigFile {
-    /// The configuration of an experiment that is about to run.
+    /// Returns the configuration of an experiment that is about to run.
     pub(super) fn new(experiment: &Experiment, options: &Options, build: &Build) -> Self {
         let entry = &experiment.entry;
         Self {
@@ -36,14 +36,14 @@ impl ConfigFile {
         }
     }
 
-    /// Reads the text of a `config.toml`; `None` if it is none of ours.
+    /// Reads the text of a `config.toml`; `None` if the file has another format.
     pub(super) fn parse(text: &str) -> Option<Self> {
         toml::from_str(text)
             .ok()
             .filter(|file: &Self| file.format == FORMAT)
     }
 
-    /// The text of `config.toml`.
+    /// Returns the text of `config.toml`.
     pub(super) fn text(&self) -> Result<String, Error> {
         toml::to_string_pretty(self).map_err(|source| Error::Config {
             name: self.experiment.clone(),
@@ -51,8 +51,8 @@ impl ConfigFile {
         })
     }
 
-    /// Why results made under `former` cannot be part of results made under this configuration;
-    /// `None` if they can. The number of runs is free: every run is by itself.
+    /// Returns why results made under `former` cannot be part of results made under this
+    /// configuration; `None` if they can. The number of runs is free: every run is by itself.
     pub(super) fn conflict_with(&self, former: &Self) -> Option<String> {
         if former.version != self.version {
             Some(format!("version {} of the folder's format", former.version))

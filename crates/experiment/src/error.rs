@@ -3,28 +3,28 @@
 use std::io;
 use std::path::PathBuf;
 
-use super::{BoxError, Job};
+use super::{BoxError, Job, choices};
 
-/// Why an experiment could not be run to its end.
+/// Reason why an experiment could not be run to its end.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// There is no experiment, table or row of that name.
-    #[error("there is no {what} named {name:?}; choose one of: {known}")]
+    #[error("there is no {what} named {name:?}; {choices}")]
     Unknown {
         /// `experiment`, `table` or `row`.
         what: &'static str,
         /// The name asked for.
         name: String,
-        /// The names there are.
-        known: String,
+        /// The name that was probably meant, and those there are.
+        choices: String,
     },
     /// What the experiment needs cannot be read.
     #[error("experiment {name} cannot be made ready")]
     Open {
         /// The experiment.
         name: String,
-        /// Why.
+        /// The underlying error.
         source: BoxError,
     },
     /// A number of runs or jobs is zero.
@@ -107,7 +107,7 @@ pub enum Error {
     Config {
         /// The experiment.
         name: String,
-        /// Why.
+        /// The underlying error.
         source: toml::ser::Error,
     },
     /// The summary cannot be written as JSON.
@@ -115,7 +115,7 @@ pub enum Error {
     Summary {
         /// The experiment.
         name: String,
-        /// Why.
+        /// The underlying error.
         source: serde_json::Error,
     },
     /// The threads cannot be started.
@@ -123,7 +123,7 @@ pub enum Error {
     Threads {
         /// How many were wanted.
         jobs: u32,
-        /// Why.
+        /// The underlying error.
         source: BoxError,
     },
     /// A run could not be played.
@@ -137,7 +137,7 @@ pub enum Error {
         run: u32,
         /// Its seed.
         seed: u64,
-        /// Why.
+        /// The underlying error.
         source: BoxError,
     },
     /// The runs of a table cannot be replayed.
@@ -156,18 +156,62 @@ pub enum Error {
         /// What is wrong with it.
         what: String,
     },
+    /// A folder holds no chunks.
+    #[error(
+        "there are no chunks in {0}; make each with `tolman trial --experiment NAME --chunk I/K \
+         --out {0}`",
+        folder.display()
+    )]
+    NoChunks {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A chunk, or what was there before, is of something else.
+    #[error(
+        "{} holds results of {reason}; remove it, or merge with the program that made it and the \
+         mazes as they were",
+        folder.display()
+    )]
+    OtherChunk {
+        /// The folder.
+        folder: PathBuf,
+        /// What differs.
+        reason: String,
+    },
+    /// A folder cannot be verified with this command.
+    #[error(
+        "{} cannot be verified: it was made with {reason}; give the options and the program of \
+         the command in its config.toml",
+        folder.display()
+    )]
+    NotVerifiable {
+        /// The folder.
+        folder: PathBuf,
+        /// What differs.
+        reason: String,
+    },
+    /// Chunks are not finished or not there.
+    #[error("{missing} of {total} runs are missing; run these chunks again: {chunks}")]
+    Incomplete {
+        /// Runs that no chunk has.
+        missing: usize,
+        /// Runs of the whole experiment.
+        total: usize,
+        /// The chunks that have them, as I/K.
+        chunks: String,
+    },
     /// The pictures could not be made.
     #[error("the figures of experiment {name} could not be drawn")]
     Figures {
         /// The experiment.
         name: String,
-        /// Why.
+        /// The underlying error.
         source: BoxError,
     },
     /// The caller asked to stop.
     #[error(
-        "stopped after {done} of {total} runs, which are kept in {}; the same command goes on \
-         from there: {command}",
+        "stopped after {done} of {total} runs, which are kept in {}; go on from there with: \
+         {command}",
         folder.display()
     )]
     Interrupted {
@@ -183,7 +227,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// The place of a name among those there are.
+    /// Returns the place of a name among those there are.
     pub(super) fn place_of<'a>(
         what: &'static str,
         name: &str,
@@ -195,11 +239,11 @@ impl Error {
             .ok_or_else(|| Self::Unknown {
                 what,
                 name: name.to_owned(),
-                known: all.collect::<Vec<_>>().join(", "),
+                choices: choices(name, all),
             })
     }
 
-    /// A run that could not be played.
+    /// Returns a run that could not be played.
     pub(super) fn run(job: &Job<'_>, source: BoxError) -> Self {
         Self::Run {
             table: job.table.to_owned(),
@@ -210,7 +254,7 @@ impl Error {
         }
     }
 
-    /// Whether the caller's input is at fault (exit code 2) rather than the machine or the
+    /// Returns whether the caller's input is at fault (exit code 2) rather than the machine or the
     /// experiment (exit code 1).
     pub const fn is_bad_input(&self) -> bool {
         matches!(
@@ -226,6 +270,10 @@ impl Error {
                 | Self::Busy { .. }
                 | Self::NoReplay { .. }
                 | Self::NoRuns { .. }
+                | Self::NoChunks { .. }
+                | Self::OtherChunk { .. }
+                | Self::Incomplete { .. }
+                | Self::NotVerifiable { .. }
         )
     }
 }

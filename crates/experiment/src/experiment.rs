@@ -35,6 +35,7 @@ use tolman_replay::Replay;
 ///     source: "",
 ///     runs: 1000,
 ///     quick_runs: 10,
+///     tour: None,
 ///     open: |_: &Options| {
 ///         let table = Table::of::<Game>("1", "A fair coin")
 ///             .metric(Metric::mean(Game::tosses))
@@ -75,6 +76,14 @@ pub trait Procedure: Sync + core::fmt::Debug {
     /// If the run cannot be played at all. That a robot does not arrive is a result, not an error.
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError>;
 
+    /// Returns the name of work that this run has in common with others and that is done once for
+    /// all of them, such as a learned map; `None`, the default, if there is no such work. Runs of
+    /// one name are in one [`Chunk`](super::Chunk), so that no two machines do it.
+    fn shares(&self, job: &Job<'_>) -> Option<String> {
+        let _ = job;
+        None
+    }
+
     /// Pictures beside the box plots that every experiment gets. `runs` is complete and sorted by
     /// table, row and index; a run can be played again from its [`Run::job`].
     ///
@@ -111,7 +120,7 @@ pub trait Procedure: Sync + core::fmt::Debug {
 }
 
 impl Experiment {
-    /// An experiment that leaves nothing out.
+    /// Returns an experiment that leaves nothing out.
     pub fn new(
         entry: Entry,
         tables: Vec<Table>,
@@ -192,7 +201,7 @@ impl Experiment {
         Ok(self)
     }
 
-    /// The table of this name and its place.
+    /// Returns the table of this name and its place.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is none.
@@ -208,8 +217,8 @@ impl Experiment {
         replay.map_err(|source| Error::run(job, source))
     }
 
-    /// The pictures of the procedure. Of an experiment in part those of its tables; figures of
-    /// several tables are left out then.
+    /// Returns the pictures of the procedure. Of an experiment in part those of its tables; figures
+    /// of several tables are left out then.
     pub(super) fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let mut figures = self.procedure.figures(runs)?;
         figures.retain(|figure| {

@@ -46,7 +46,7 @@ fn move_into_place(path: &Path, contents: &[u8]) -> io::Result<()> {
     written
 }
 
-/// The files in a folder, not those in folders below it, sorted by name.
+/// Returns the files in a folder, not those in folders below it, sorted by name.
 ///
 /// # Errors
 /// What the system says.

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use super::at::{at, if_there, make_folder, write_whole};
 use super::config_file::ConfigFile;
 use super::runs_file::{self, Appender, Runs};
-use super::{Error, Experiment, Progress, ProgressEvent};
+use super::{Chunk, Error, Experiment, Progress, ProgressEvent};
 use tolman_draw::Figure;
 
-const CONFIG: &str = "config.toml";
-const RUNS: &str = "runs.jsonl";
+pub(super) const CONFIG: &str = "config.toml";
+pub(super) const RUNS: &str = "runs.jsonl";
 /// Finished runs beyond the number asked for, kept for a later, larger number.
 const SPARE: &str = "spare.jsonl";
 /// An empty file that is locked while a process has the folder open. It stays: to remove it would
@@ -147,10 +147,12 @@ fn refuse_foreign(path: &Path) -> Result<(), Error> {
     for entry in entries {
         let name = at("read the folder", path, entry)?.file_name();
         let name = name.to_string_lossy();
-        // What a process that died before its first whole file may leave behind, and single
-        // replays.
-        let ours =
-            name == LOCK || name == REPLAYS || (name.starts_with('.') && name.ends_with(".tmp"));
+        // What a process that died before its first whole file may leave behind, single replays,
+        // and chunks that are to be merged.
+        let ours = name == LOCK
+            || name == REPLAYS
+            || (name.starts_with('.') && name.ends_with(".tmp"))
+            || Chunk::of_folder(&name).is_some();
         if !ours {
             return Err(foreign(
                 path,
@@ -185,8 +187,8 @@ fn lock(path: &Path) -> Result<File, Error> {
     }
 }
 
-/// What keeps the contents of the folder from being part of the new results.
-fn conflict(path: &Path, config: &ConfigFile) -> Result<Option<String>, Error> {
+/// Returns what keeps the contents of the folder from being part of the new results.
+pub(super) fn conflict(path: &Path, config: &ConfigFile) -> Result<Option<String>, Error> {
     let file = path.join(CONFIG);
     let text = if_there("read", &file, fs::read_to_string(&file))?;
     Ok(text.and_then(|text| match ConfigFile::parse(&text) {
@@ -195,7 +197,7 @@ fn conflict(path: &Path, config: &ConfigFile) -> Result<Option<String>, Error> {
     }))
 }
 
-/// The first of `PATH.1`, `PATH.2`, … that is free.
+/// Returns the first of `PATH.1`, `PATH.2`, … that is free.
 fn free_name(path: &Path) -> PathBuf {
     let mut number = 1_u64;
     // Without the slash that may end the path.

@@ -1,10 +1,10 @@
 //! What the caller chooses.
 
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::thread;
 
-use super::Entry;
+use super::{Chunk, Entry, Tour};
 use crate::shell::quoted;
 
 /// What the caller calls experiments with.
@@ -26,8 +26,8 @@ impl Default for Program {
 }
 
 impl Program {
-    /// The one that runs now and is called `command`. Cargo names itself to the programs it starts
-    /// in the variable `CARGO`.
+    /// Returns the one that runs now and is called `command`. Cargo names itself to the programs it
+    /// starts in the variable `CARGO`.
     pub fn current(command: &'static str) -> Self {
         match env::var_os("CARGO") {
             Some(_) if command == OWN => Self::Xtask,
@@ -35,7 +35,9 @@ impl Program {
         }
     }
 
-    const fn command(self) -> &'static str {
+    /// Returns the words that a command begins with.
+    #[must_use]
+    pub const fn command(self) -> &'static str {
         match self {
             Self::Command(command) => command,
             Self::Xtask => "cargo xtask",
@@ -90,7 +92,20 @@ impl Options {
         self.runs.unwrap_or(if self.quick { quick } else { full })
     }
 
-    /// The threads that play this many runs.
+    /// Returns them as the tour of all experiments asks for this one, in a folder below that of the
+    /// tour.
+    #[must_use]
+    pub fn on_tour(&self, tour: &Tour, folder: &Path) -> Self {
+        Self {
+            runs: tour.runs,
+            quick: tour.runs.is_none(),
+            tables: tour.tables.iter().map(ToString::to_string).collect(),
+            out: Some(folder.to_owned()),
+            ..self.clone()
+        }
+    }
+
+    /// Returns the threads that play this many runs.
     pub(super) fn threads_for(&self, runs: u64) -> u32 {
         let wanted = self.jobs.unwrap_or_else(|| {
             thread::available_parallelism()
@@ -102,21 +117,35 @@ impl Options {
         wanted.min(useful).clamp(1, Self::MOST_JOBS)
     }
 
-    /// The folder the results of an experiment go to.
+    /// Returns the folder the results of an experiment go to.
     pub fn folder_of(&self, name: &str) -> PathBuf {
         self.out
             .clone()
             .unwrap_or_else(|| PathBuf::from("results").join(name))
     }
 
-    /// The command that makes the same results again.
+    /// Returns the command that makes the same results again.
     pub fn command_of(&self, entry: &Entry) -> String {
-        let mut command = format!(
-            "{} experiment {} --seed {}",
-            self.program.command(),
-            entry.name,
-            self.seed
+        let verb = format!("{} experiment {}", self.program.command(), entry.name);
+        self.command(&verb, entry)
+    }
+
+    /// The command that goes on with a chunk.
+    pub(super) fn command_of_chunk(&self, entry: &Entry, chunk: Chunk) -> String {
+        let program = match self.program {
+            Program::Command(command) => command,
+            Program::Xtask => OWN,
+        };
+        let verb = format!(
+            "{program} trial --experiment {} --chunk {chunk}",
+            entry.name
         );
+        self.command(&verb, entry)
+    }
+
+    /// A command that begins like this, with all options that the results depend on.
+    fn command(&self, verb: &str, entry: &Entry) -> String {
+        let mut command = format!("{verb} --seed {}", self.seed);
         // A table alone may have a number of runs of its own.
         if self.runs.is_some() || self.tables.is_empty() {
             command += &format!(" --runs {}", self.runs_of(entry));

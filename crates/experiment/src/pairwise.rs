@@ -29,11 +29,11 @@ pub struct RowPair {
     pub contrast: Contrast,
     /// The paper's p-value.
     pub paper: Option<f64>,
-    /// Why it is not judged, where the paper has one.
+    /// Reason why it is not judged, where the paper has one.
     pub verdict: Option<Verdict>,
 }
 
-/// Why a p-value is no quantity.
+/// Reason why a p-value is no quantity.
 const OF_SAMPLES: &str = "a p-value speaks of its samples, not of a quantity";
 
 impl RowPair {
@@ -44,7 +44,7 @@ impl RowPair {
 }
 
 impl Pairwise {
-    /// Every pair of rows that were measured, in the order of the rows.
+    /// Returns every pair of rows that were measured, in the order of the rows.
     pub(super) fn compare(&self, table: &Table, runs: &[Run]) -> Vec<RowPair> {
         let statistic = Statistic::Mean(self.field.clone());
         let samples: Vec<(&String, Vec<f64>)> = self

@@ -3,21 +3,21 @@
 use super::{Experiment, Metric, Run, Statistic, Table};
 use tolman_draw::{BoxGroup, BoxPlot, Dot, Figure, PaperMark, Series};
 
-/// One box plot for every field of which a metric is the mean or the median, in the order of tables
-/// and metrics.
+/// Returns one box plot for every field of which a metric is the mean or the median, in the order
+/// of tables and metrics.
 pub(super) fn box_plots(experiment: &Experiment, runs: &[Run]) -> Vec<Figure> {
     plotted(experiment)
         .map(|(name, table, metric, field)| box_plot(name, table, metric, field, runs))
         .collect()
 }
 
-/// The names of the box plots, known before any run.
+/// Returns the names of the box plots, known before any run.
 pub(super) fn names(experiment: &Experiment) -> Vec<String> {
     plotted(experiment).map(|(name, ..)| name).collect()
 }
 
-/// What gets a box plot: its name, the table, the metric and the metric's field. Tables go by
-/// number, since their names may be any text of a maze file.
+/// Returns what gets a box plot: its name, the table, the metric and the metric's field. Tables go
+/// by number, since their names may be any text of a maze file.
 fn plotted(experiment: &Experiment) -> impl Iterator<Item = (String, &Table, &Metric, &str)> {
     (1_u32..)
         .zip(&experiment.tables)

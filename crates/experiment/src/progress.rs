@@ -57,7 +57,7 @@ pub enum ProgressEvent<'a> {
 pub enum Remedy {
     /// The run is played again.
     PlayedAgain,
-    /// The run is there from another line, or is none that was asked for.
+    /// The run is there from another line, or was not asked for.
     Ignored,
     /// The line does not say which run it was; whichever runs are missing are played.
     MissingPlayed,
@@ -68,8 +68,8 @@ pub trait Progress: Sync {
     /// Hears of an event. May be called from several threads at once.
     fn event(&self, event: &ProgressEvent<'_>);
 
-    /// Whether the caller wants to stop, as after Ctrl-C. Asked before every run; runs that are
-    /// being played are finished and kept.
+    /// Returns whether the caller wants to stop, as after Ctrl-C. Asked before every run; runs that
+    /// are being played are finished and kept.
     fn stop_requested(&self) -> bool {
         false
     }

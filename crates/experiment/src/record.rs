@@ -137,7 +137,7 @@ pub fn require(holds: bool, why: &str) -> Result<(), String> {
     }
 }
 
-/// Why a record and the fields of a run are not each other's.
+/// Reason why a record and the fields of a run are not each other's.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FieldsError {
@@ -158,7 +158,7 @@ pub enum FieldsError {
         value: String,
     },
     /// Fields that are no such record.
-    #[error("the fields are no record {record}")]
+    #[error("the fields do not match record {record}")]
     Read {
         /// Name of the type.
         record: &'static str,

@@ -111,7 +111,12 @@ pub(super) fn record(
         for run in runs {
             let of_run = || recorded.iter().filter(move |one| one.run == run);
             bytes += of_run().map(Recorded::bytes).sum::<usize>();
-            if bytes > budget || replays.tables.is_empty() {
+            if replays.tables.is_empty() {
+                return Ok(Some(replays));
+            }
+            if bytes > budget {
+                bytes -= of_run().map(Recorded::bytes).sum::<usize>();
+                replays.carry(of_run().cloned(), bytes);
                 return Ok(Some(replays));
             }
             replays.recorded.extend(of_run().cloned());
@@ -122,7 +127,7 @@ pub(super) fn record(
     Ok(Some(replays))
 }
 
-/// Records these runs one after the other, as long as their replays fit the budget.
+/// Records these runs one by one, as long as their replays fit the budget.
 fn record_shown(
     experiment: &Experiment,
     shown: &[Run],
@@ -139,19 +144,25 @@ fn record_shown(
     if recorded.len() < shown.len() {
         return Ok(None);
     }
-    let mut bytes = 0;
-    for one in recorded.into_iter().flatten() {
-        replays.tables.insert(one.table.clone());
-        if bytes + one.bytes() <= replays.budget {
-            bytes += one.bytes();
-            replays.recorded.push(one);
-        }
-    }
+    replays.carry(recorded.into_iter().flatten(), 0);
     Ok(Some(replays))
 }
 
-/// How many more runs of each row are likely to fit, if `done` of them took so many bytes; the
-/// first is always tried.
+impl Replays {
+    /// Takes up those that fit, one by one, where others take `bytes` already.
+    fn carry(&mut self, recorded: impl Iterator<Item = Recorded>, mut bytes: usize) {
+        for one in recorded {
+            self.tables.insert(one.table.clone());
+            if bytes + one.bytes() <= self.budget {
+                bytes += one.bytes();
+                self.recorded.push(one);
+            }
+        }
+    }
+}
+
+/// Returns how many more runs of each row are likely to fit, if `done` of them took `bytes` bytes;
+/// the first is always tried.
 fn room(done: u32, bytes: usize, budget: usize) -> u32 {
     match done {
         0 => 1,
@@ -162,7 +173,7 @@ fn room(done: u32, bytes: usize, budget: usize) -> u32 {
     }
 }
 
-/// The job of one run index for every row.
+/// Returns the job of one run index for every row.
 fn jobs_of(experiment: &Experiment, master_seed: u64, run: u32) -> impl Iterator<Item = Job<'_>> {
     experiment.tables.iter().flat_map(move |table| {
         // A row with a number of its own may have fewer.
@@ -188,6 +199,23 @@ fn record_one(experiment: &Experiment, job: &Job<'_>) -> Result<Option<Recorded>
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn replays_are_carried_one_by_one_until_the_budget_is_full() {
+        let one = |run, size| Recorded {
+            table: "1".to_owned(),
+            row: "Novice".to_owned(),
+            run,
+            json: "x".repeat(size),
+        };
+        let mut replays = Replays {
+            budget: 2000,
+            ..Replays::default()
+        };
+        replays.carry([one(0, 500), one(1, 5000), one(2, 600)].into_iter(), 0);
+        let carried: Vec<u32> = replays.recorded.iter().map(|one| one.run).collect();
+        assert_eq!(carried, [0, 2]);
+    }
 
     #[test]
     fn a_page_has_as_much_room_for_replays_as_its_tables_leave() {

@@ -37,7 +37,7 @@ pub struct Run {
 }
 
 impl<'a> Job<'a> {
-    /// The run of this number in a row.
+    /// Returns the run of this number in a row.
     pub(super) fn of(master_seed: u64, table: &'a str, row: &'a str, run: u32) -> Self {
         let seed = run_seed(master_seed, table, run);
         Self {
@@ -50,12 +50,12 @@ impl<'a> Job<'a> {
 }
 
 impl Run {
-    /// Whether it is of this row of this table.
+    /// Returns whether it is of this row of this table.
     pub fn is_of(&self, table: &str, row: &str) -> bool {
         self.table == table && self.row == row
     }
 
-    /// The job that plays this run again.
+    /// Returns the job that plays this run again.
     pub fn job(&self) -> Job<'_> {
         Job {
             table: &self.table,
@@ -165,7 +165,7 @@ pub(super) enum Field {
 }
 
 impl Field {
-    /// Returns the field that serde wrote as `value`; `None` if it is none.
+    /// Returns the field that serde wrote as `value`; or `None` if `value` is not a field.
     fn read(value: &toml::Value) -> Option<Self> {
         Some(match value {
             toml::Value::Boolean(flag) => Self::Flag(*flag),
@@ -201,7 +201,7 @@ impl Field {
         }
     }
 
-    /// What it holds.
+    /// Returns what it holds.
     pub(super) const fn kind(&self) -> Kind {
         match self {
             Self::Flag(_) => Kind::Flag,

@@ -10,8 +10,8 @@ use super::config_file::ConfigFile;
 use super::folder::Folder;
 use super::runs_file::{Appender, Key, Runs};
 use super::{
-    Analysis, Build, Entry, Error, Experiment, Job, Options, Progress, ProgressEvent, Replays, Run,
-    Summary, check, plots, replays,
+    Analysis, Build, Chunk, Entry, Error, Experiment, Job, Options, Progress, ProgressEvent,
+    Replays, Run, Summary, check, plots, replays,
 };
 use crate::report;
 use tolman_draw::Figure;
@@ -66,98 +66,205 @@ pub fn execute(
     build: &Build,
     progress: &dyn Progress,
 ) -> Result<ExperimentOutcome, Error> {
-    check::options(options, &experiment.entry)?;
-    check::tables(experiment)?;
-    let runs_per_row = options.runs_of(&experiment.entry);
-    if let Some(what) = &experiment.skipped {
-        progress.event(&ProgressEvent::Skipped { what });
-    }
-    let config = ConfigFile::new(experiment, options, build);
+    let run = Runner {
+        experiment,
+        options,
+        build,
+        progress,
+    };
+    let command = options.command_of(&experiment.entry);
     let path = options.folder_of(experiment.entry.name);
-    let folder = Folder::open(&path, &config, progress)?;
-    let known = folder.resume(experiment, options.seed, runs_per_row, progress)?;
-
-    let started = Instant::now();
-    let jobs = jobs(experiment, options.seed, runs_per_row);
-    let total = jobs.len() as u64;
-    let reused = known.len() as u64;
-    if reused < total {
-        // What they say of fewer runs must not pass for the outcome of these.
-        folder.discard("summary.json")?;
-        folder.discard("report.html")?;
-    }
-    progress.event(&ProgressEvent::Started { total, reused });
-    let thread_count = options.threads_for(total - reused);
-    let threads = rayon::ThreadPoolBuilder::new()
-        .num_threads(thread_count as usize)
-        .build()
-        .map_err(|source| Error::Threads {
-            jobs: thread_count,
-            source: source.into(),
-        })?;
-    let played =
-        threads.install(|| play(experiment, &jobs, &known, &folder.appender()?, progress))?;
-    let elapsed = started.elapsed();
-    progress.event(&ProgressEvent::RunsFinished {
-        played: played.len() as u64,
-        elapsed,
-    });
-    let interrupted = |done: u64| Error::Interrupted {
-        done,
-        total,
-        folder: path.clone(),
-        command: config.command.clone(),
-    };
-    if known.len() + played.len() < jobs.len() {
-        return Err(interrupted((known.len() + played.len()) as u64));
-    }
-
-    let played_count = played.len() as u64;
-    let mut all = known;
-    all.extend(played);
-    let runs: Vec<Run> = all.into_values().collect();
-    folder.write_runs(&runs)?;
-    let analysis = Analysis::of(experiment, &runs, options.seed);
-    let summary = Summary::of(experiment.entry.name, options.seed, &analysis);
-    folder.write("summary.json", &summary.to_json()?)?;
-    let mut figures = plots::box_plots(experiment, &runs);
-    figures.extend(experiment.figures(&runs).map_err(|source| Error::Figures {
-        name: experiment.entry.name.to_owned(),
-        source,
-    })?);
-    check::figures(experiment, &figures)?;
-    folder.write_figures(&figures)?;
-    progress.event(&ProgressEvent::Recording);
-    let mut outcome = ExperimentOutcome {
-        entry: experiment.entry,
-        skipped: experiment.skipped.clone(),
-        folder: path.clone(),
-        command: config.command.clone(),
-        seed: options.seed,
-        runs_per_row,
-        jobs: thread_count,
-        played: played_count,
-        elapsed,
-        build: build.clone(),
-        runs,
-        analysis,
-        summary,
-        figures,
-        replays: Replays::default(),
-    };
-    let budget = replays::budget(report::html(&outcome).len());
-    let record = || {
-        let (runs, seed) = (&outcome.runs, options.seed);
-        replays::record(experiment, runs, seed, runs_per_row, budget, progress)
-    };
-    let replays = threads.install(record)?.ok_or_else(|| interrupted(total))?;
-    outcome.replays = replays;
-    folder.write("report.html", &report::html(&outcome))?;
-    Ok(outcome)
+    let played = run.play_missing(path, command, |jobs| jobs)?;
+    run.conclude(played)
 }
 
-/// Every job of the experiment with its place in the order of results.
-fn jobs(experiment: &Experiment, master_seed: u64, runs: u32) -> Vec<(Key, Job<'_>)> {
+/// Plays a chunk of an experiment: resumes its folder under the experiment's and plays what is
+/// missing. Returns the folder, which [`merge`](super::merge) reads.
+///
+/// # Errors
+/// Those of [`execute`]; the same call goes on where it was interrupted.
+pub fn play_chunk(
+    experiment: &Experiment,
+    options: &Options,
+    build: &Build,
+    chunk: Chunk,
+    progress: &dyn Progress,
+) -> Result<PathBuf, Error> {
+    let run = Runner {
+        experiment,
+        options,
+        build,
+        progress,
+    };
+    let command = options.command_of_chunk(&experiment.entry, chunk);
+    let path = chunk.folder_in(&options.folder_of(experiment.entry.name));
+    let procedure = &*experiment.procedure;
+    let played = run.play_missing(path, command, |jobs| chunk.take(jobs, procedure))?;
+    Ok(played.path)
+}
+
+/// What is run, and how.
+struct Runner<'a> {
+    experiment: &'a Experiment,
+    options: &'a Options,
+    build: &'a Build,
+    progress: &'a dyn Progress,
+}
+
+/// All runs of a folder, with what it took to play those that were missing.
+struct Played {
+    path: PathBuf,
+    folder: Folder,
+    config: ConfigFile,
+    /// Every run, sorted by table, row and index.
+    runs: Vec<Run>,
+    /// How many were played now.
+    count: u64,
+    elapsed: Duration,
+    threads: rayon::ThreadPool,
+}
+
+impl Runner<'_> {
+    /// Opens the folder `path`, plays those of the jobs that `choose` keeps and that are not there,
+    /// and writes `config.toml` and `runs.jsonl`. `command` is what goes on if it is interrupted.
+    fn play_missing<'a>(
+        &'a self,
+        path: PathBuf,
+        command: String,
+        choose: impl FnOnce(Vec<(Key, Job<'a>)>) -> Vec<(Key, Job<'a>)>,
+    ) -> Result<Played, Error> {
+        let Self {
+            experiment,
+            options,
+            build,
+            progress,
+        } = *self;
+        check::options(options, &experiment.entry)?;
+        check::tables(experiment)?;
+        let runs_per_row = options.runs_of(&experiment.entry);
+        if let Some(what) = &experiment.skipped {
+            progress.event(&ProgressEvent::Skipped { what });
+        }
+        let config = ConfigFile::new(experiment, options, build);
+        let folder = Folder::open(&path, &config, progress)?;
+        let known = folder.resume(experiment, options.seed, runs_per_row, progress)?;
+
+        let started = Instant::now();
+        let jobs = choose(jobs(experiment, options.seed, runs_per_row));
+        let total = jobs.len() as u64;
+        let is_known = |(key, _): &&(Key, Job<'_>)| known.contains_key(key);
+        let reused = jobs.iter().filter(is_known).count() as u64;
+        if reused < total {
+            // What they say of fewer runs must not pass for the outcome of these.
+            folder.discard("summary.json")?;
+            folder.discard("report.html")?;
+        }
+        progress.event(&ProgressEvent::Started { total, reused });
+        let thread_count = options.threads_for(total - reused);
+        let threads = rayon::ThreadPoolBuilder::new()
+            .num_threads(thread_count as usize)
+            .build()
+            .map_err(|source| Error::Threads {
+                jobs: thread_count,
+                source: source.into(),
+            })?;
+        let played =
+            threads.install(|| play(experiment, &jobs, &known, &folder.appender()?, progress))?;
+        let elapsed = started.elapsed();
+        let count = played.len() as u64;
+        progress.event(&ProgressEvent::RunsFinished {
+            played: count,
+            elapsed,
+        });
+        if reused + count < total {
+            return Err(Error::Interrupted {
+                done: reused + count,
+                total,
+                folder: path,
+                command,
+            });
+        }
+        let mut all = known;
+        all.extend(played);
+        let runs: Vec<Run> = all.into_values().collect();
+        folder.write_runs(&runs)?;
+        Ok(Played {
+            path,
+            folder,
+            config,
+            runs,
+            count,
+            elapsed,
+            threads,
+        })
+    }
+
+    /// Makes summary, figures and report of all runs.
+    fn conclude(&self, played: Played) -> Result<ExperimentOutcome, Error> {
+        let Self {
+            experiment,
+            options,
+            build,
+            progress,
+        } = *self;
+        let Played {
+            path,
+            folder,
+            config,
+            runs,
+            count,
+            elapsed,
+            threads,
+        } = played;
+        let runs_per_row = options.runs_of(&experiment.entry);
+        let total = runs.len() as u64;
+        let analysis = Analysis::of(experiment, &runs, options.seed);
+        let summary = Summary::of(experiment.entry.name, options.seed, &analysis);
+        folder.write("summary.json", &summary.to_json()?)?;
+        let mut figures = plots::box_plots(experiment, &runs);
+        figures.extend(experiment.figures(&runs).map_err(|source| Error::Figures {
+            name: experiment.entry.name.to_owned(),
+            source,
+        })?);
+        check::figures(experiment, &figures)?;
+        folder.write_figures(&figures)?;
+        progress.event(&ProgressEvent::Recording);
+        let mut outcome = ExperimentOutcome {
+            entry: experiment.entry,
+            skipped: experiment.skipped.clone(),
+            folder: path.clone(),
+            command: config.command.clone(),
+            seed: options.seed,
+            runs_per_row,
+            jobs: options.threads_for(count),
+            played: count,
+            elapsed,
+            build: build.clone(),
+            runs,
+            analysis,
+            summary,
+            figures,
+            replays: Replays::default(),
+        };
+        let budget = replays::budget(report::html(&outcome).len());
+        let record = || {
+            let (runs, seed) = (&outcome.runs, options.seed);
+            replays::record(experiment, runs, seed, runs_per_row, budget, progress)
+        };
+        let replays = threads.install(record)?.ok_or_else(|| Error::Interrupted {
+            done: total,
+            total,
+            folder: path,
+            command: outcome.command.clone(),
+        })?;
+        outcome.replays = replays;
+        folder.write("report.html", &report::html(&outcome))?;
+        Ok(outcome)
+    }
+}
+
+/// Returns every job of the experiment with its place in the order of results.
+pub(super) fn jobs(experiment: &Experiment, master_seed: u64, runs: u32) -> Vec<(Key, Job<'_>)> {
     let mut jobs = Vec::new();
     for (t, table) in experiment.tables.iter().enumerate() {
         for (r, row) in table.rows.iter().enumerate() {
@@ -195,7 +302,7 @@ fn play(
         .collect()
 }
 
-fn play_one(experiment: &Experiment, job: &Job<'_>) -> Result<Run, Error> {
+pub(super) fn play_one(experiment: &Experiment, job: &Job<'_>) -> Result<Run, Error> {
     let played = experiment.procedure.run(job).and_then(|fields| {
         let run = Run {
             table: job.table.to_owned(),

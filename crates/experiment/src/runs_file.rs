@@ -7,8 +7,41 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use serde::{Deserialize, Serialize};
+
 use super::at::{at, if_there, write_whole};
+use super::hash::fnv64;
 use super::{Error, Experiment, Progress, ProgressEvent, Remedy, Run, check, run_seed};
+
+/// A line of the file: a run, and the checksum of how it is written.
+#[derive(Serialize, Deserialize)]
+struct Line<R> {
+    #[serde(flatten)]
+    run: R,
+    /// Missing in files of versions that wrote none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    checksum: Option<String>,
+}
+
+/// Reads the run of a line.
+pub(super) fn read_line(line: &[u8]) -> Result<(Run, Intact), serde_json::Error> {
+    let Line { run, checksum }: Line<Run> = serde_json::from_slice(line)?;
+    let computed = checksum_of(&run)?;
+    let intact = match checksum {
+        Some(written) if written != computed => Err(format!(
+            "its values do not have its checksum {written}, but {computed}"
+        )),
+        _ => Ok(()),
+    };
+    Ok((run, intact))
+}
+
+/// Whether the values of a line are those that were written; what speaks against it otherwise.
+pub(super) type Intact = Result<(), String>;
+
+fn checksum_of(run: &Run) -> Result<String, serde_json::Error> {
+    Ok(format!("{:016x}", fnv64(&serde_json::to_vec(run)?)))
+}
 
 /// The places of a run's table and row, and its index: the order of the finished file.
 pub(super) type Key = (usize, usize, u32);
@@ -106,20 +139,20 @@ fn tell(
     }
 }
 
-/// Whether a run is one of those to be made when `runs` of each row are.
+/// Returns whether a run is one of those to be made when `runs` of each row are.
 pub(super) fn is_wanted((table, row, run): Key, experiment: &Experiment, runs: u32) -> bool {
     let table = experiment.tables.get(table);
     let row = table.and_then(|table| table.rows.get(row));
     row.is_some_and(|row| run < row.runs_of(runs))
 }
 
-/// The run of a line; or what is wrong with the line, and which run it was if it says so.
+/// Returns the run of a line; or what is wrong with the line, and which run it was if it says so.
 fn parse(
     line: &[u8],
     experiment: &Experiment,
     master: u64,
 ) -> Result<(Key, Run), (String, Option<Key>)> {
-    let run: Run = serde_json::from_slice(line).map_err(|error| {
+    let (run, intact) = read_line(line).map_err(|error| {
         // It was given one line, so the line it names is not that of the file.
         let what = error.to_string();
         let what = what.split(" at line ").next().unwrap_or_default();
@@ -137,13 +170,16 @@ fn parse(
         let what = format!("run {} has seed {} where {seed} belongs", run.run, run.seed);
         return Err((what, Some(key)));
     }
-    match check::run(experiment, &run) {
+    match check::run(experiment, &run)
+        .map_err(|error| error.to_string())
+        .and(intact)
+    {
         Ok(()) => Ok((key, run)),
-        Err(error) => Err((error.to_string(), Some(key))),
+        Err(what) => Err((what, Some(key))),
     }
 }
 
-/// Which run a line is of whose fields hold what no field can.
+/// Returns which run a line is of whose fields hold what no field can.
 fn identity(line: &[u8], experiment: &Experiment) -> Option<Key> {
     let mut line: serde_json::Value = serde_json::from_slice(line).ok()?;
     line.as_object_mut()?
@@ -171,7 +207,8 @@ pub(super) fn write<'a>(path: &Path, runs: impl Iterator<Item = &'a Run>) -> Res
 }
 
 fn write_line(out: &mut Vec<u8>, run: &Run) -> io::Result<()> {
-    serde_json::to_writer(&mut *out, run)?;
+    let checksum = Some(checksum_of(run)?);
+    serde_json::to_writer(&mut *out, &Line { run, checksum })?;
     out.push(b'\n');
     Ok(())
 }

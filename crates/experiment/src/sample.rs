@@ -55,9 +55,9 @@ fn skill(forecasts: &[(f64, f64)]) -> f64 {
 }
 
 impl<'a> Sample<'a> {
-    /// What a statistic measures of runs; `None` if no run has the field. `others` are the runs of
-    /// the row that [`Statistic::Multiple`] names, sorted by index; `table` are those of all rows,
-    /// row by row.
+    /// Returns what a statistic measures of runs; `None` if no run has the field. `others` are the
+    /// runs of the row that [`Statistic::Multiple`] names, sorted by index; `table` are those of
+    /// all rows, row by row.
     pub(super) fn of(
         statistic: &Statistic,
         runs: &[&'a Run],
@@ -135,7 +135,7 @@ impl<'a> Sample<'a> {
         (sample.len() > 0).then_some(sample)
     }
 
-    /// How many runs were measured.
+    /// Returns how many runs were measured.
     pub(super) fn len(&self) -> usize {
         match self {
             Self::Flags { flags, .. } => flags.len(),
@@ -145,9 +145,9 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// The value: part of a whole, mean, median, quantile, least, greatest, sum, ratio of sums or
-    /// of spreads, or when the mean curve settles; and whether what the metric waits for came
-    /// about, always where it waits for nothing.
+    /// Returns the value: part of a whole, mean, median, quantile, least, greatest, sum, ratio of
+    /// sums or of spreads, or when the mean curve settles; and whether what the metric waits for
+    /// came about, always where it waits for nothing.
     pub(super) fn value(&self) -> (f64, Reached) {
         let value = match self {
             Self::Flags { flags, whole } => whole * mean(&zeros_and_ones(flags)),
@@ -175,23 +175,23 @@ impl<'a> Sample<'a> {
         (value, Reached::Yes)
     }
 
-    /// The standard deviation of two numbers or more.
+    /// Returns the standard deviation of two numbers or more.
     pub(super) fn sd(&self) -> Option<f64> {
         tolman_stats::standard_deviation(self.spread()?).ok()
     }
 
-    /// The mean of numbers.
+    /// Returns the mean of numbers.
     pub(super) fn mean(&self) -> Option<f64> {
         tolman_stats::mean(self.spread()?).ok()
     }
 
-    /// The median of numbers.
+    /// Returns the median of numbers.
     pub(super) fn median(&self) -> Option<f64> {
         tolman_stats::quantile(self.spread()?, 0.5).ok()
     }
 
-    /// The numbers whose spread says something of the value, which it does not of the least, the
-    /// greatest and the sum.
+    /// Returns the numbers whose spread says something of the value, which it does not of the
+    /// least, the greatest and the sum.
     fn spread(&self) -> Option<&[f64]> {
         match self {
             Self::Numbers {
@@ -207,8 +207,8 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// The 95 % interval of the value: exact binomial for a share, that of order statistics for a
-    /// median, BCa bootstrap otherwise. `None` where there are too few runs for one.
+    /// Returns the 95 % interval of the value: exact binomial for a share, that of order statistics
+    /// for a median, BCa bootstrap otherwise. `None` where there are too few runs for one.
     pub(super) fn interval(&self, seed: u64) -> Option<ConfidenceInterval> {
         let rng = &mut ChaCha8Rng::seed_from_u64(seed);
         match self {
@@ -240,9 +240,9 @@ impl<'a> Sample<'a> {
         .ok()
     }
 
-    /// The interval of the difference between the value and that of a sample of `others` runs which
-    /// is known by its value alone: `observed` less how far two such samples of this one's runs
-    /// differ by chance. `None` where there is nothing to draw from.
+    /// Returns the interval of the difference between the value and that of a sample of `others`
+    /// runs which is known by its value alone: `observed` less how far two such samples of this
+    /// one's runs differ by chance. `None` where there is nothing to draw from.
     pub(super) fn stand_in(
         &self,
         observed: f64,
@@ -259,7 +259,7 @@ impl<'a> Sample<'a> {
         Some(ConfidenceInterval::new(observed - high, observed - low))
     }
 
-    /// The value of so many of its runs, drawn with replacement.
+    /// Returns the value of `count` of its runs, drawn with replacement.
     fn redrawn(&self, count: usize, rng: &mut ChaCha8Rng) -> f64 {
         let drawn = match self {
             Self::Flags { flags, whole } => Self::Flags {
@@ -286,7 +286,7 @@ impl<'a> Sample<'a> {
         drawn.value().0
     }
 
-    /// One number for each run, for rank tests.
+    /// Returns one number for each run, for rank tests.
     pub(super) fn numbers(&self) -> Vec<f64> {
         match self {
             Self::Flags { flags, .. } => zeros_and_ones(flags),
@@ -303,18 +303,18 @@ impl<'a> Sample<'a> {
     }
 }
 
-/// So many of these, drawn with replacement.
+/// Returns `count` of these, drawn with replacement.
 fn drawn<T: Copy>(all: &[T], count: usize, rng: &mut ChaCha8Rng) -> Vec<T> {
     let one = |_| all[rng.random_range(0..all.len() as u32) as usize];
     (0..count).map(one).collect()
 }
 
-/// Whether a run says both how low its curve ends and what the margin is a share of.
+/// Returns whether a run says both how low its curve ends and what the margin is a share of.
 fn is_measured(Settling { level, scale, .. }: &Settling, run: &Run) -> bool {
     run.fields.number(level).is_some() && run.fields.number(scale).is_some()
 }
 
-/// What the mean curves of a table are to stay below; `None` if no run says so.
+/// Returns what the mean curves of a table are to stay below; `None` if no run says so.
 fn limit(settling: &Settling, table: &[Vec<&Run>]) -> Option<f64> {
     let mean_of = |runs: &[&Run], field: &str| {
         let measured = runs.iter().filter(|run| is_measured(settling, run));
@@ -345,7 +345,7 @@ fn mean(numbers: &[f64]) -> f64 {
     numbers.iter().sum::<f64>() / numbers.len() as f64
 }
 
-/// The ratio of the standard deviations; none where there is nothing to divide by.
+/// Returns the ratio of the standard deviations, or `None` where there is nothing to divide by.
 fn ratio_of_spreads(pairs: &[(f64, f64)]) -> Option<f64> {
     let (over, under): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
     let over = tolman_stats::standard_deviation(&over).ok()?;

@@ -5,8 +5,8 @@ use rand_chacha::ChaCha8Rng;
 
 use super::hash::fnv64;
 
-/// The seed of run `run` of a table: word `run` of the table's own `ChaCha8` stream under the
-/// master seed.
+/// Returns the seed of run `run` of a table: word `run` of the table's own `ChaCha8` stream under
+/// the master seed.
 ///
 /// The row has no part in it, so all rows of a table meet the same starts. The seed has 53 bits and
 /// survives JSON readers that know only doubles.

@@ -1,7 +1,7 @@
 //! Commands as a shell reads them.
 
-/// An argument as a shell takes it: in single quotes if it holds anything unusual, in `$'…'` if it
-/// holds what a terminal would obey.
+/// Returns an argument as a shell takes it: in single quotes if it holds anything unusual, in
+/// `$'…'` if it holds what a terminal would obey.
 #[must_use]
 pub fn quoted(argument: &str) -> String {
     let usual = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+@%".contains(c);

@@ -44,7 +44,7 @@ pub struct SummaryRow {
     /// Where the paper has a value: `matches`, `better`, `differs` or `cannot tell`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<&'static str>,
-    /// Why nobody can tell.
+    /// Reason why nobody can tell.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<String>,
     /// Half the width of the 95 % interval of the difference: what could have been seen.
@@ -120,7 +120,7 @@ impl Summary {
         }
     }
 
-    /// The text of `summary.json`, with a line end.
+    /// Returns the text of `summary.json`, with a line end.
     ///
     /// # Errors
     /// [`Error::Summary`].

@@ -65,7 +65,7 @@ impl Table {
         }
     }
 
-    /// Whether it is shown: a row has runs, or would have if its files were here.
+    /// Returns whether it is shown: a row has runs, or would have if its files were here.
     #[must_use]
     pub fn is_shown(&self) -> bool {
         self.is_filled() || self.rows.iter().any(|row| row.missing.is_some())
@@ -83,13 +83,13 @@ impl Table {
         told
     }
 
-    /// Whether every row with runs has a number of its own.
+    /// Returns whether every row with runs has a number of its own.
     pub(super) fn is_fixed(&self) -> bool {
         let mut rows = self.rows.iter().filter(|row| row.runs != Some(0));
         self.is_filled() && rows.all(|row| row.is_fixed)
     }
 
-    /// Whether a row has runs.
+    /// Returns whether a row has runs.
     #[must_use]
     pub fn is_filled(&self) -> bool {
         self.rows.iter().any(|row| row.runs != Some(0))
@@ -206,7 +206,7 @@ pub enum Correction {
 }
 
 impl Correction {
-    /// The name of its author.
+    /// Returns the name of its author.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Bonferroni => "Bonferroni",
@@ -253,7 +253,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// A row of which the paper says nothing.
+    /// Returns a row of which the paper says nothing.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -267,7 +267,7 @@ impl Row {
         }
     }
 
-    /// A row of the runs of all other rows. A run without a metric's field is left out.
+    /// Returns a row of the runs of all other rows. A run without a metric's field is left out.
     pub fn of_all(name: impl Into<String>) -> Self {
         Self {
             is_pooled: true,
@@ -353,13 +353,13 @@ impl Row {
         self.runs(things)
     }
 
-    /// How many runs it has where the caller asks for `runs` of each row.
+    /// Returns how many runs it has where the caller asks for `runs` of each row.
     #[must_use]
     pub fn runs_of(&self, runs: u32) -> u32 {
         self.runs.unwrap_or(runs)
     }
 
-    /// The paper's value of a metric.
+    /// Returns the paper's value of a metric.
     pub fn paper_value(&self, metric: &str) -> Option<&PaperValue> {
         self.paper.iter().find(|value| value.metric == metric)
     }
@@ -374,7 +374,7 @@ pub struct PaperValue {
     pub value: f64,
     /// The standard deviation, where it is given.
     pub sd: Option<f64>,
-    /// Why ours is not judged by it; `None` if it is.
+    /// Reason why ours is not judged by it; `None` if it is.
     pub aside: Option<String>,
 }
 
@@ -446,41 +446,42 @@ impl Metric {
         usize::from(self.decimals.unwrap_or(2))
     }
 
-    /// The mean of the numeric field that bears the metric's name.
+    /// Returns the mean of the numeric field that bears the metric's name.
     pub fn mean(name: impl Into<String>) -> Self {
         let field = name.into();
         Self::new(field.clone(), Statistic::Mean(field))
     }
 
-    /// The median of a numeric field, by definition R-7; its interval is that of order statistics.
+    /// Returns the median of a numeric field, by definition R-7; its interval is that of order
+    /// statistics.
     pub fn median(name: impl Into<String>, field: impl Into<String>) -> Self {
         Self::new(name, Statistic::Median(field.into()))
     }
 
-    /// The number of a numeric field below which a share of the runs lies, 0 … 1, by definition
-    ///
+    /// Returns the number of a numeric field below which a share of the runs lies, 0 … 1, by
+    /// definition R-7.
     pub fn quantile(name: impl Into<String>, field: impl Into<String>, share: f64) -> Self {
         let field = field.into();
         Self::new(name, Statistic::Quantile { field, share })
     }
 
-    /// The least of a numeric field.
+    /// Returns the least of a numeric field.
     pub fn least(name: impl Into<String>, field: impl Into<String>) -> Self {
         Self::new(name, Statistic::Least(field.into()))
     }
 
-    /// The greatest of a numeric field.
+    /// Returns the greatest of a numeric field.
     pub fn greatest(name: impl Into<String>, field: impl Into<String>) -> Self {
         Self::new(name, Statistic::Greatest(field.into()))
     }
 
-    /// The sum over all runs of the numeric field that bears the metric's name.
+    /// Returns the sum over all runs of the numeric field that bears the metric's name.
     pub fn total(name: impl Into<String>) -> Self {
         let field = name.into();
         Self::new(field.clone(), Statistic::Total(field)).decimals(0)
     }
 
-    /// The percentage of runs in which the flag named `field` is set.
+    /// Returns the percentage of runs in which the flag named `field` is set.
     pub fn percent(name: impl Into<String>, field: impl Into<String>) -> Self {
         let metric = Self::new(name, Statistic::Percent(field.into()));
         metric.unit("%").decimals(1)
@@ -503,7 +504,7 @@ impl Metric {
         metric.unit(format!("of {whole}")).decimals(1)
     }
 
-    /// The sum of one numeric field over all runs divided by the sum of another.
+    /// Returns the sum of one numeric field over all runs divided by the sum of another.
     pub fn ratio(
         name: impl Into<String>,
         over: impl Into<String>,
@@ -513,7 +514,8 @@ impl Metric {
         Self::new(name, Statistic::Ratio { over, under })
     }
 
-    /// The standard deviation of one numeric field over all runs divided by that of another.
+    /// Returns the standard deviation of one numeric field over all runs divided by that of
+    /// another.
     pub fn ratio_of_spreads(
         name: impl Into<String>,
         over: impl Into<String>,
@@ -523,8 +525,8 @@ impl Metric {
         Self::new(name, Statistic::RatioOfSpreads { over, under })
     }
 
-    /// The sum of a numeric field over all runs divided by its sum over the runs of the row named
-    /// `of` that bear the same index: how many times that row's value.
+    /// Returns the sum of a numeric field over all runs divided by its sum over the runs of the row
+    /// named `of` that bear the same index: how many times that row's value.
     pub fn multiple(
         name: impl Into<String>,
         field: impl Into<String>,
@@ -534,9 +536,9 @@ impl Metric {
         Self::new(name, Statistic::Multiple { field, of })
     }
 
-    /// How much better forecasts are than always telling how often the flag named `outcome` is set
-    /// (Brier 1950): 1 − the mean of the field named `error`, which is the squared error of each
-    /// forecast, over the variance of the flag. 1 is never wrong, 0 as good as that, below it
+    /// Returns how much better forecasts are than always telling how often the flag named `outcome`
+    /// is set (Brier 1950): 1 − the mean of the field named `error`, which is the squared error of
+    /// each forecast, over the variance of the flag. 1 is never wrong, 0 as good as that, below it
     /// worse. No value of a row in which the flag is always the same.
     pub fn skill(
         name: impl Into<String>,

@@ -130,7 +130,7 @@ fn on_terminal() -> bool {
     std::io::stderr().is_terminal()
 }
 
-/// A duration for readers: `0.4 s`, `41 s`, `2 min 5 s`.
+/// Returns a duration for readers: `0.4 s`, `41 s`, `2 min 5 s`.
 pub(crate) fn duration(duration: Duration) -> String {
     let seconds = duration.as_secs_f64();
     if seconds < 9.95 {

@@ -15,9 +15,15 @@ pub enum Ink {
     Coloured,
 }
 
-/// All tables of an analysis, each with a line end. Behind a value of ours stands `=` where it
-/// matches the paper's, `!` where it differs, `+` where it is better and `?` where nobody can tell,
-/// and how much of a difference could have been seen. The last line counts them.
+/// Columns of a terminal that no line of a table passes.
+const WIDTH: usize = 80;
+
+/// Columns that the names of rows take at most; a longer one stands on a line of its own.
+const NAMES: usize = 28;
+
+/// Returns all tables of an analysis, each with a line end, in lines of 80 columns. Behind a value
+/// of ours stands the verdict in words, with how much of a difference could have been seen. The
+/// last line counts the verdicts.
 pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
     let mut text = String::new();
     for table in &analysis.tables {
@@ -28,13 +34,36 @@ pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
     }
     let tally = analysis.tally();
     if tally.all() > 0 {
+        if text.contains('±') {
+            text += SEEN;
+        }
         // Writing to a string cannot fail.
         let _ = writeln!(text, "\nOf the paper's values {tally}.");
     }
     text
 }
 
-/// A value in the form of papers: `73.16 ± 70.23`, `68.0`.
+/// What stands behind a verdict, in words.
+const SEEN: &str =
+    "\nBehind a verdict: a smaller difference from the paper could not have been seen.\n";
+
+/// Returns the words of a text in lines of at most `width` columns; a longer word stands alone.
+#[must_use]
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                *line += " ";
+                *line += word;
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// Returns a value in the form of papers: `73.16 ± 70.23`, `68.0`.
 pub(crate) fn value_with_spread(metric: &Metric, value: f64, sd: Option<f64>) -> String {
     let decimals = metric.places();
     match sd {
@@ -57,7 +86,7 @@ pub(crate) fn ours(metric: &Metric, measured: &Measured) -> String {
     }
 }
 
-/// A metric's title and unit.
+/// Returns a metric's title and unit.
 pub(crate) fn heading(metric: &Metric) -> String {
     match metric.unit.as_str() {
         "" => metric.title.clone(),
@@ -70,114 +99,170 @@ pub(crate) fn heading(metric: &Metric) -> String {
 fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
     let table = &analysis.table;
     let mut text = String::new();
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
-        "{}",
-        painted(&format!("Table {}  {}", table.name, table.title), "1", ink)
-    );
-    let names = table
-        .rows
-        .iter()
-        .map(|row| row.name.chars().count())
-        .max()
-        .unwrap_or(0);
+    for line in wrapped(&format!("Table {}: {}", table.name, table.title), WIDTH) {
+        text += &painted(&line, "1", ink);
+        text.push('\n');
+    }
+    let lengths = table.rows.iter().map(|row| row.name.chars().count());
+    let names = lengths.filter(|&length| length <= NAMES).max().unwrap_or(0);
     let columns: Vec<Column<'_>> = analysis.metrics.iter().map(Column::new).collect();
-
-    let mut heads = " ".repeat(names);
-    let mut subheads = heads.clone();
-    for column in &columns {
-        let width = column.paper.map_or(0, |paper| paper + 2) + column.ours + 2 + column.seen;
-        let _ = write!(heads, "   {:<width$}", column.heading);
-        let _ = match column.paper {
-            Some(paper) => write!(subheads, "   {:>paper$}  ", "paper"),
-            None => write!(subheads, "   "),
-        };
-        let (ours, seen) = (column.ours, column.seen);
-        let _ = write!(subheads, "{:>ours$}  {:seen$}", "ours", "");
+    let mut left = &columns[..];
+    while !left.is_empty() {
+        let mut room = WIDTH - names;
+        let fits = left.iter().take_while(|column| {
+            let fits = GAP.len() + column.width() <= room;
+            room = room.saturating_sub(GAP.len() + column.width());
+            fits
+        });
+        let (block, rest) = left.split_at(fits.count().max(1));
+        text += &block_as_text(analysis, names, block, ink);
+        left = rest;
     }
-    let _ = writeln!(text, "{}\n{}", heads.trim_end(), subheads.trim_end());
-
-    for row in &table.rows {
-        let mut line = format!("{:<names$}", row.name);
-        for column in &columns {
-            let measured = column
-                .metric
-                .rows
-                .iter()
-                .find(|measured| measured.row == row.name);
-            let (paper, ours) =
-                measured.map_or_else(Default::default, |m| cells(&column.metric.metric, m));
-            let _ = match column.paper {
-                Some(width) => write!(line, "   {paper:>width$}  "),
-                None => write!(line, "   "),
-            };
-            let _ = write!(line, "{ours:>0$} ", column.ours);
-            line += &mark(measured, ink);
-            let seen = measured.and_then(|measured| seen(&column.metric.metric, measured));
-            let _ = write!(line, "{:<1$}", seen.unwrap_or_default(), column.seen);
-        }
-        let _ = writeln!(text, "{}", line.trim_end());
-    }
-    for missing in table.missing() {
-        let _ = writeln!(text, "{missing}");
-    }
-    for pair in &analysis.pairs {
+    let missing = table.missing().into_iter().map(str::to_owned);
+    let pairs = analysis.pairs.iter().map(|pair| {
         let paper = pair
             .paper
             .map_or_else(String::new, |p| format!(", paper {p}"));
-        let _ = writeln!(text, "p = {} for {}{paper}", pair.contrast.p, pair.name());
+        format!("p = {} for {}{paper}", pair.contrast.p, pair.name())
+    });
+    for line in missing.chain(pairs).flat_map(|line| wrapped(&line, WIDTH)) {
+        text += &line;
+        text.push('\n');
     }
     text
+}
+
+/// What stands between two columns.
+const GAP: &str = "   ";
+
+/// The rows of a table below as many metrics as fit beside each other.
+fn block_as_text(
+    analysis: &TableAnalysis,
+    names: usize,
+    columns: &[Column<'_>],
+    ink: Ink,
+) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    let heads = columns.iter().map(|column| column.heading.len());
+    let heads = heads.max().unwrap_or(0);
+    for at in 0..heads {
+        let mut line = " ".repeat(names);
+        for column in columns {
+            // The last line of every heading stands above its values.
+            let place = (at + column.heading.len()).checked_sub(heads);
+            let head = place.map_or("", |place| &column.heading[place]);
+            line += &format!("{GAP}{head:<0$}", column.width());
+        }
+        lines.push(line);
+    }
+    let mut line = " ".repeat(names);
+    for column in columns {
+        line += &column.line("paper", "ours", "", "");
+    }
+    lines.push(line);
+    for row in &analysis.table.rows {
+        let mut line = format!("{:<names$}", row.name);
+        if row.name.chars().count() > names {
+            lines.extend(wrapped(&row.name, WIDTH));
+            line = " ".repeat(names);
+        }
+        for column in columns {
+            let mut rows = column.metric.rows.iter();
+            let measured = rows.find(|measured| measured.row == row.name);
+            let (paper, ours) =
+                measured.map_or_else(Default::default, |m| cells(&column.metric.metric, m));
+            let verdict = verdict(&column.metric.metric, measured);
+            let painted = told(&verdict, measured, ink);
+            line += &column.line(&paper, &ours, &verdict, &painted);
+        }
+        lines.push(line);
+    }
+    let lines = lines.iter().map(|line| line.trim_end());
+    lines.flat_map(|line| [line, "\n"]).collect()
 }
 
 /// The columns of one metric.
 struct Column<'a> {
     metric: &'a MetricAnalysis,
-    heading: String,
+    /// The metric's title in lines.
+    heading: Vec<String>,
     /// The width of the paper's values, if there are any.
     paper: Option<usize>,
     ours: usize,
-    /// The width of how much of a difference could have been seen.
-    seen: usize,
+    /// The width of the verdicts; 0 where there are none.
+    verdict: usize,
 }
 
 impl<'a> Column<'a> {
     fn new(metric: &'a MetricAnalysis) -> Self {
-        let heading = heading(&metric.metric);
-        let cells: Vec<_> = metric
-            .rows
-            .iter()
-            .map(|row| cells(&metric.metric, row))
-            .collect();
-        let widest = |texts: Vec<&String>| texts.iter().map(|text| text.chars().count()).max();
-        let of_paper = metric.rows.iter().any(|row| row.paper.is_some());
-        let paper = of_paper.then(|| {
-            let widest = widest(cells.iter().map(|cell| &cell.0).collect());
-            widest.unwrap_or(0).max("paper".len())
-        });
-        let ours = widest(cells.iter().map(|cell| &cell.1).collect())
-            .unwrap_or(0)
-            .max(4);
-        let seen = metric
-            .rows
-            .iter()
-            .filter_map(|row| seen(&metric.metric, row));
-        let seen = seen.map(|text| text.chars().count()).max().unwrap_or(0);
-        // A long heading widens the last column.
-        let before = paper.map_or(0, |paper| paper + 2) + seen;
-        let ours = ours.max(heading.chars().count().saturating_sub(before + 2));
-        Self {
+        let width = |text: String| text.chars().count();
+        let rows = || metric.rows.iter();
+        let cells = || rows().map(|row| cells(&metric.metric, row));
+        let of_paper = rows().any(|row| row.paper.is_some());
+        let paper = cells().map(|cell| width(cell.0)).max().unwrap_or(0);
+        let ours = cells().map(|cell| width(cell.1)).max().unwrap_or(0);
+        let verdicts = rows().map(|row| width(verdict(&metric.metric, Some(row))));
+        let mut column = Self {
             metric,
-            heading,
-            paper,
-            ours,
-            seen,
+            heading: Vec::new(),
+            paper: of_paper.then_some(paper.max("paper".len())),
+            ours: ours.max("ours".len()),
+            verdict: verdicts.max().unwrap_or(0),
+        };
+        column.heading = wrapped(&heading(&metric.metric), column.width().max(HEADING));
+        // A long heading widens its values.
+        let head = column.heading.iter().map(|line| line.chars().count()).max();
+        column.ours += head.unwrap_or(0).saturating_sub(column.width());
+        column
+    }
+
+    fn width(&self) -> usize {
+        let apart = |width: usize| if width > 0 { width + 1 } else { 0 };
+        self.paper.map_or(0, |paper| paper + 2) + self.ours + apart(self.verdict)
+    }
+
+    /// A line of it, with the gap before it: the verdict is as wide as `verdict` and looks as
+    /// `painted` does.
+    fn line(&self, paper: &str, ours: &str, verdict: &str, painted: &str) -> String {
+        let paper = match self.paper {
+            Some(width) => format!("{paper:>width$}  "),
+            None => String::new(),
+        };
+        let ours = format!("{ours:>0$}", self.ours);
+        if self.verdict == 0 {
+            return format!("{GAP}{paper}{ours}");
         }
+        let rest = " ".repeat(self.verdict.saturating_sub(verdict.chars().count()));
+        format!("{GAP}{paper}{ours} {painted}{rest}")
     }
 }
 
-/// How much of a difference could have been seen, as ` ± 12.3`; `None` where nobody can say.
+/// Columns that a heading may take before it goes on in the next line.
+const HEADING: usize = 14;
+
+/// The verdict in words and how much of a difference could have been seen; empty without one.
+fn verdict(metric: &Metric, measured: Option<&Measured>) -> String {
+    let judged = measured.and_then(|measured| Some((measured, measured.verdict.as_ref()?)));
+    judged.map_or_else(String::new, |(measured, verdict)| {
+        let seen = seen(metric, measured).unwrap_or_default();
+        format!("{}{seen}", verdict.finding.word())
+    })
+}
+
+/// The text of a verdict in its colour.
+fn told(text: &str, measured: Option<&Measured>, ink: Ink) -> String {
+    let verdict = measured.and_then(|measured| measured.verdict.as_ref());
+    let colour = match verdict.map(|verdict| &verdict.finding) {
+        None => return text.to_owned(),
+        Some(Finding::Matches | Finding::Better) => "32",
+        Some(Finding::Differs) => "31",
+        Some(Finding::CannotTell(_)) => "33",
+    };
+    painted(text, colour, ink)
+}
+
+/// Returns how much of a difference could have been seen, as ` ± 12.3`; `None` where nobody can
+/// say.
 pub(crate) fn seen(metric: &Metric, measured: &Measured) -> Option<String> {
     let resolution = measured.verdict.as_ref()?.resolution()?;
     let decimals = metric.places();
@@ -193,18 +278,6 @@ fn cells(metric: &Metric, measured: &Measured) -> (String, String) {
         ),
         ours(metric, measured),
     )
-}
-
-fn mark(measured: Option<&Measured>, ink: Ink) -> String {
-    let verdict = measured.and_then(|measured| measured.verdict.as_ref());
-    let (mark, colour) = match verdict.map(|verdict| &verdict.finding) {
-        None => return " ".into(),
-        Some(Finding::Matches) => ("=", "32"),
-        Some(Finding::Better) => ("+", "32"),
-        Some(Finding::Differs) => ("!", "31"),
-        Some(Finding::CannotTell(_)) => ("?", "33"),
-    };
-    painted(mark, colour, ink)
 }
 
 fn painted(text: &str, code: &str, ink: Ink) -> String {

@@ -37,7 +37,7 @@ pub enum Finding {
     CannotTell(Doubt),
 }
 
-/// Why a value cannot be judged.
+/// Reason why a value cannot be judged.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Doubt {
@@ -178,7 +178,7 @@ impl Case<'_> {
         }
     }
 
-    /// The values within the tolerance that a run can have.
+    /// Returns the values within the tolerance that a run can have.
     fn accepted(&self, tolerance: Tolerance) -> ConfidenceInterval {
         let paper = self.paper.value;
         let (low, high) = match tolerance.within {
@@ -190,7 +190,7 @@ impl Case<'_> {
         ConfidenceInterval::new(low.min(high).max(least), high.max(low).min(most))
     }
 
-    /// The least and the greatest value that the metric can have.
+    /// Returns the least and the greatest value that the metric can have.
     fn range(&self) -> (f64, f64) {
         let fields = self.metric.statistic.fields();
         let column = match fields[..] {
@@ -205,7 +205,7 @@ impl Case<'_> {
         }
     }
 
-    /// The interval of ours minus the paper's, as far as both can be.
+    /// Returns the interval of ours minus the paper's, as far as both can be.
     fn difference(&self) -> Result<ConfidenceInterval, Doubt> {
         let paper = self.paper.value;
         let interval = self.unbounded_difference()?;
@@ -262,7 +262,7 @@ fn around(middle: f64, half: f64) -> ConfidenceInterval {
     ConfidenceInterval::new(middle - half, middle + half)
 }
 
-/// The interval of the difference of two shares of `whole`.
+/// Returns the interval of the difference of two shares of `whole`.
 fn rates(
     flags: &[bool],
     whole: f64,
@@ -278,7 +278,7 @@ fn rates(
         .map_err(|_| Doubt::NoInterval)
 }
 
-/// How far a number that is printed with so many decimals may lie from what was rounded.
+/// Returns the rounding error of `printed`: half a unit of its last printed digit.
 fn half_a_digit(printed: f64) -> f64 {
     let text = printed.to_string();
     let decimals = text.split_once('.').map_or("", |(_, decimals)| decimals);
@@ -302,7 +302,7 @@ mod tests {
     }
 
     const POINTS: Tolerance = Tolerance::absolute(15.0, "darts scatter");
-    const THIRD: Tolerance = Tolerance::relative(0.35, "lines are drawn anew");
+    const THIRD: Tolerance = Tolerance::relative(0.35, "lines are drawn again");
 
     fn judge(metric: Metric, row: Row, sample: &Sample<'_>) -> Verdict {
         let table = Table::of::<Throw>("1", "Throws").metric(metric).row(row);

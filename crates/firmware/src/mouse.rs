@@ -73,7 +73,7 @@ pub enum Command {
 }
 
 impl<'a> Mouse<'a> {
-    /// A mouse in the start of a maze that it has never seen.
+    /// Returns a mouse in the start of a maze that it has never seen.
     ///
     /// # Errors
     /// Never, as the maze is as large as the map.

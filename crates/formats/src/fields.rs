@@ -7,7 +7,7 @@ use crate::log::LogTrouble;
 /// What is wrong with a line.
 pub(crate) type Wrong = (LogTrouble, String);
 
-/// The fields of a line, taken one after the other.
+/// The fields of a line, taken one by one.
 pub(crate) struct Fields<'a> {
     words: SplitAsciiWhitespace<'a>,
 }
@@ -19,26 +19,26 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// The next field, which the message names `name`.
+    /// Returns the next field, which the message names `name`.
     pub(crate) fn word(&mut self, name: &str) -> Result<&'a str, Wrong> {
         let missing = || (LogTrouble::Cut, format!("{name} is missing"));
         self.words.next().ok_or_else(missing)
     }
 
-    /// The next field as a finite number.
+    /// Returns the next field as a finite number.
     pub(crate) fn number(&mut self, name: &str) -> Result<f64, Wrong> {
         let word = self.word(name)?;
         let number = word.parse::<f64>().ok().filter(|number| number.is_finite());
         number.ok_or_else(|| no_number(name, word))
     }
 
-    /// The next field as a count.
+    /// Returns the next field as a count.
     pub(crate) fn count(&mut self, name: &str) -> Result<u32, Wrong> {
         let word = self.word(name)?;
         word.parse().map_err(|_| no_number(name, word))
     }
 
-    /// The next three fields as a pose.
+    /// Returns the next three fields as a pose.
     pub(crate) fn pose(&mut self, name: &str) -> Result<Pose, Wrong> {
         let [x, y, heading] = [self.number(name)?, self.number(name)?, self.number(name)?];
         // Farther off, metres are no longer told apart, and neither are turns.
@@ -51,7 +51,8 @@ impl<'a> Fields<'a> {
         Ok(Pose::new(Point::new(x, y), Heading::from_radians(heading)))
     }
 
-    /// The next `count` fields as ranges, m: `None` for one that is no range, such as `nan`.
+    /// Returns the next `count` fields as ranges, m: `None` for one that is no range, such as
+    /// `nan`.
     pub(crate) fn ranges(&mut self, count: u32) -> Result<Vec<Option<f64>>, Wrong> {
         let mut ranges = Vec::new();
         for index in 0..count {
@@ -67,13 +68,13 @@ impl<'a> Fields<'a> {
         (0..count).try_for_each(|_| self.word(name).map(|_| ()))
     }
 
-    /// The fields that are left.
+    /// Returns the fields that are left.
     pub(crate) fn left(&self) -> usize {
         self.words.clone().count()
     }
 }
 
-/// Larger coordinates are none, m.
+/// Largest coordinate that is accepted, m.
 const FARTHEST: f64 = 1e7;
 
 fn no_number(name: &str, word: &str) -> Wrong {

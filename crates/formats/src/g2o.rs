@@ -74,7 +74,7 @@ pub struct G2oEdge {
     pub line: usize,
 }
 
-/// Why a file is no pose graph at all.
+/// Reason why a file is no pose graph at all.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum G2oError {
@@ -212,7 +212,7 @@ impl Reading {
         })
     }
 
-    /// The edges whose poses are there.
+    /// Returns the edges whose poses are there.
     fn sound_edges(&mut self) -> Vec<G2oEdge> {
         let mut sound = Vec::with_capacity(self.edges.len());
         for edge in core::mem::take(&mut self.edges) {
@@ -299,7 +299,10 @@ EDGE_SE2 2 0 -2.5 0 0 10 0 0 10 0 40
                 "EDGE_SE2 has 12 numbers; expected 11",
             ),
             ("EDGE_SE2 1 1 1 0 0 1 0 0 1 0 1", "joins pose 1 with itself"),
-            ("EDGE_SE2 0 -2 1 0 0 1 0 0 1 0 1", "`-2` is no id of a pose"),
+            (
+                "EDGE_SE2 0 -2 1 0 0 1 0 0 1 0 1",
+                "`-2` is not the id of a pose",
+            ),
             (
                 "VERTEX_SE2 1 0 0 0",
                 "pose 1 stands for the second time, first in line 3",

@@ -32,6 +32,7 @@ mod carmen;
 mod fields;
 mod g2o;
 mod graph;
+pub mod input;
 mod log;
 mod quaternion;
 mod ros_map;

@@ -5,12 +5,12 @@ mod grey_map;
 mod header;
 mod writer;
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 use tolman_geom::Point;
+
+use crate::input::{self, SourceError};
 
 pub use grey_map::{GreyMap, GreyMapError};
 pub use header::{RosMapHeader, RosMapHeaderError};
@@ -41,7 +41,7 @@ pub enum MapCell {
     Unknown,
 }
 
-/// Why an occupancy grid cannot be read.
+/// Reason why an occupancy grid cannot be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RosMapError {
@@ -50,8 +50,8 @@ pub enum RosMapError {
     File {
         /// Which file.
         path: PathBuf,
-        /// What the system says.
-        source: io::Error,
+        /// Why.
+        source: SourceError,
     },
     /// The YAML file is not UTF-8 text.
     #[error("{}: byte {byte} is not UTF-8 text; give the .yaml, not its picture", path.display())]
@@ -118,7 +118,7 @@ impl RosMap {
 }
 
 fn load(path: &Path) -> Result<Vec<u8>, RosMapError> {
-    fs::read(path).map_err(|source| RosMapError::File {
+    input::bytes(path).map_err(|source| RosMapError::File {
         path: path.to_owned(),
         source,
     })

@@ -24,7 +24,7 @@ use crate::log::{LogEntry, LogError, LogOdometry, LogReport, LogScan, LogTrouble
 use messages::{LaserScan, Odometry, Transforms, decode};
 use mounts::Mounts;
 
-/// A longer record is none of a bag of scans, bytes.
+/// Longest record of a bag of scans that is accepted, bytes.
 const LONGEST: usize = 1 << 26;
 
 const SCAN: &str = "sensor_msgs/msg/LaserScan";
@@ -162,7 +162,7 @@ impl Reader {
         }
     }
 
-    /// Whether a topic is the one that is read of its kind: the first that was met.
+    /// Returns whether a topic is the one that is read of its kind: the first that was met.
     fn is_first(&mut self, kind: usize, topic: &str) -> bool {
         self.topics[kind].get_or_insert_with(|| topic.to_owned()) == topic
     }
@@ -170,7 +170,7 @@ impl Reader {
     fn moved(&mut self, number: u64, odometry: Odometry) {
         let pose = odometry.pose();
         if !pose.is_finite() {
-            let what = "a pose that is no number";
+            let what = "a pose that is not a number";
             self.report.met_trouble(LogTrouble::NoNumber, number, what);
             return;
         }
@@ -204,7 +204,7 @@ impl Reader {
         }
     }
 
-    /// A scan with where the odometry had the robot then.
+    /// Returns a scan with where the odometry had the robot then.
     fn placed(&mut self, placeless: PlacelessScan, way: &Trajectory) -> Option<LogScan> {
         let PlacelessScan {
             number,
@@ -225,7 +225,7 @@ impl Reader {
             Pose::IDENTITY
         });
         let Some((scan, bad_ranges)) = scan.scan() else {
-            let what = format!("{topic}: angles that are no numbers");
+            let what = format!("{topic}: angles that are not numbers");
             self.report.met_trouble(LogTrouble::NoNumber, number, what);
             return None;
         };

@@ -102,7 +102,7 @@ impl UtiasRobot {
     }
 }
 
-/// A barcode, and who wears it.
+/// Returns a barcode, and who wears it.
 fn barcode(fields: &mut Fields<'_>) -> Result<(u32, u32), Wrong> {
     let subject = fields.count("the subject")?;
     Ok((fields.count("the barcode")?, subject))
@@ -117,7 +117,7 @@ fn velocity(fields: &mut Fields<'_>) -> Result<LogVelocity, Wrong> {
     })
 }
 
-/// A sighting whose subject is still the barcode.
+/// Returns a sighting whose subject is still the barcode.
 fn sighting(fields: &mut Fields<'_>) -> Result<BarcodeSighting, Wrong> {
     Ok(BarcodeSighting {
         time: fields.number("the time")?,

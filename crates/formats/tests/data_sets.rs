@@ -9,7 +9,7 @@ use tolman_formats::{
     BarcodeSighting, LogEntry, LogReader, LogTrouble, LogVelocity, SonarTable, TucDrive, UtiasRobot,
 };
 
-/// A folder of its own, with these files.
+/// Returns a folder of its own, with these files.
 fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(&folder).unwrap();

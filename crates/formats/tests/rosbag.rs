@@ -47,7 +47,7 @@ fn scan(sec: i32, ranges: &[f32]) -> LaserScan {
     }
 }
 
-/// A pose on the floor, turned to the left by a quarter, and what comes after it.
+/// Returns a pose on the floor, turned to the left by a quarter, and what comes after it.
 fn odometry(sec: i32, x: f64) -> impl Serialize {
     let half = core::f64::consts::FRAC_1_SQRT_2;
     (

@@ -64,7 +64,7 @@ impl Heading {
         Self::from_radians(degrees.to_radians())
     }
 
-    /// The direction of a vector; east for the zero vector.
+    /// Returns the direction of a vector; east for the zero vector.
     ///
     /// ```
     /// use tolman_geom::{Heading, Vector};
@@ -76,19 +76,19 @@ impl Heading {
         Self::from_radians(libm::atan2(vector.y, vector.x))
     }
 
-    /// The angle in (−π, π].
+    /// Returns the angle in (−π, π].
     #[must_use]
     pub const fn radians(self) -> f64 {
         self.0
     }
 
-    /// The angle in (−180, 180].
+    /// Returns the angle in (−180, 180].
     #[must_use]
     pub fn degrees(self) -> f64 {
         self.0.to_degrees()
     }
 
-    /// The unit vector in this direction.
+    /// Returns the unit vector in this direction.
     #[must_use]
     pub fn unit(self) -> Vector {
         let (sin, cos) = libm::sincos(self.0);
@@ -111,7 +111,7 @@ impl Heading {
         )
     }
 
-    /// The signed smallest turn, in (−π, π] radians, that takes this heading to `target`.
+    /// Returns the signed smallest turn, in (−π, π] radians, that takes this heading to `target`.
     #[must_use]
     pub fn turn_to(self, target: Self) -> f64 {
         Self::from_radians(target.0 - self.0).0
@@ -123,13 +123,13 @@ impl Heading {
         Self::from_radians(self.0 + radians)
     }
 
-    /// The opposite direction.
+    /// Returns the opposite direction.
     #[must_use]
     pub fn reversed(self) -> Self {
         self.turned(PI)
     }
 
-    /// Whether the heading is a number at all.
+    /// Returns whether the heading is a number at all.
     #[must_use]
     pub const fn is_finite(self) -> bool {
         self.0.is_finite()

@@ -32,14 +32,14 @@ impl PointBox {
     /// Nothing is known.
     pub const UNBOUNDED: Self = Self::new(Interval::UNBOUNDED, Interval::UNBOUNDED);
 
-    /// A box from its sides.
+    /// Returns a box from its sides.
     #[must_use]
     #[inline]
     pub const fn new(x: Interval, y: Interval) -> Self {
         Self { x, y }
     }
 
-    /// One position.
+    /// Returns one position.
     ///
     /// # Errors
     /// If it is not finite.
@@ -47,7 +47,7 @@ impl PointBox {
         Ok(Self::new(Interval::of(point.x)?, Interval::of(point.y)?))
     }
 
-    /// The square of all positions within `margin` of `middle` along each axis.
+    /// Returns the square of all positions within `margin` of `middle` along each axis.
     ///
     /// # Errors
     /// If `margin` is negative or something is no number.
@@ -58,46 +58,46 @@ impl PointBox {
         ))
     }
 
-    /// A position in the middle, always inside.
+    /// Returns a position in the middle, always inside.
     #[must_use]
     pub fn middle(self) -> Point {
         Point::new(self.x.middle(), self.y.middle())
     }
 
-    /// The longer side, m.
+    /// Returns the longer side, m.
     #[must_use]
     #[inline]
     pub fn width(self) -> f64 {
         self.x.width().max(self.y.width())
     }
 
-    /// Whether all four bounds are there.
+    /// Returns whether all four bounds are there.
     #[must_use]
     pub const fn is_bounded(self) -> bool {
         self.x.is_bounded() && self.y.is_bounded()
     }
 
-    /// Whether a position lies inside; never one with NaN.
+    /// Returns whether a position lies inside; never one with NaN.
     #[must_use]
     #[inline]
     pub fn contains(self, point: Point) -> bool {
         self.x.contains(point.x) && self.y.contains(point.y)
     }
 
-    /// Whether all of `other` lies inside.
+    /// Returns whether all of `other` lies inside.
     #[must_use]
     pub fn encloses(self, other: Self) -> bool {
         self.x.encloses(other.x) && self.y.encloses(other.y)
     }
 
-    /// Whether the two have a position in common.
+    /// Returns whether the two have a position in common.
     #[must_use]
     #[inline]
     pub fn meets(self, other: Self) -> bool {
         self.x.meets(other.x) && self.y.meets(other.y)
     }
 
-    /// What both allow; none if they contradict each other.
+    /// Returns what both allow, or `None` if they contradict each other.
     #[must_use]
     #[inline]
     pub fn intersection(self, other: Self) -> Option<Self> {
@@ -107,14 +107,14 @@ impl PointBox {
         ))
     }
 
-    /// The least box that holds both.
+    /// Returns the least box that holds both.
     #[must_use]
     #[inline]
     pub fn hull(self, other: Self) -> Self {
         Self::new(self.x.hull(other.x), self.y.hull(other.y))
     }
 
-    /// All distances from the origin: how long the displacement may be, m.
+    /// Returns all distances from the origin: how long the displacement may be, m.
     #[must_use]
     pub fn norm(self) -> Interval {
         let square = self.x.squared() + self.y.squared();
@@ -122,14 +122,14 @@ impl PointBox {
         square.sqrt().unwrap_or(Interval::ZERO)
     }
 
-    /// All distances between a position of each, m.
+    /// Returns all distances between a position of each, m.
     #[must_use]
     pub fn distance(self, other: Self) -> Interval {
         (self - other).norm()
     }
 
-    /// All places of a position turned about the origin by any of `angles`, rad: the least box up
-    /// to rounding.
+    /// Returns all places of a position turned about the origin by any of `angles`, rad: the least
+    /// box up to rounding.
     ///
     /// For a given angle the turned position depends linearly on the position, so it is extreme in
     /// a corner; along the angles a corner follows a circle about the origin, whose extremes lie at
@@ -161,14 +161,14 @@ impl PointBox {
 /// Sine and cosine of both ends of an interval of angles.
 type Ends = [(Interval, Interval); 2];
 
-/// All values of a · cos θ − b · sin θ, for angles over less than half a circle.
+/// Returns all values of a · cos θ − b · sin θ, for angles over less than half a circle.
 fn shadow(a: Interval, b: Interval, ends: &Ends) -> Interval {
     let corners = [a.low(), a.high()].map(|a| [b.low(), b.high()].map(|b| trace(a, b, ends)));
     let [[first, second], [third, fourth]] = corners;
     first.hull(second).hull(third.hull(fourth))
 }
 
-/// The shadow of one corner.
+/// Returns the shadow of one corner.
 fn trace(a: f64, b: f64, ends: &Ends) -> Interval {
     let (a, b) = (Interval::point(a), Interval::point(b));
     let ends = ends.map(|(sin, cos)| {

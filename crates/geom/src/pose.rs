@@ -26,7 +26,7 @@ impl Pose {
     /// The origin, looking east.
     pub const IDENTITY: Self = Self::new(Point::new(0.0, 0.0), Heading::EAST);
 
-    /// A pose from its parts.
+    /// Returns a pose from its parts.
     #[must_use]
     pub const fn new(position: Point, heading: Heading) -> Self {
         Self { position, heading }
@@ -51,27 +51,28 @@ impl Pose {
         }
     }
 
-    /// The pose of `other` as seen from this one: `world_from_a.between(world_from_b)` is
+    /// Returns the pose of `other` as seen from this one: `world_from_a.between(world_from_b)` is
     /// `a_from_b`.
     #[must_use]
     pub fn between(self, other: Self) -> Self {
         self.inverse().compose(other)
     }
 
-    /// A point of this pose's own frame, in the frame the pose is given in.
+    /// Returns a point of this pose's own frame, in the frame the pose is given in.
     #[must_use]
     pub fn transform(self, point: Point) -> Point {
         self.position + self.heading.rotate(point.coords)
     }
 
-    /// Where a body that starts here and keeps `twist` for `seconds` arrives: the exact arc.
+    /// Returns where a body that starts here and keeps `twist` for `seconds` arrives: the exact
+    /// arc.
     #[must_use]
     pub fn moved(self, twist: Twist, seconds: f64) -> Self {
         self.displaced(twist.linear * seconds, twist.angular * seconds)
     }
 
-    /// Where a body arrives that covers `distance` metres of path while it turns by `turn` radians:
-    /// a circular arc, straight when `turn` is 0.
+    /// Returns where a body arrives that covers `distance` metres of path while it turns by `turn`
+    /// radians: a circular arc, straight when `turn` is 0.
     ///
     /// ```
     /// use core::f64::consts::PI;
@@ -94,7 +95,7 @@ impl Pose {
         )
     }
 
-    /// Whether every number of the pose is one.
+    /// Returns whether every number of the pose is one.
     #[must_use]
     pub fn is_finite(self) -> bool {
         self.position.x.is_finite() && self.position.y.is_finite() && self.heading.is_finite()

@@ -42,14 +42,14 @@ impl PoseBox {
     /// The origin, looking east, for certain.
     pub const IDENTITY: Self = Self::new(PointBox::ORIGIN, Interval::ZERO);
 
-    /// A box from its parts.
+    /// Returns a box from its parts.
     #[must_use]
     #[inline]
     pub const fn new(position: PointBox, heading: Interval) -> Self {
         Self { position, heading }
     }
 
-    /// One pose.
+    /// Returns one pose.
     ///
     /// # Errors
     /// If it is not finite.
@@ -57,7 +57,8 @@ impl PoseBox {
         Self::about(pose, 0.0, 0.0)
     }
 
-    /// All poses within `metres` of `middle` along each axis and within `radians` of its heading.
+    /// Returns all poses within `metres` of `middle` along each axis and within `radians` of its
+    /// heading.
     ///
     /// # Errors
     /// If a margin is negative or something is no number.
@@ -97,7 +98,7 @@ impl PoseBox {
         self.position + position.rotated(self.heading)
     }
 
-    /// Whether a pose lies inside, its heading up to full circles.
+    /// Returns whether a pose lies inside, its heading up to full circles.
     #[must_use]
     pub fn contains(self, pose: Pose) -> bool {
         let heading = Interval::of(pose.heading.radians());
@@ -105,9 +106,10 @@ impl PoseBox {
             && heading.is_ok_and(|heading| self.heading.meets(nearest(heading, self.heading)))
     }
 
-    /// What both allow, headings up to full circles; none if they contradict each other, which is a
-    /// *fact*: a bound was broken, or the two are not estimates of the same pose. Where wide
-    /// headings agree in two parts of the circle, what lies between them is in the result as well.
+    /// Returns what both allow, headings up to full circles, or `None` if they contradict each
+    /// other, which is a *fact*: a bound was broken, or the two are not estimates of the same pose.
+    /// Where wide headings agree in two parts of the circle, what lies between them is in the
+    /// result as well.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         Some(Self::new(
@@ -116,8 +118,8 @@ impl PoseBox {
         ))
     }
 
-    /// The least box that holds both, the headings of `other` brought to within half a circle of
-    /// those here.
+    /// Returns the least box that holds both, the headings of `other` brought to within half a
+    /// circle of those here.
     #[must_use]
     pub fn hull(self, other: Self) -> Self {
         Self::new(
@@ -126,14 +128,14 @@ impl PoseBox {
         )
     }
 
-    /// A pose in the middle, always inside.
+    /// Returns a pose in the middle, always inside.
     #[must_use]
     pub fn middle(self) -> Pose {
         Pose::new(self.position.middle(), self.heading.middle().into())
     }
 }
 
-/// The angles of `a` that are, up to full circles, in `b`.
+/// Returns the angles of `a` that are, up to full circles, in `b`.
 fn common(a: Interval, b: Interval) -> Option<Interval> {
     if a.width() >= TAU {
         return Some(b);

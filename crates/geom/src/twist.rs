@@ -14,14 +14,14 @@ impl Twist {
     /// Standing still.
     pub const ZERO: Self = Self::new(0.0, 0.0);
 
-    /// A twist of `linear` m/s and `angular` rad/s.
+    /// Returns a twist of `linear` m/s and `angular` rad/s.
     #[must_use]
     pub const fn new(linear: f64, angular: f64) -> Self {
         Self { linear, angular }
     }
 
-    /// The twist of a differential drive whose wheels roll at `left` and `right` m/s, `track`
-    /// metres apart.
+    /// Returns the twist of a differential drive whose wheels roll at `left` and `right` m/s,
+    /// `track` metres apart.
     ///
     /// Wheels on one spot (`track` 0) have no twist: the result is then not finite.
     ///

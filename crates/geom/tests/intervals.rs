@@ -17,7 +17,7 @@ fn interval(low: f64, high: f64) -> Interval {
     Interval::new(low, high).unwrap()
 }
 
-/// How many doubles lie between two, at most.
+/// Returns how many doubles lie between two, at most.
 fn steps(a: f64, b: f64) -> u64 {
     let ordered = |value: f64| {
         let bits = value.to_bits().cast_signed();
@@ -72,7 +72,7 @@ fn any_finite() -> impl Strategy<Value = f64> {
 }
 
 prop_compose! {
-    /// An interval, two numbers of it, and an interval inside it.
+    /// Returns an interval, two numbers of it, and an interval inside it.
     fn nested()(mut of in [any(), any(), any(), any()]) -> (Interval, f64, Interval) {
         of.sort_by(f64::total_cmp);
         (interval(of[0], of[3]), of[1], interval(of[1], of[2]))

@@ -81,7 +81,7 @@ fn by_looks() {
         let mut config = painted();
         config.restructuring.look_merge = look_merge;
         let mut times = vec![Duration::MAX; LOOKED_AT];
-        // How many places there were after so many moves.
+        // Number of places after each number of moves.
         let mut places = vec![1; LOOKED_AT + 1];
         // The same moves again and again: what else the machine does is not counted.
         for _ in 0..AGAIN {
@@ -104,7 +104,7 @@ fn by_looks() {
     }
 }
 
-/// One move, of which only the observer's part is timed.
+/// Returns one move, of which only the observer's part is timed.
 fn timed(walk: &mut Walk, direction: Direction) -> (Duration, StepReport) {
     let moved = walk.robot.go(direction).unwrap();
     let step = walk.told(&moved);

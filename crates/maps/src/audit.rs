@@ -9,8 +9,8 @@
 //!   the logarithm of its product, 3 degrees of freedom, by first-order propagation of its edges'
 //!   covariances: at most k², k = 5. It is *tight* if the region of k standard deviations fills at
 //!   most 3 ‰ of all poses within 5 m.
-//! - **Run**: closures linked by at most 3 poses at both ends, one after the other, that do not
-//!   contradict each other. They err together, so a run is one witness, however long.
+//! - **Run**: closures linked by at most 3 poses at both ends, one by one, that do not contradict
+//!   each other. They err together, so a run is one witness, however long.
 //! - **Witness**: a tight cycle within its bound. Witnesses of one closure share no run with it or
 //!   each other. Odometry alone is one.
 //!

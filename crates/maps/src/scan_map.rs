@@ -10,21 +10,25 @@
 //!    [where the map has gaps](WayToGap).
 //! 3. A [`ScanChart`] is what is left when nothing more is learned: the [ground](GroundPlan), two
 //!    bits a cell, the places and the links. A file holds its [parts](ChartParts).
-//! 4. [`Standpoints`] are a lattice of positions on it; they say what is seen from each.
-//! 5. A [`StandpointBelief`] is what a robot that was put down somewhere believes of where it is.
+//! 4. A [`CorridorMap`] has the places where corridors meet or end, and the ways between them.
+//! 5. [`Standpoints`] are a lattice of positions on it; they say what is seen from each.
+//! 6. A [`StandpointBelief`] is what a robot that was put down somewhere believes of where it is.
 //!
 //! The frame's axes are the compass's. Positions are in metres from where the robot was put down.
 
 mod belief;
+mod branches;
 mod chart;
 mod clearings;
 mod config;
+mod corridor_map;
 mod evidence;
 mod fit;
 mod ground_plan;
 mod map;
 mod ranked_bits;
 mod rays;
+mod skeleton;
 mod standpoints;
 mod wall_grid;
 
@@ -32,6 +36,7 @@ pub use belief::StandpointBelief;
 pub use chart::{ChartError, ChartParts, ScanChart};
 pub use clearings::{Clearings, WayToGap};
 pub use config::ScanMapConfig;
+pub use corridor_map::{CorridorMap, CorridorPlace, CorridorWay};
 pub use evidence::Explanation;
 pub use ground_plan::{GroundKind, GroundPlan};
 pub use map::{Advance, ScanMap, ScanPlace};

@@ -90,7 +90,7 @@ proptest! {
     }
 }
 
-/// Why a saved map of 2 × 2 cells is refused after a change.
+/// Returns why a saved map of 2 × 2 cells is refused after a change.
 fn refused(change: impl FnOnce(&mut Value)) -> String {
     let mut map = Map::new(Grid::new(2, 2), ClosedCells::Possible).unwrap();
     let ray = CellRay::to_wall(Direction::North, 0);

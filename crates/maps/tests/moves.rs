@@ -87,7 +87,7 @@ fn explore(maze: &Maze) -> (WallMap<16>, u32, u16) {
     })
 }
 
-/// The same, every stop of the proof chosen by rollouts.
+/// Returns the same, every stop of the proof chosen by rollouts.
 fn explore_by_rollouts(maze: &Maze) -> (WallMap<16>, u32, u16) {
     let mut rollouts = Rollouts::new(explorer(maze), RolloutConfig::tuned()).unwrap();
     explore_by(maze, |map, at| {

@@ -17,7 +17,7 @@ const LENGTH: f64 = 4.6;
 /// East, north, west, south. The windows are in the east.
 const COLOURS: [[u8; 3]; 4] = [[220, 20, 20], [230, 220, 30], [20, 200, 60], [20, 40, 220]];
 
-/// The wall that a ray meets, and how far away.
+/// Returns the wall that a ray meets, and how far away.
 fn meet(from: Point, direction: Vector) -> (usize, f64) {
     let to = |distance: f64, speed: f64| match speed > 1e-9 {
         true => distance / speed,
@@ -84,7 +84,7 @@ fn records(count: usize) -> Vec<PlaceRecord> {
     (0..count).map(|_| one()).collect()
 }
 
-/// The same records with an odometry that takes left for right.
+/// Returns the same records with an odometry that takes left for right.
 fn mirrored(records: &[PlaceRecord]) -> Vec<PlaceRecord> {
     let mut records = records.to_vec();
     for record in &mut records {
@@ -111,15 +111,15 @@ fn learn(records: &[PlaceRecord], form: ImageForm, config: PlaceMapConfig) -> Pl
     PlaceMap::learn(&table, 0..records.len(), config, rng).unwrap()
 }
 
-/// The share of red in a picture.
+/// Returns the share of red in a picture.
 fn redness(picture: &Picture) -> f64 {
     let red = |pixel: &&[u8; 3]| pixel[0] > 120 && pixel[1] < 90 && pixel[2] < 90;
     picture.pixels.iter().filter(red).count() as f64 / picture.pixels.len() as f64
 }
 
-/// How far to the east of the others the nodes lie that see the windows, once the map is turned so
-/// that the side that looks yellow is straight above the side that looks blue, as the paper draws
-/// it; m.
+/// Returns how far to the east of the others the nodes lie that see the windows, once the map is
+/// turned so that the side that looks yellow is straight above the side that looks blue, as the
+/// paper draws it; m.
 fn windows_to_the_right(map: &PlaceMap) -> f64 {
     let mean_where = |see: &dyn Fn(&Picture) -> bool| {
         let seen = map.positions();

@@ -15,7 +15,7 @@ fn ring() -> Ring {
     Ring::full(72, 1.25)
 }
 
-/// What a robot sees that looks `heading` in a corridor from (0, 0) to (`length`, 0.95).
+/// Returns what a robot sees that looks `heading` in a corridor from (0, 0) to (`length`, 0.95).
 fn scan_of(length: f64, at: Point, heading: Heading) -> Scan {
     let mut scan = Scan::clear(ring());
     for (index, range) in (0..).zip(&mut scan.ranges) {
@@ -114,8 +114,8 @@ fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     assert!(belief.certainty(&on, DIAMETER) > 0.95);
 }
 
-/// What it believes who knows that it stands in a corridor 5 m long, `from` its western end, and
-/// then sees what is seen at `seen` from there in one of `length`, `looks` times; and what
+/// Returns what it believes who knows that it stands in a corridor 5 m long, `from` its western
+/// end, and then sees what is seen at `seen` from there in one of `length`, `looks` times; and what
 /// explained that best each time.
 fn surprised(
     from: f64,

@@ -12,7 +12,7 @@ use tolman_robot::{Mapper, Ring, Scan};
 use tolman_sim::casters::BeamSweep;
 use tolman_sim::{WallSegment, World};
 
-/// A room with a niche and a pillar, so that no two places look alike.
+/// Returns a room with a niche and a pillar, so that no two places look alike.
 fn room() -> World {
     let corners = [
         (0.0, 0.0),

@@ -29,7 +29,7 @@ fn maze(seed: u64) -> Maze {
         .unwrap()
 }
 
-/// What perfect sensors to all four sides read.
+/// Returns what perfect sensors to all four sides read.
 fn readings(world: &World, pose: Pose) -> [RangeReading; 4] {
     [0.0, 1.0, 2.0, 3.0].map(|quarters| {
         let bearing = quarters * FRAC_PI_2;

@@ -7,7 +7,7 @@ use rand_chacha::rand_core::SeedableRng;
 use tolman_maps::wall_map::{CellRay, ClosedCells, ObserveError, TooLarge, WallMap};
 use tolman_maze::{Braided, Cell, Direction, Grid, Knowledge, Maze, Wall, Walls};
 
-/// A maze without closed cells of at most 16 × 16.
+/// Returns a maze without closed cells of at most 16 × 16.
 fn mazes() -> impl Strategy<Value = Maze> {
     (2..=16_u16, 2..=16_u16, any::<u64>()).prop_map(|(width, height, seed)| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -21,7 +21,7 @@ fn mazes() -> impl Strategy<Value = Maze> {
     })
 }
 
-/// What is seen from a cell to all sides.
+/// Returns what is seen from a cell to all sides.
 fn rays(maze: &Maze, cell: Cell) -> [CellRay; 4] {
     Direction::ALL.map(|direction| {
         let mut at = cell;

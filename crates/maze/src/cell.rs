@@ -13,13 +13,13 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// The cell in column `x` and row `y`.
+    /// Returns the cell in column `x` and row `y`.
     #[must_use]
     pub const fn new(x: u16, y: u16) -> Self {
         Self { x, y }
     }
 
-    /// The cell one step in a direction, on a plane without an end in the north or east.
+    /// Returns the cell one step in a direction, on a plane without an end in the north or east.
     #[must_use]
     pub fn beyond(self, direction: Direction) -> Option<Self> {
         let (east, north) = direction.step();

@@ -1,6 +1,6 @@
 use crate::{Cell, Direction, Grid};
 
-/// Why a robot cannot be sent through a maze; see [`Maze::check`](crate::Maze::check).
+/// Reason why a robot cannot be sent through a maze; see [`Maze::check`](crate::Maze::check).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckError {
@@ -57,7 +57,7 @@ pub enum CheckError {
 }
 
 impl CheckError {
-    /// The cell to look at, if it is one of the maze.
+    /// Returns the cell to look at, if it is one of the maze.
     pub(crate) const fn cell(self) -> Option<Cell> {
         match self {
             Self::OpenBorder { cell, .. } => Some(cell),

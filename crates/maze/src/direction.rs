@@ -25,38 +25,38 @@ impl Direction {
         self as usize
     }
 
-    /// A quarter turn clockwise.
+    /// Returns a quarter turn clockwise.
     #[must_use]
     pub const fn right(self) -> Self {
         Self::ALL[(self.index() + 1) % 4]
     }
 
-    /// A half turn.
+    /// Returns a half turn.
     #[must_use]
     pub const fn opposite(self) -> Self {
         Self::ALL[(self.index() + 2) % 4]
     }
 
-    /// A quarter turn counter-clockwise.
+    /// Returns a quarter turn counter-clockwise.
     #[must_use]
     pub const fn left(self) -> Self {
         Self::ALL[(self.index() + 3) % 4]
     }
 
-    /// The direction that is `side` for somebody who looks this way, north being ahead.
+    /// Returns the direction that is `side` for somebody who looks this way, north being ahead.
     #[must_use]
     pub const fn turned(self, side: Self) -> Self {
         Self::ALL[(self.index() + side.index()) % 4]
     }
 
-    /// The side on which somebody who looks to `heading` has this direction: the inverse of
+    /// Returns the side on which somebody who looks to `heading` has this direction: the inverse of
     /// [`turned`](Self::turned).
     #[must_use]
     pub const fn seen_from(self, heading: Self) -> Self {
         Self::ALL[(self.index() + 4 - heading.index()) % 4]
     }
 
-    /// The unit step of this direction: (east, north).
+    /// Returns the unit step of this direction: (east, north).
     #[must_use]
     pub const fn step(self) -> (i8, i8) {
         match self {

@@ -28,8 +28,27 @@ pub struct Wall(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Grid {
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "side"))]
     width: u16,
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "side"))]
     height: u16,
+}
+
+/// The most columns or rows whose walls 32 bits can number.
+const MOST_NUMBERED: u16 = 46_340;
+
+/// Reads the columns or rows of a grid.
+#[cfg(feature = "serde")]
+fn side<'de, D: serde::Deserializer<'de>>(from: D) -> Result<u16, D::Error> {
+    let side = <u16 as serde::Deserialize>::deserialize(from)?;
+    if side > Grid::MAX_SIDE {
+        let (found, expected) = (
+            serde::de::Unexpected::Unsigned(side.into()),
+            "a side of 1024 at most",
+        );
+        return Err(serde::de::Error::invalid_value(found, &expected));
+    }
+    Ok(side)
 }
 
 impl Grid {
@@ -37,10 +56,14 @@ impl Grid {
     /// robot, and low enough that a hostile file cannot ask for much memory.
     pub const MAX_SIDE: u16 = 1024;
 
-    /// A grid of `width` columns and `height` rows.
+    /// Returns a grid of `width` columns and `height` rows, 46340 at most: a longer side is cut to
+    /// that, since 32 bits do not number the walls of more.
     #[must_use]
     pub const fn new(width: u16, height: u16) -> Self {
-        Self { width, height }
+        Self {
+            width: numbered(width),
+            height: numbered(height),
+        }
     }
 
     /// Columns.
@@ -55,13 +78,13 @@ impl Grid {
         self.height
     }
 
-    /// How many cells.
+    /// Returns how many cells.
     #[must_use]
     pub const fn cell_count(self) -> usize {
         self.width as usize * self.height as usize
     }
 
-    /// How many walls could stand, the border's included.
+    /// Returns how many walls could stand, the border's included.
     #[must_use]
     pub const fn wall_count(self) -> usize {
         self.vertical_count() + self.width as usize * (self.height as usize + 1)
@@ -71,24 +94,24 @@ impl Grid {
         (self.width as usize + 1) * self.height as usize
     }
 
-    /// Whether `cell` lies on the grid.
+    /// Returns whether `cell` lies on the grid.
     #[must_use]
     pub const fn contains(self, cell: Cell) -> bool {
         cell.x < self.width && cell.y < self.height
     }
 
-    /// The position of `cell` in row-major order from the south-west.
+    /// Returns the position of `cell` in row-major order from the south-west.
     #[must_use]
     pub const fn index(self, cell: Cell) -> usize {
         cell.y as usize * self.width as usize + cell.x as usize
     }
 
-    /// All cells in the order of [`Grid::index`].
+    /// Returns all cells in the order of [`Grid::index`].
     pub fn cells(self) -> impl Iterator<Item = Cell> + Clone {
         (0..self.height).flat_map(move |y| (0..self.width).map(move |x| Cell::new(x, y)))
     }
 
-    /// The edge of `cell` that looks to `direction`. `cell` must lie on the grid.
+    /// Returns the edge of `cell` that looks to `direction`. `cell` must lie on the grid.
     #[must_use]
     pub const fn wall(self, cell: Cell, direction: Direction) -> Wall {
         let (x, y) = (cell.x as usize, cell.y as usize);
@@ -102,8 +125,9 @@ impl Grid {
         Wall(id as u32)
     }
 
-    /// The cell that `wall` is a side of, and which: the inverse of [`Grid::wall`]. Of two such
-    /// cells it is the one in the west or south. None for a number that no wall of this grid has.
+    /// Returns the cell that `wall` is a side of, and which: the inverse of [`Grid::wall`]. Of two
+    /// such cells it is the one in the west or south. None for a number that no wall of this grid
+    /// has.
     ///
     /// ```
     /// use tolman_maze::{Cell, Direction, Grid, Wall};
@@ -143,14 +167,14 @@ impl Grid {
         })
     }
 
-    /// The cell beyond the `direction` edge of `cell`, or none outside the grid.
+    /// Returns the cell beyond the `direction` edge of `cell`, or none outside the grid.
     #[must_use]
     pub fn neighbour(self, cell: Cell, direction: Direction) -> Option<Cell> {
         cell.beyond(direction).filter(|next| self.contains(*next))
     }
 
-    /// The middle of the grid, where classic competitions put the goal: two columns by two rows,
-    /// one where the width or height is odd.
+    /// Returns the middle of the grid, where classic competitions put the goal: two columns by two
+    /// rows, one where the width or height is odd.
     ///
     /// ```
     /// use tolman_maze::{Cell, Grid};
@@ -163,7 +187,7 @@ impl Grid {
         columns.flat_map(move |x| rows.clone().map(move |y| Cell::new(x, y)))
     }
 
-    /// Every edge of the outer border once: the cell inside and the side it is on.
+    /// Returns every edge of the outer border once: the cell inside and the side it is on.
     pub fn border(self) -> impl Iterator<Item = (Cell, Direction)> {
         let sides = self
             .cells()
@@ -172,7 +196,16 @@ impl Grid {
     }
 }
 
-/// The one or two middle values of `0..count`.
+/// Returns the side of a grid whose walls can be numbered.
+const fn numbered(side: u16) -> u16 {
+    if side < MOST_NUMBERED {
+        side
+    } else {
+        MOST_NUMBERED
+    }
+}
+
+/// Returns the one or two middle values of `0..count`.
 fn middle(count: u16) -> Range<u16> {
     count.saturating_sub(1) / 2..count.min(count / 2 + 1)
 }
@@ -204,6 +237,22 @@ mod tests {
             }
             assert_eq!(grid.side(Wall(grid.wall_count() as u32)), None);
         }
+    }
+
+    #[test]
+    fn the_largest_grid_numbers_all_its_walls() {
+        let grid = Grid::new(u16::MAX, u16::MAX);
+        let last = Cell::new(grid.width() - 1, grid.height() - 1);
+        for (cell, direction) in [
+            (last, Direction::North),
+            (last, Direction::East),
+            (Cell::new(0, 0), Direction::South),
+        ] {
+            let wall = grid.wall(cell, direction);
+            assert_eq!(grid.side(wall), Some((cell, direction)));
+        }
+        assert_eq!(grid.neighbour(last, Direction::East), None);
+        assert_eq!(Grid::new(3, 2).width(), 3);
     }
 
     #[test]

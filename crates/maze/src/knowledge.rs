@@ -15,13 +15,13 @@ pub enum Knowledge {
 }
 
 impl Knowledge {
-    /// What one knows who has looked.
+    /// Returns what one knows who has looked.
     #[must_use]
     pub const fn of_standing(stands: bool) -> Self {
         if stands { Self::Wall } else { Self::Open }
     }
 
-    /// Whether anybody has looked.
+    /// Returns whether anybody has looked.
     #[must_use]
     pub const fn is_known(self) -> bool {
         !matches!(self, Self::Unknown)
@@ -60,7 +60,7 @@ pub trait Walls {
     /// Size and wall numbering.
     fn grid(&self) -> Grid;
 
-    /// What is known of the `direction` side of `cell`; the same from both sides of a wall.
+    /// Returns what is known of the `direction` side of `cell`; the same from both sides of a wall.
     fn knowledge(&self, cell: Cell, direction: Direction) -> Knowledge;
 }
 

@@ -46,7 +46,7 @@ pub struct Maze {
 }
 
 impl Maze {
-    /// A maze without inner walls and with a closed border; no start, no goal.
+    /// Returns a maze without inner walls and with a closed border; no start, no goal.
     #[must_use]
     pub fn open(grid: Grid) -> Self {
         let mut maze = Self {
@@ -61,7 +61,7 @@ impl Maze {
         maze
     }
 
-    /// A maze in which every wall stands: what generators carve from.
+    /// Returns a maze in which every wall stands: what generators carve from.
     #[must_use]
     pub fn solid(grid: Grid) -> Self {
         let mut maze = Self::open(grid);
@@ -79,14 +79,14 @@ impl Maze {
         self.grid
     }
 
-    /// Whether a wall stands on this edge.
+    /// Returns whether a wall stands on this edge.
     #[must_use]
     pub fn stands(&self, wall: Wall) -> bool {
         let word = self.standing.get(wall.0 as usize / 64);
         word.is_none_or(|word| word >> (wall.0 % 64) & 1 == 1)
     }
 
-    /// Whether one can go from `cell` to `direction`.
+    /// Returns whether one can go from `cell` to `direction`.
     #[must_use]
     pub fn is_open(&self, cell: Cell, direction: Direction) -> bool {
         !self.stands(self.grid.wall(cell, direction))
@@ -105,14 +105,14 @@ impl Maze {
         }
     }
 
-    /// The cell one step from `cell` to that side; none if a wall stands there.
+    /// Returns the cell one step from `cell` to that side, or `None` if a wall stands there.
     #[must_use]
     pub fn beside(&self, cell: Cell, direction: Direction) -> Option<Cell> {
         let next = self.grid.neighbour(cell, direction)?;
         self.is_open(cell, direction).then_some(next)
     }
 
-    /// The cells one step from `cell`, in the order of [`Direction::ALL`].
+    /// Returns the cells one step from `cell`, in the order of [`Direction::ALL`].
     pub fn neighbours(&self, cell: Cell) -> impl Iterator<Item = (Direction, Cell)> + '_ {
         let beside = move |direction| Some((direction, self.beside(cell, direction)?));
         Direction::ALL.into_iter().filter_map(beside)
@@ -125,8 +125,8 @@ impl Maze {
         self.neighbours(cell).count()
     }
 
-    /// Whether a cell, those to its north and east and the one between them are open to each other:
-    /// no wall ends at the post in their middle.
+    /// Returns whether a cell, those to its north and east and the one between them are open to
+    /// each other: no wall ends at the post in their middle.
     #[must_use]
     pub fn is_room(&self, cell: Cell) -> bool {
         let [north, east] =
@@ -137,20 +137,20 @@ impl Maze {
         self.is_open(north, Direction::East) && self.is_open(east, Direction::North)
     }
 
-    /// The cells open to one side only, also where no way leads to a goal, in the order of
+    /// Returns the cells open to one side only, also where no way leads to a goal, in the order of
     /// [`Grid::index`].
     pub fn dead_ends(&self) -> impl Iterator<Item = Cell> + '_ {
         self.grid.cells().filter(|cell| self.degree(*cell) == 1)
     }
 
-    /// The cells open to three or four sides, also where no way leads to a goal, in the order of
-    /// [`Grid::index`].
+    /// Returns the cells open to three or four sides, also where no way leads to a goal, in the
+    /// order of [`Grid::index`].
     pub fn junctions(&self) -> impl Iterator<Item = Cell> + '_ {
         self.grid.cells().filter(|cell| self.degree(*cell) >= 3)
     }
 
-    /// The cells a way leads from to a goal, the goals among them, in the order of [`Grid::index`]:
-    /// what a robot sees of the maze. O(cells).
+    /// Returns the cells a way leads from to a goal, the goals among them, in the order of
+    /// [`Grid::index`]: what a robot sees of the maze. O(cells).
     ///
     /// ```
     /// let text = "\
@@ -173,8 +173,8 @@ impl Maze {
             .filter(move |cell| steps[self.grid.index(*cell)].is_some())
     }
 
-    /// The cells that are open to some side but to no goal: drawn as if one could be there, though
-    /// nobody gets there. In the order of [`Grid::index`]. O(cells).
+    /// Returns the cells that are open to some side but to no goal: drawn as if one could be there,
+    /// though nobody gets there. In the order of [`Grid::index`]. O(cells).
     pub fn sealed(&self) -> impl Iterator<Item = Cell> + '_ {
         let steps = self.steps_to_goal();
         self.grid
@@ -182,8 +182,9 @@ impl Maze {
             .filter(move |cell| steps[self.grid.index(*cell)].is_none() && self.degree(*cell) > 0)
     }
 
-    /// How many inner edges no wall stands on. A maze is perfect (every two cells are joined by
-    /// exactly one way) when all its cells hang together and this is one less than they are many.
+    /// Returns how many inner edges no wall stands on. A maze is perfect (every two cells are
+    /// joined by exactly one way) when all its cells hang together and this is one less than they
+    /// are many.
     #[must_use]
     pub fn opening_count(&self) -> usize {
         self.grid
@@ -193,7 +194,7 @@ impl Maze {
             / 2
     }
 
-    /// Where runs begin and which way the robot looks, if the maze says so.
+    /// Returns where runs begin and which way the robot looks, if the maze says so.
     #[must_use]
     pub const fn start(&self) -> Option<(Cell, Direction)> {
         self.start
@@ -204,7 +205,7 @@ impl Maze {
         self.start = start;
     }
 
-    /// The destination cells, in ascending order of (x, y); may be empty.
+    /// Returns the destination cells, in ascending order of (x, y); may be empty.
     #[must_use]
     pub fn goals(&self) -> &[Cell] {
         &self.goals
@@ -262,9 +263,10 @@ impl Maze {
         steps
     }
 
-    /// Whether a robot can be put into this maze and sent to its destination: the border is closed,
-    /// there is a goal, start and goals lie on the grid, and a way leads from the start to at least
-    /// one goal (without a start: from some other cell). Other cells may be enclosed. O(cells).
+    /// Returns whether a robot can be put into this maze and sent to its destination: the border is
+    /// closed, there is a goal, start and goals lie on the grid, and a way leads from the start to
+    /// at least one goal (without a start: from some other cell). Other cells may be enclosed.
+    /// O(cells).
     ///
     /// # Errors
     /// The first of these that does not hold, with the cell it fails at.
@@ -284,8 +286,8 @@ impl Maze {
         }
     }
 
-    /// The part of [`Maze::check`] that every file must hold: cells, closed border, marks on the
-    /// grid.
+    /// Returns the part of [`Maze::check`] that every file must hold: cells, closed border, marks
+    /// on the grid.
     pub(crate) fn check_structure(&self) -> Result<(), CheckError> {
         if self.grid.cell_count() == 0 {
             return Err(CheckError::NoCells);
@@ -325,7 +327,7 @@ impl fmt::Display for Maze {
 mod tests {
     use super::*;
 
-    /// A 3 × 1 maze with the start in the west and the goal in the east.
+    /// Returns a 3 × 1 maze with the start in the west and the goal in the east.
     fn corridor() -> Maze {
         let mut maze = Maze::open(Grid::new(3, 1));
         maze.set_start(Some((Cell::new(0, 0), Direction::East)));

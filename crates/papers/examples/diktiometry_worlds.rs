@@ -226,7 +226,7 @@ fn parts(runs: u64) {
     }
 }
 
-/// A world that changes: after every so many moves, a door by chance is shut or opened.
+/// A world that changes: after a number of moves a random door is shut or opened.
 fn doors(runs: u64) {
     println!(
         "| moves between changes | fading | link precision | of links not seen shut | plans that work |"
@@ -292,7 +292,7 @@ fn looks(runs: u64) {
         look: 0.2,
         ..ODOMETRY
     };
-    // Square rooms of so many places each way.
+    // Square rooms of `room` places each way.
     let room = |side: u16, room: u32| {
         let side = u32::from(side);
         move |place: u32| (place / side % room) * side + place % side % room
@@ -420,7 +420,7 @@ fn kidnapped(runs: u64) {
     }
 }
 
-/// Whether a plan leads to the place of the map that stands for a true one.
+/// Returns whether a plan leads to the place of the map that stands for a true one.
 fn plan_works(walk: &Walk, to: u32) -> bool {
     let truths = walk.truths();
     let Some((goal, _)) = truths.iter().find(|(_, truth)| **truth == to) else {
@@ -436,8 +436,8 @@ fn plan_works(walk: &Walk, to: u32) -> bool {
     end == Some(to)
 }
 
-/// The share of links that lead where their action leads: of all, and of those that were not seen
-/// shut.
+/// Returns the share of links that lead where their action leads: of all, and of those that were
+/// not seen shut.
 fn link_precision(walk: &Walk) -> (f64, f64) {
     let (truths, paths) = (walk.truths(), &walk.observer.map().paths);
     let (mut all, mut open) = ([0, 0], [0, 0]);

@@ -39,7 +39,7 @@ const WAY: &[(f64, f64)] = &[
     (0.5, 0.5),
 ];
 
-/// A pose every so many metres and radians.
+/// Distance between poses, in metres and radians.
 const APART: (f64, f64) = (0.3, 0.6);
 
 /// What a scan matcher errs by, m and rad; places nearer than `SEEN` m and rad that were left at
@@ -127,7 +127,7 @@ fn drive() -> Result<(Vec<Pose>, Vec<G2oEdge>), Box<dyn Error>> {
             steps += 1;
             let moved = truth[truth.len() - 1].between(solo.truth().pose);
             if moved.position.coords.norm() > APART.0 || moved.heading.radians().abs() > APART.1 {
-                // What so many steps err by, and a little more along a bend.
+                // The error of this many steps, and a little more along a bend.
                 let many = f64::from(steps);
                 let (along, turn) = (0.003 * many.sqrt(), 0.003 * many.sqrt());
                 edges.push(edge(truth.len() - 1, truth.len(), rolled, along, turn));
@@ -195,7 +195,7 @@ fn edge(from: usize, to: usize, measured: Pose, metres: f64, radians: f64) -> G2
     }
 }
 
-/// A pose to a hundredth of a millimetre, so that the file stays small.
+/// Returns a pose to a hundredth of a millimetre, so that the file stays small.
 fn rounded(pose: Pose) -> Pose {
     let round = |number: f64| (number * 1e5).round() / 1e5;
     let position = Point::new(round(pose.position.x), round(pose.position.y));
@@ -205,7 +205,7 @@ fn rounded(pose: Pose) -> Pose {
     )
 }
 
-/// A small motion by chance (twelve even numbers add up to nearly a normal one).
+/// Returns a small motion by chance (twelve even numbers add up to nearly a normal one).
 fn error((metres, radians): (f64, f64), rng: &mut ChaCha8Rng) -> Pose {
     let mut normal = || {
         let sum: f64 = (0..12)

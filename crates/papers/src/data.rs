@@ -13,14 +13,14 @@ const DEFAULT: &str = "../shared/data";
 pub(crate) const MAZES: &str = "it is one of the mazes that Udacity gives with its project \"Plot and Navigate a Virtual Maze\", or of \
                                 the collections of micromouse contests; put it into `mazes` of the folder that TOLMAN_DATA names";
 
-/// The folder, if it is there.
+/// Returns the folder, if it is there.
 #[must_use]
 pub fn folder() -> Option<PathBuf> {
     let named = env::var_os("TOLMAN_DATA").map_or_else(|| PathBuf::from(DEFAULT), PathBuf::from);
     named.is_dir().then_some(named)
 }
 
-/// What to tell the reader where it is not.
+/// Returns what to tell the reader where it is not.
 #[must_use]
 pub fn missing(what: &str) -> String {
     format!("Skipped: {what}, which are not here. Set TOLMAN_DATA to the folder that holds them.")

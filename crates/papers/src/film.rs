@@ -3,7 +3,7 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
 use tolman_arena::Outing;
-use tolman_geom::Point;
+use tolman_geom::{Heading, Point, Pose};
 use tolman_replay::{
     Belief, Floor, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Scenery,
     TimeSeries,
@@ -13,7 +13,7 @@ use tolman_robot::{Landmark, Position};
 /// Nodes that moved less than this are left where they are, m.
 const STILL: f64 = 0.05;
 
-/// After each of the first so many actions the map is looked at, then more and more rarely.
+/// Number of actions after each of which the map is looked at; then more and more rarely.
 const DENSE: u32 = 200;
 
 /// What was noted of an outing: after every action what the system thinks, where it believes to be,
@@ -30,12 +30,24 @@ pub struct Film {
     met: BTreeMap<u32, Point>,
     /// The place that is labelled as the goal.
     goal: Option<u32>,
+    /// Steps before which the robot was lifted and put down elsewhere.
+    lifts: Vec<u32>,
+    /// Where the frame lies in which the map has its places.
+    world_from_map: Pose,
 }
 
 impl Film {
     /// Returns what is noted before the first action.
     #[must_use]
     pub fn new(outing: &dyn Outing) -> Self {
+        let world_from_map = Pose::new(Point::origin(), Heading::EAST);
+        Self::laid_at(outing, world_from_map)
+    }
+
+    /// The same of an outing whose map and belief have places in a frame that lies at
+    /// `world_from_map`.
+    #[must_use]
+    pub fn laid_at(outing: &dyn Outing, world_from_map: Pose) -> Self {
         let mut film = Self {
             actions: 0,
             thoughts: Notes::new("thinks"),
@@ -45,9 +57,16 @@ impl Film {
             places: TimeSeries::new("places on the map", ""),
             met: BTreeMap::new(),
             goal: None,
+            lifts: Vec::new(),
+            world_from_map,
         };
         film.map(outing, 0);
         film
+    }
+
+    /// Sees that the robot was lifted and put down elsewhere: its next step is the first there.
+    pub fn lifted(&mut self, outing: &dyn Outing) {
+        self.lifts.push(outing.path().len() as u32);
     }
 
     /// Sees what an action came to.
@@ -62,7 +81,12 @@ impl Film {
         if !words.is_empty() {
             self.thoughts.say(step, words);
         }
-        let belief = outing.belief();
+        let mut belief = outing.belief();
+        for guess in &mut belief {
+            if let Position::Point(at) = &mut guess.at {
+                *at = self.world_from_map.transform(*at);
+            }
+        }
         if belief.is_empty() && self.belief.entries.is_empty() {
             return;
         }
@@ -106,7 +130,9 @@ impl Film {
             // Of a map that does not say where its places lie, they are where the robot believed to
             // be there.
             let met = self.met.get(&place.id).copied();
-            let Some(at) = site.or(place.position).or(met) else {
+            let told = place.position;
+            let told = told.map(|at| self.world_from_map.transform(at));
+            let Some(at) = site.or(told).or(met) else {
                 continue;
             };
             let node = self.nodes.entry(place.id);
@@ -166,6 +192,17 @@ impl Film {
         }
         let bumped = outing.bumped().iter().copied();
         track.marks = vec![Marks::new(Mark::Bump, "bump", bumped)];
+        // Who knew without a step where it was put down is lifted once.
+        self.lifts.dedup();
+        self.lifts
+            .retain(|lift| (*lift as usize) < track.poses.len());
+        if !self.lifts.is_empty() {
+            let lifts = self.lifts.iter().copied();
+            track
+                .marks
+                .push(Marks::new(Mark::Kidnapping, "put down", lifts));
+        }
+        track.lifts = self.lifts;
         let step_s = robot.step_us as f64 * 1e-6;
         Replay::new(title, step_s, scenery, vec![track]).fact("maze", &outing.course().name)
     }

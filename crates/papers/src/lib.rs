@@ -33,7 +33,7 @@ pub use film::Film;
 pub use plan::plan_of_course;
 pub use recorder::Recorder;
 
-/// All experiments, in the order they are listed.
+/// Returns all experiments, in the order they are listed.
 #[must_use]
 pub const fn catalogue() -> &'static [Entry] {
     &[

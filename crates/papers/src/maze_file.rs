@@ -1,19 +1,19 @@
 //! The maze files of an experiment, and what they are called.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use tolman_formats::input;
 use tolman_maze::MazeFile;
 
 use tolman_experiment::BoxError;
 
-/// The sound maze of a file.
+/// Returns the sound maze of a file.
 pub(super) fn read(path: &Path) -> Result<MazeFile, BoxError> {
-    let text = fs::read_to_string(path).map_err(|error| in_file(path, error))?;
+    let text = input::text(path).map_err(|error| in_file(path, error))?;
     tolman_maze::read(&text).map_err(|error| in_file(path, error))
 }
 
-/// An error with the file it happened in.
+/// Returns an error with the file it happened in.
 pub(super) fn in_file(path: &Path, source: impl Into<BoxError>) -> BoxError {
     Box::new(InFile {
         path: path.to_owned(),
@@ -28,14 +28,14 @@ struct InFile {
     source: BoxError,
 }
 
-/// The name without folder and extension. Control characters of it, which terminals obey, are made
-/// visible; a maze's own name has none.
+/// Returns the name without folder and extension. Control characters of it, which terminals obey,
+/// are made visible; a maze's own name has none.
 pub(super) fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or(path.as_os_str());
     stem.to_string_lossy().replace(char::is_control, "\u{fffd}")
 }
 
-/// The name, with a number if it is taken.
+/// Returns the name, with a number if it is taken.
 pub(super) fn told_apart(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let mut candidate = name.to_owned();
     let mut count = 1;

@@ -8,7 +8,8 @@ use tolman_sim::{Area, Bounds};
 use tolman_stats::{ConfidenceInterval, mean, quantile};
 use tolman_systems::mslst::ROBOT_UNIT;
 
-/// A scan that MSLST has learned, in robot units, as seen from the robot; `size` user units wide.
+/// Returns a scan that MSLST has learned, in robot units, as seen from the robot; `size` user units
+/// wide.
 pub(crate) fn model_scan(model: impl Iterator<Item = f64>, size: f64, what: String) -> Drawing {
     let ring = pioneer::ring();
     let metres: Vec<f64> = model.map(|range| range * ROBOT_UNIT).collect();
@@ -17,15 +18,15 @@ pub(crate) fn model_scan(model: impl Iterator<Item = f64>, size: f64, what: Stri
     plot.drawing(what)
 }
 
-/// The mean of values on a line, with their quartiles; `None` of no values.
+/// Returns the mean of values on a line, with their quartiles; `None` of no values.
 pub(crate) fn mean_with_quartiles(x: f64, values: &[f64]) -> Option<LinePoint> {
     let at = |share| quantile(values, share).ok();
     let quartiles = ConfidenceInterval::new(at(0.25)?, at(0.75)?);
     Some(LinePoint::new(x, mean(values).ok()?).spread(quartiles))
 }
 
-/// A plan of a course that is `width` user units wide, with its walls and its destination; what is
-/// walled off is solid.
+/// Returns a plan of a course that is `width` user units wide, with its walls and its destination;
+/// what is walled off is solid.
 #[must_use]
 pub fn plan_of_course(course: &Course, width: f64) -> FloorPlan {
     let world = &course.world;
@@ -45,10 +46,10 @@ pub fn plan_of_course(course: &Course, width: f64) -> FloorPlan {
     plan
 }
 
-/// A disc is drawn with so many corners.
+/// Number of corners of the polygon that a disc is drawn as.
 const DISC_CORNERS: u32 = 48;
 
-/// The corners of a part of the floor.
+/// Returns the corners of a part of the floor.
 fn corners(area: &Area) -> Vec<Point> {
     match *area {
         Area::Rectangle(Bounds { min, max }) => {

@@ -120,7 +120,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// The replay of the run that was seen and ended so.
+    /// Returns the replay of the run that was seen and ended so.
     #[must_use]
     pub fn finish(self, title: impl Into<String>, episode: &Episode) -> Replay {
         let Trial { course, robot, .. } = self.trial;

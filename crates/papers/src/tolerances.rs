@@ -6,13 +6,13 @@ use tolman_experiment::Tolerance;
 /// Runs that arrive, or are solved.
 pub(crate) const SUCCESS: Tolerance = Tolerance::absolute(
     15.0,
-    "from drawing to drawing of one maze it moves by as much, and the papers' mazes are drawn anew",
+    "from drawing to drawing of one maze it moves by as much, and the papers' mazes are drawn again",
 );
 
 /// Time steps and actions to the goal.
 pub(crate) const TIME: Tolerance = Tolerance::relative(
     0.35,
-    "mazes and motors are made anew from pictures, and lengths known to a third",
+    "mazes and motors are made again from pictures, and lengths known to a third",
 );
 
 /// Time steps of an action.
@@ -24,7 +24,7 @@ pub(crate) const STEPS_PER_ACTION: Tolerance = Tolerance::relative(
 /// What the second episode saves.
 pub(crate) const SAVED: Tolerance = Tolerance::absolute(
     15.0,
-    "the ways of a maze that is drawn anew have other lengths",
+    "the ways of a maze that is drawn again have other lengths",
 );
 
 /// States, units and clusters that a quantizer makes.

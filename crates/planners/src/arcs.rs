@@ -13,7 +13,7 @@ pub struct Arcs {
 }
 
 impl Arcs {
-    /// The graph of `node_count` nodes with the arcs (tail, head, cost). O(nodes + arcs).
+    /// Returns the graph of `node_count` nodes with the arcs (tail, head, cost). O(nodes + arcs).
     ///
     /// Arcs that leave or reach a node the graph does not have are left out.
     #[must_use]
@@ -38,7 +38,7 @@ impl Arcs {
         Self { first, arcs }
     }
 
-    /// The same graph with every arc turned round. O(nodes + arcs).
+    /// Returns the same graph with every arc turned round. O(nodes + arcs).
     #[must_use]
     pub fn reversed(&self) -> Self {
         let mut list = Vec::with_capacity(self.arcs.len());

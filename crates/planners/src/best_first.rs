@@ -17,13 +17,14 @@ pub struct Found {
     pub expanded: u32,
 }
 
-/// The cheapest path from `source` to a goal, none where no way leads to one: A* (Hart, Nilsson,
-/// Raphael 1968).
+/// Returns the cheapest path from `source` to a goal, or `None` where no way leads to one: A*
+/// (Hart, Nilsson, Raphael 1968).
 ///
-/// `heuristic` guesses the cost from a node to the nearest goal. If it never guesses too high, the
-/// path is a cheapest one; the better it guesses, the fewer nodes are expanded. With a heuristic of
-/// 0 this is Dijkstra's algorithm. Ties go to the node that is guessed nearer to a goal, then to
-/// the lower id. O(arcs · log arcs) if the heuristic falls along no arc by more than the arc costs.
+/// `heuristic` estimates the cost from a node to the nearest goal. If it is admissible (never too
+/// high), the path is a cheapest one; the tighter it is, the fewer nodes are expanded. With a
+/// heuristic of 0 this is Dijkstra's algorithm. Ties go to the node with the lower estimate, then
+/// to the lower id. O(arcs · log arcs) if the heuristic is consistent: it falls along no arc by
+/// more than the arc costs.
 ///
 /// ```
 /// use tolman_planners::{Arcs, a_star};
@@ -47,9 +48,9 @@ pub fn a_star(
     searched.found(source)
 }
 
-/// Some path from `source` to a goal, none where no way leads to one: greedy best-first search,
-/// which always goes on from the node that `heuristic` guesses nearest to a goal, whatever it has
-/// cost to get there. O(arcs · log arcs).
+/// Some path from `source` to a goal, or `None` where no way leads to one: greedy best-first
+/// search, which always goes on from the node that `heuristic` guesses nearest to a goal, whatever
+/// it has cost to get there. O(arcs · log arcs).
 ///
 /// ```
 /// use tolman_planners::{Arcs, best_first};
@@ -125,7 +126,7 @@ pub(crate) fn search(
 }
 
 impl Searched {
-    /// The way from `source` to the goal.
+    /// Returns the way from `source` to the goal.
     fn found(self, source: u32) -> Option<Found> {
         let (goal, cost) = self.goal?;
         Some(Found {

@@ -59,7 +59,7 @@ fn remove_strings<A: Copy + PartialEq>(path: &mut Vec<A>, opposite: &impl Fn(&A)
     }
 }
 
-/// How often `action` stands in a row from `start` on.
+/// Returns how often `action` stands in a row from `start` on.
 fn run<A: PartialEq>(path: &[A], start: usize, action: &A) -> usize {
     path[start..]
         .iter()
@@ -67,7 +67,7 @@ fn run<A: PartialEq>(path: &[A], start: usize, action: &A) -> usize {
         .count()
 }
 
-/// One pass over the pairs that stand side by side now.
+/// Returns one pass over the pairs that stand side by side now.
 fn remove_pairs<A: Copy + PartialEq>(path: &mut Vec<A>, opposite: &impl Fn(&A) -> A) {
     let mut kept = Vec::with_capacity(path.len());
     let mut rest = path.as_slice();

@@ -22,7 +22,7 @@ struct Choice {
 }
 
 impl Decisions {
-    /// Returns decisions between so many actions in each state, and no state yet.
+    /// Returns decisions between `actions` actions in each state, and no state yet.
     #[must_use]
     pub const fn between(actions: usize) -> Self {
         Self {
@@ -147,8 +147,8 @@ pub fn expected_costs(
 /// Parts of a cost that the first guess counts in.
 const PARTS: f32 = 64.0;
 
-/// The states that can lead to a goal, the nearest first, if every action ended as well as it can;
-/// and what that costs.
+/// Returns the states that can lead to a goal, the nearest first, if every action ended as well as
+/// it can; and what that costs.
 fn if_all_goes_well(decisions: &Decisions, goals: &[u32]) -> Vec<(u32, f32)> {
     let mut arcs = Vec::new();
     let mut first = 0;

@@ -2,8 +2,14 @@ use tolman_maze::{Cell, Direction, Knowledge, Walls};
 
 use crate::TooLarge;
 
-/// Which edges of a maze of up to `N` × `N` cells a plan may cross: what planners search on. One
-/// byte a cell.
+/// Which edges of a maze of up to `N` × `N` cells, `N` ≤ 255, a plan may cross: what planners
+/// search on. One byte a cell. A larger `N` does not compile:
+///
+/// ```compile_fail
+/// # use tolman_maze::{Grid, Maze};
+/// # use tolman_planners::{Passages, Unknown};
+/// Passages::<300>::new(&Maze::open(Grid::new(3, 1)), Unknown::Closed).ok();
+/// ```
 ///
 /// ```
 /// use tolman_maze::{Cell, Direction, Grid, Maze};
@@ -63,6 +69,7 @@ impl<const N: usize> Passages<N> {
     /// # Errors
     /// If the maze has more than `N` columns or rows.
     pub fn new(walls: &impl Walls, unknown: Unknown) -> Result<Self, TooLarge> {
+        const { assert!(N <= 255, "16 bits count the steps through all cells") };
         let mut passages = Self { sides: [[0; N]; N] };
         for (cell, direction) in open_sides::<N>(walls, unknown)? {
             passages.open_side(cell, direction);
@@ -80,7 +87,7 @@ impl<const N: usize> Passages<N> {
         }
     }
 
-    /// Whether a plan may go from `cell` to `direction`. Nothing is open outside the maze.
+    /// Returns whether a plan may go from `cell` to `direction`. Nothing is open outside the maze.
     #[must_use]
     pub fn is_open(&self, cell: Cell, direction: Direction) -> bool {
         let row = self.sides.get(usize::from(cell.y));
@@ -88,7 +95,7 @@ impl<const N: usize> Passages<N> {
             .is_some_and(|sides| sides >> direction.index() & 1 == 1)
     }
 
-    /// Whether everything that is open here is open in `other` too.
+    /// Returns whether everything that is open here is open in `other` too.
     #[must_use]
     pub fn is_within(&self, other: &Self) -> bool {
         let (ours, theirs) = (self.sides(), other.sides());
@@ -97,7 +104,7 @@ impl<const N: usize> Passages<N> {
             .all(|(ours, theirs)| ours & !theirs == 0)
     }
 
-    /// The open sides of every cell, row by row from the south.
+    /// Returns the open sides of every cell, row by row from the south.
     pub(crate) const fn sides(&self) -> &[u8] {
         self.sides.as_flattened()
     }

@@ -3,16 +3,16 @@ use alloc::vec::Vec;
 use crate::Graph;
 use crate::breadth_first::search;
 
-/// A path of fewest arcs from `source` to a node that is a goal, both ends included; none where no
-/// way leads to one. Breadth-first search; among equally short paths the one whose arcs the graph
-/// lists earlier. O(nodes + arcs). Nodes the graph does not have are passed over.
+/// Returns a path of fewest arcs from `source` to a node that is a goal, both ends included, or
+/// `None` where no way leads to one. Breadth-first search; among equally short paths the one whose
+/// arcs the graph lists earlier. O(nodes + arcs). Nodes the graph does not have are passed over.
 #[must_use]
 pub fn path_to(graph: &impl Graph, source: u32, is_goal: impl Fn(u32) -> bool) -> Option<Vec<u32>> {
     let (reached, goal) = search(graph, [source], is_goal);
     Some(trace_back(source, goal?, &reached))
 }
 
-/// The nodes from `source` to `goal`, by the node that each was reached from.
+/// Returns the nodes from `source` to `goal`, by the node that each was reached from.
 pub(crate) fn trace_back(source: u32, goal: u32, reached: &[Option<(u32, u32)>]) -> Vec<u32> {
     let came_from = |node: &u32| reached[*node as usize].map(|(_, before)| before);
     let back = |node: &u32| came_from(node).filter(|_| *node != source);

@@ -114,7 +114,7 @@ impl<const N: usize> PoseSet<N> {
         *self = Self::of(grid, self.iter().filter_map(driven), guess);
     }
 
-    /// Where the mouse is, as far as that is clear.
+    /// Returns where the mouse is, as far as that is clear.
     #[must_use]
     pub fn location(&self) -> PoseKnowledge {
         let mut poses = self.iter();
@@ -132,9 +132,9 @@ impl<const N: usize> PoseSet<N> {
         }
     }
 
-    /// Where to drive to find out more: to the next place that looks different from what it would
-    /// be for another pose, on ways known to be open, from the point of view of one pose of the
-    /// set. None if the walls known tell no pose from another. O(poses · N²), and for each pose
+    /// Returns where to drive to find out more: to the next place that looks different from what it
+    /// would be for another pose, on ways known to be open, from the point of view of one pose of
+    /// the set. None if the walls known tell no pose from another. O(poses · N²), and for each pose
     /// that cannot be told from any other as much again.
     #[must_use]
     pub fn next_drive(&mut self, walls: &impl Walls) -> Option<Direction> {
@@ -214,7 +214,7 @@ impl<const N: usize> PoseSet<N> {
             .filter(|(cell, heading)| self.contains(*cell, *heading))
     }
 
-    /// Whether the mouse can be in `cell` and look to `heading`.
+    /// Returns whether the mouse can be in `cell` and look to `heading`.
     #[must_use]
     pub fn contains(&self, cell: Cell, heading: Direction) -> bool {
         let rows = self.cells.get(heading.index());
@@ -232,8 +232,8 @@ struct Way {
     side: Direction,
 }
 
-/// Where a mouse is that began at `other`, when one that began at `first` and drove the same way is
-/// in `cell`.
+/// Returns where a mouse is that began at `other`, when one that began at `first` and drove the
+/// same way is in `cell`.
 fn twin(cell: Cell, first: (Cell, Direction), other: (Cell, Direction)) -> Option<Cell> {
     let east = i32::from(cell.x) - i32::from(first.0.x);
     let north = i32::from(cell.y) - i32::from(first.0.y);

@@ -74,7 +74,7 @@ impl<const N: usize> StepMap<N> {
         map
     }
 
-    /// Steps from `cell` to the nearest target, none if no way leads there.
+    /// Steps from `cell` to the nearest target, or `None` if no way leads there.
     #[must_use]
     pub fn steps(&self, cell: Cell) -> Option<u16> {
         let row = self.steps.get(usize::from(cell.y))?;
@@ -82,8 +82,8 @@ impl<const N: usize> StepMap<N> {
         (steps != NEVER).then_some(steps)
     }
 
-    /// The way to go from `cell`: the first of `directions` that is open and than which none of
-    /// them leads nearer to a target. None if none leads to any.
+    /// Returns the way to go from `cell`: the first of `directions` that is open and than which
+    /// none of them leads nearer to a target. None if none leads to any.
     #[must_use]
     pub fn descend(
         &self,

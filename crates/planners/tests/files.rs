@@ -13,7 +13,7 @@ use tolman_planners::Unknown;
 use tolman_planners::moves::{MoveExplorer, MoveExplorerConfig, RolloutConfig};
 use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
 
-/// A value with one field changed, as it is read.
+/// Returns a value with one field changed, as it is read.
 fn changed<T: Serialize + DeserializeOwned>(
     value: &T,
     field: &str,

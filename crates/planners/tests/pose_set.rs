@@ -35,7 +35,7 @@ fn seen_as(heading: Direction, side: Direction) -> Direction {
     Direction::ALL[(heading.index() + side.index()) % 4]
 }
 
-/// Whether the maze looks the same from both poses, wherever one drives.
+/// Returns whether the maze looks the same from both poses, wherever one drives.
 fn are_twins(maze: &Maze, a: (Cell, Direction), b: (Cell, Direction)) -> bool {
     let mut seen = vec![(a.0, b.0)];
     let mut next = 0;

@@ -54,7 +54,8 @@ impl Sketch {
     }
 }
 
-/// A maze of 1 to 12 cells a side with a third of its walls unknown, start and goals anywhere.
+/// Returns a maze of 1 to 12 cells a side with a third of its walls unknown, start and goals
+/// anywhere.
 fn sketches() -> impl Strategy<Value = (Sketch, Cell, Direction, Vec<Cell>)> {
     (1_u16..=12, 1_u16..=12).prop_flat_map(|(width, height)| {
         let grid = Grid::new(width, height);
@@ -207,7 +208,8 @@ proptest! {
     }
 }
 
-/// Explores, has the result checked and says how long the run takes; none if the explorer is stuck.
+/// Explores, has the result checked and says how long the run takes, or `None` if the explorer is
+/// stuck.
 fn explore<const N: usize>(
     maze: &Maze,
     home: Cell,
@@ -250,8 +252,8 @@ fn explore<const N: usize>(
     }
 }
 
-/// Every twentieth maze of a folder of other people's mazes, or none and a message where they are
-/// not at hand.
+/// Returns every twentieth maze of a folder of other people's mazes, or none and a message where
+/// they are not at hand.
 fn mazes_of_others(folder: &str) -> Vec<Maze> {
     let data = std::env::var_os("TOLMAN_DATA").map_or_else(
         || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),

@@ -76,7 +76,7 @@ fn main() {
     println!("{}", rows.concat());
 }
 
-/// A line of the table, or nothing if the command line left it out.
+/// Returns a line of the table, or nothing if the command line left it out.
 fn row(what: &str, dimension: usize, units: usize, way: &str, rate: Option<f64>) -> String {
     rate.map_or_else(String::new, |rate| {
         format!(

@@ -75,7 +75,7 @@ fn grow(quantizer: &mut impl Quantizer<f32>, inputs: &[[f32; 2]]) -> usize {
     quantizer.network().len()
 }
 
-/// Two concentric rings in 10 % noise.
+/// Returns two concentric rings in 10 % noise.
 fn rings_in_noise() -> Vec<[f32; 2]> {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let input = |_| {

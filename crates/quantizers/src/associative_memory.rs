@@ -58,7 +58,7 @@ enum Part {
 }
 
 impl<S: Scalar> AssociativeMemory<S> {
-    /// An empty memory for keys and responses of so many features.
+    /// Returns an empty memory for keys and responses of the given numbers of features.
     ///
     /// # Errors
     /// If one of them has no features or a field of `config` is outside its range.
@@ -86,7 +86,7 @@ impl<S: Scalar> AssociativeMemory<S> {
         self.soinn.observe(&[key, response].concat())
     }
 
-    /// The response to the nearest key.
+    /// Returns the response to the nearest key.
     ///
     /// # Errors
     /// If `key` is invalid or nothing was learnt yet.
@@ -97,7 +97,7 @@ impl<S: Scalar> AssociativeMemory<S> {
         self.recall(Part::Key, key)
     }
 
-    /// The key of the nearest response.
+    /// Returns the key of the nearest response.
     ///
     /// # Errors
     /// If `response` is invalid or nothing was learnt yet.
@@ -105,8 +105,8 @@ impl<S: Scalar> AssociativeMemory<S> {
         self.recall(Part::Response, response)
     }
 
-    /// All responses to keys not farther than `reach`, one for each cluster of associations, the
-    /// nearest key first.
+    /// Returns all responses to keys not farther than `reach`, one for each cluster of
+    /// associations, the nearest key first.
     ///
     /// # Errors
     /// If `key` is invalid or nothing was learnt yet.
@@ -117,8 +117,8 @@ impl<S: Scalar> AssociativeMemory<S> {
         self.recall_all(Part::Key, key, reach)
     }
 
-    /// All keys of responses not farther than `reach`, one for each cluster of associations, the
-    /// nearest response first.
+    /// Returns all keys of responses not farther than `reach`, one for each cluster of
+    /// associations, the nearest response first.
     ///
     /// # Errors
     /// If `response` is invalid or nothing was learnt yet.
@@ -126,8 +126,8 @@ impl<S: Scalar> AssociativeMemory<S> {
         self.recall_all(Part::Response, response, reach)
     }
 
-    /// The response to `start`, the response to that, and so on, until no key lies within `reach`
-    /// of a response. A memory of a ring goes round for ever.
+    /// Returns the response to `start`, the response to that, and so on, until no key lies within
+    /// `reach` of a response. A memory of a ring goes round forever.
     ///
     /// # Errors
     /// If `start` is invalid, responses have another number of features than keys, or nothing was
@@ -142,7 +142,8 @@ impl<S: Scalar> AssociativeMemory<S> {
         })
     }
 
-    /// The SOINN below; the features of its units are those of a key, then those of its response.
+    /// Returns the SOINN below; the features of its units are those of a key, then those of its
+    /// response.
     pub fn soinn(&self) -> &Soinn<S> {
         &self.soinn
     }
@@ -151,7 +152,7 @@ impl<S: Scalar> AssociativeMemory<S> {
         self.soinn.network()
     }
 
-    /// The features of a part.
+    /// Returns the features of a part.
     fn features(&self, part: Part) -> Range<usize> {
         match part {
             Part::Key => 0..self.key_dimension,
@@ -163,7 +164,7 @@ impl<S: Scalar> AssociativeMemory<S> {
         InputError::check_size(self.features(part).len(), values.len())
     }
 
-    /// The other part of the association whose `part` is nearest.
+    /// Returns the other part of the association whose `part` is nearest.
     fn recall(&self, part: Part, asked: &[S]) -> Result<Recall<S>, InputError> {
         let (input, mask) = self.query(part, asked)?;
         let unit = self.network().nearest_two_masked(&input, &mask)?.first;
@@ -208,7 +209,7 @@ impl<S: Scalar> AssociativeMemory<S> {
         Ok(recalls)
     }
 
-    /// The whole vector with nothing but the asked part, and the mask that lets it through.
+    /// Returns the whole vector with nothing but the asked part, and the mask that lets it through.
     fn query(&self, part: Part, asked: &[S]) -> Result<(Vec<S>, Vec<bool>), InputError> {
         self.check_size(part, asked)?;
         let dimension = self.network().dimension();
@@ -218,7 +219,7 @@ impl<S: Scalar> AssociativeMemory<S> {
         Ok((input, mask))
     }
 
-    /// A part of a unit; nothing if there is no such unit.
+    /// Returns a part of a unit; nothing if there is no such unit.
     fn part(&self, part: Part, id: UnitId) -> impl Iterator<Item = S> + '_ {
         let features = self.features(part);
         let values = self.network().prototype(id).into_iter().flatten();

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::UnitId;
 
-/// Why an input was refused. The network is as it was before.
+/// Reason why an input was refused. The network is as it was before.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum InputError {
@@ -23,7 +23,7 @@ pub enum InputError {
     NotFinite {
         /// Its number, from 0.
         feature: usize,
-        /// What it is.
+        /// The value given.
         value: f64,
     },
     /// A feature is so large that a squared distance could overflow.
@@ -33,7 +33,7 @@ pub enum InputError {
     TooLarge {
         /// Its number, from 0.
         feature: usize,
-        /// What it is.
+        /// The value given.
         value: f64,
         /// The largest magnitude allowed.
         limit: f64,
@@ -69,7 +69,7 @@ impl InputError {
     }
 }
 
-/// Why a quantizer cannot be made as asked for.
+/// Reason why a quantizer cannot be made as asked for.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum QuantizerConfigError {
@@ -79,9 +79,9 @@ pub enum QuantizerConfigError {
     /// A field, or a number that was saved, is outside its range.
     #[error("{field} is {value} but has to be {range}")]
     OutOfRange {
-        /// The name of the field, or what it is.
+        /// The name of the field or of the quantity.
         field: &'static str,
-        /// What it is.
+        /// The value given.
         value: f64,
         /// What it may be, in words.
         range: &'static str,
@@ -151,7 +151,7 @@ pub(crate) fn within(
 #[error("the network has no unit {0}: it was removed, or never there")]
 pub struct UnknownUnit(pub UnitId);
 
-/// Why what was saved cannot be resumed.
+/// Reason why what was saved cannot be resumed.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SnapshotError {
@@ -201,8 +201,8 @@ pub enum SnapshotError {
         /// The id of the next unit to come.
         next_id: u32,
     },
-    /// An edge has an end that is no unit, joins a unit to itself or stands there twice.
-    #[error("the edge {}–{} has an end that is no unit, or joins a unit to itself, or comes twice", .ends.0, .ends.1)]
+    /// An edge has an end that is not a unit, joins a unit to itself or stands there twice.
+    #[error("the edge {}–{} has an end that is not a unit, or joins a unit to itself, or comes twice", .ends.0, .ends.1)]
     BadEdge {
         /// The ends.
         ends: (UnitId, UnitId),

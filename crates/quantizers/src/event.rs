@@ -47,7 +47,7 @@ impl Events {
         self.listening = true;
     }
 
-    /// The events since [`listen`](Self::listen) or the last call, oldest first.
+    /// Returns the events since [`listen`](Self::listen) or the last call, oldest first.
     pub fn drain(&mut self) -> impl ExactSizeIterator<Item = Event> + '_ {
         self.kept.drain(..)
     }

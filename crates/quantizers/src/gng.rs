@@ -57,7 +57,7 @@ struct Sums {
 }
 
 impl<S: Scalar> Gng<S> {
-    /// An empty network for inputs of `dimension` features.
+    /// Returns an empty network for inputs of `dimension` features.
     ///
     /// # Errors
     /// If the dimension is 0 or a field of `config` is outside its range.
@@ -65,7 +65,8 @@ impl<S: Scalar> Gng<S> {
         Self::around(Network::new(dimension)?, config)
     }
 
-    /// An empty network whose squared distance is Σ w (x − p)², with one weight w a feature.
+    /// Returns an empty network whose squared distance is Σ w (x − p)², with one weight w a
+    /// feature.
     ///
     /// # Errors
     /// If there are no weights, one is negative or not finite, none is above zero, or a field of
@@ -117,12 +118,12 @@ impl<S: Scalar> Gng<S> {
         self.network.set_search(search, lanes);
     }
 
-    /// What was chosen.
+    /// Returns what was chosen.
     pub fn config(&self) -> &GngConfig {
         &self.config
     }
 
-    /// How many inputs were learnt, not counting those before there were two units.
+    /// Returns how many inputs were learnt, not counting those before there were two units.
     pub fn steps(&self) -> u64 {
         self.steps
     }
@@ -152,7 +153,8 @@ impl<S: Scalar> Gng<S> {
         Ok(())
     }
 
-    /// The error a unit has gathered, decayed; squared units of the features for squared errors.
+    /// Returns the error a unit has gathered, decayed; squared units of the features for squared
+    /// errors.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -161,8 +163,8 @@ impl<S: Scalar> Gng<S> {
         Ok(self.decay.value(self.sums[slot].error))
     }
 
-    /// The utility a unit has gathered, decayed as errors are; 0 unless [`GngConfig::utility`] is
-    /// chosen.
+    /// Returns the utility a unit has gathered, decayed as errors are; 0 unless
+    /// [`GngConfig::utility`] is chosen.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -171,7 +173,8 @@ impl<S: Scalar> Gng<S> {
         Ok(self.decay.value(self.sums[slot].utility))
     }
 
-    /// The mean of all units' errors, which the [`GrowthGate`] looks at; 0 if there are no units.
+    /// Returns the mean of all units' errors, which the [`GrowthGate`] looks at; 0 if there are no
+    /// units.
     ///
     /// # Complexity
     /// Units.
@@ -180,7 +183,7 @@ impl<S: Scalar> Gng<S> {
         self.decay.value(sum) / self.network.len().max(1) as f64
     }
 
-    /// A unit joined to another.
+    /// Returns a unit joined to another.
     fn seed(&mut self, prototype: &[S], other: Option<usize>) -> usize {
         let slot = self.network.insert(prototype);
         self.sums.push(Sums::default());
@@ -190,7 +193,7 @@ impl<S: Scalar> Gng<S> {
         slot
     }
 
-    /// What to do while there are fewer than two units.
+    /// Returns what to do while there are fewer than two units.
     #[cold]
     fn begin(&mut self, input: &[S], best: Best<S>) -> NearestTwo<S> {
         let met = self.network.found(best.first);

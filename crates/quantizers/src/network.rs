@@ -59,12 +59,12 @@ pub struct Network<S> {
 }
 
 impl<S: Scalar> Network<S> {
-    /// An empty network for inputs of `dimension` features.
+    /// Returns an empty network for inputs of `dimension` features.
     pub(crate) fn new(dimension: usize) -> Result<Self, QuantizerConfigError> {
         Ok(Self::with_metric(Metric::uniform(dimension)?))
     }
 
-    /// An empty network whose distance is Σ w (x − p)².
+    /// Returns an empty network whose distance is Σ w (x − p)².
     pub(crate) fn weighted(weights: &[S]) -> Result<Self, QuantizerConfigError> {
         Ok(Self::with_metric(Metric::weighted(weights)?))
     }
@@ -86,37 +86,37 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// How many features an input has.
+    /// Returns how many features an input has.
     pub fn dimension(&self) -> usize {
         self.prototypes.dimension()
     }
 
-    /// The weights of the features in the squared distance; none if all are 1.
+    /// Returns the weights of the features in the squared distance, or `None` if all are 1.
     pub fn weights(&self) -> Option<&[S]> {
         self.metric.weights()
     }
 
-    /// How many units there are.
+    /// Returns how many units there are.
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether there are no units, which is so until the first input.
+    /// Returns whether there are no units, which is so until the first input.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// Whether the unit is there.
+    /// Returns whether the unit is there.
     pub fn contains(&self, id: UnitId) -> bool {
         self.slot(id).is_ok()
     }
 
-    /// The ids of all units, ascending.
+    /// Returns the ids of all units, ascending.
     pub fn ids(&self) -> impl Iterator<Item = UnitId> + '_ {
         self.slots().map(|slot| self.ids[slot])
     }
 
-    /// The features of a unit's prototype, in order.
+    /// Returns the features of a unit's prototype, in order.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -127,7 +127,7 @@ impl<S: Scalar> Network<S> {
         Ok(self.values(self.slot(id)?))
     }
 
-    /// The units that share an edge with a unit, ascending.
+    /// Returns the units that share an edge with a unit, ascending.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -136,7 +136,7 @@ impl<S: Scalar> Network<S> {
         Ok(self.links.neighbours(slot).map(|other| self.ids[other]))
     }
 
-    /// All edges, each once with the smaller id first, in ascending order.
+    /// Returns all edges, each once with the smaller id first, in ascending order.
     pub fn edges(&self) -> impl Iterator<Item = Edge> + '_ {
         self.slots().flat_map(move |slot| {
             self.links
@@ -149,7 +149,7 @@ impl<S: Scalar> Network<S> {
         })
     }
 
-    /// The unit nearest to `input`, the one with the smaller id of equally near ones.
+    /// Returns the unit nearest to `input`, the one with the smaller id of equally near ones.
     ///
     /// # Errors
     /// If the input is invalid or there are no units.
@@ -160,7 +160,7 @@ impl<S: Scalar> Network<S> {
         Ok(self.nearest_two(input)?.first)
     }
 
-    /// The two units nearest to `input`; ties go to the smaller id.
+    /// Returns the two units nearest to `input`; ties go to the smaller id.
     ///
     /// # Errors
     /// As [`nearest`](Self::nearest).
@@ -169,8 +169,8 @@ impl<S: Scalar> Network<S> {
         self.named(self.search(input))
     }
 
-    /// The two units nearest to `input` in the features whose `mask` is true. The others of `input`
-    /// are not read, and may be anything. Weights hold as ever.
+    /// Returns the two units nearest to `input` in the features whose `mask` is true. The others of
+    /// `input` are not read, and may be anything. Weights hold as ever.
     ///
     /// # Errors
     /// As [`nearest`](Self::nearest), or if the mask has the wrong size or leaves nothing to
@@ -189,7 +189,7 @@ impl<S: Scalar> Network<S> {
         self.named(best)
     }
 
-    /// Where the unit is until gaps are closed.
+    /// Returns where the unit is until gaps are closed.
     pub(crate) fn slot(&self, id: UnitId) -> Result<usize, UnknownUnit> {
         match self.ids.binary_search(&id) {
             Ok(slot) if self.live[slot] => Ok(slot),
@@ -234,7 +234,7 @@ impl<S: Scalar> Network<S> {
         self.metric.check_prototype(prototype)
     }
 
-    /// The two nearest slots to a valid input.
+    /// Returns the two nearest slots to a valid input.
     pub(crate) fn search(&self, input: &[S]) -> Best<S> {
         let mut best = Best::none();
         match self.metric.weights() {
@@ -255,7 +255,7 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// The unit nearest to another unit, if there are two.
+    /// Returns the unit nearest to another unit, if there are two.
     pub(crate) fn nearest_other(&self, slot: usize) -> Option<usize> {
         let prototype: Vec<S> = self.values(slot).collect();
         let best = self.search(&prototype);
@@ -271,7 +271,7 @@ impl<S: Scalar> Network<S> {
         Some(NearestTwo { first, second })
     }
 
-    /// A candidate by name, if there was one.
+    /// Returns a candidate by name, if there was one.
     pub(crate) fn found(&self, candidate: Candidate<S>) -> Option<Nearest<S>> {
         let id = self.ids.get(candidate.slot as usize)?;
         Some(Nearest {
@@ -280,7 +280,7 @@ impl<S: Scalar> Network<S> {
         })
     }
 
-    /// A unit at distance 0: the one that was made of the input.
+    /// Returns a unit at distance 0: the one that was made of the input.
     pub(crate) fn at(&self, slot: usize) -> Nearest<S> {
         Nearest {
             id: self.ids[slot],
@@ -288,7 +288,7 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// The squared distance between two units.
+    /// Returns the squared distance between two units.
     #[inline]
     pub(crate) fn squared_distance(&self, a: usize, b: usize) -> S {
         let mut sum = S::ZERO;
@@ -313,8 +313,8 @@ impl<S: Scalar> Network<S> {
         squares.sum()
     }
 
-    /// The edge on which a unit is needed most: from the unit of largest error, the first of
-    /// equals, to its neighbour of largest error.
+    /// Returns the edge on which a unit is needed most: from the unit of largest error, the first
+    /// of equals, to its neighbour of largest error.
     pub(crate) fn worst_edge(&self, error: impl Fn(usize) -> f64) -> Option<(usize, usize)> {
         let worse = |worst, slot| {
             if error(slot) > error(worst) {
@@ -327,7 +327,7 @@ impl<S: Scalar> Network<S> {
         Some((worst, self.links.neighbours(worst).reduce(worse)?))
     }
 
-    /// The slots of all units, ascending.
+    /// Returns the slots of all units, ascending.
     pub(crate) fn slots(&self) -> impl DoubleEndedIterator<Item = usize> + '_ {
         self.live
             .iter()
@@ -344,12 +344,12 @@ impl<S: Scalar> Network<S> {
         self.prototypes.values(slot)
     }
 
-    /// Whether another unit can be named. After 2³² − 1 there are no more ids.
+    /// Returns whether another unit can be named. After 2³² − 1 there are no more ids.
     pub(crate) fn has_ids_left(&self) -> bool {
         self.next_id < u32::MAX
     }
 
-    /// A new unit at `prototype`, without edges; its slot is the last.
+    /// Returns a new unit at `prototype`, without edges; its slot is the last.
     pub(crate) fn insert(&mut self, prototype: &[S]) -> usize {
         let slot = self.prototypes.push();
         for (feature, value) in prototype.iter().enumerate() {

@@ -17,13 +17,13 @@ pub trait Quantizer<S: Scalar> {
     /// or so large that squares overflow. Nothing is learnt then.
     fn observe(&mut self, input: &[S]) -> Result<NearestTwo<S>, InputError>;
 
-    /// The units and their edges.
+    /// Returns the units and their edges.
     fn network(&self) -> &Network<S>;
 
-    /// What happens to units and edges, for those who listen.
+    /// Returns what happens to units and edges, for those who listen.
     fn events(&mut self) -> &mut Events;
 
-    /// The unit nearest to `input`.
+    /// Returns the unit nearest to `input`.
     ///
     /// # Errors
     /// If the input is invalid, as for [`observe`](Self::observe), or there are no units.
@@ -31,7 +31,7 @@ pub trait Quantizer<S: Scalar> {
         self.network().nearest(input)
     }
 
-    /// The two units nearest to `input`.
+    /// Returns the two units nearest to `input`.
     ///
     /// # Errors
     /// As [`nearest`](Self::nearest).
@@ -39,7 +39,7 @@ pub trait Quantizer<S: Scalar> {
         self.network().nearest_two(input)
     }
 
-    /// A copy of the units and edges as they are now.
+    /// Returns a copy of the units and edges as they are now.
     fn snapshot(&self) -> NetworkSnapshot<S> {
         self.network().snapshot()
     }

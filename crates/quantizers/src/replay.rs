@@ -51,7 +51,7 @@ use crate::{
 pub struct ReplayQuantizer<S, Q> {
     config: ReplayConfig,
     quantizer: Q,
-    /// Remembered inputs, one after the other.
+    /// Remembered inputs, one by one.
     memory: Vec<S>,
     /// An input on its way from the memory to the quantizer; kept so as not to allocate.
     drawn: Vec<S>,
@@ -89,8 +89,8 @@ pub enum ReplayMemory {
 }
 
 impl ReplayConfig {
-    /// A reservoir of 10,000 inputs, of which 8 are learnt for each new one: good for streams of
-    /// every kind that we tried (`docs/quantizers.md`). No paper stands behind it.
+    /// Returns a reservoir of 10,000 inputs, of which 8 are learnt for each new one: good for
+    /// streams of every kind that we tried (`docs/quantizers.md`). No paper stands behind it.
     pub fn measured(seed: u64) -> Self {
         Self {
             capacity: 10_000,
@@ -123,17 +123,17 @@ impl<S: Scalar, Q: Quantizer<S>> ReplayQuantizer<S, Q> {
         })
     }
 
-    /// The quantizer that learns.
+    /// Returns the quantizer that learns.
     pub fn quantizer(&self) -> &Q {
         &self.quantizer
     }
 
-    /// The quantizer that has learnt; what was remembered is forgotten.
+    /// Returns the quantizer that has learnt; what was remembered is forgotten.
     pub fn into_quantizer(self) -> Q {
         self.quantizer
     }
 
-    /// How many inputs are remembered.
+    /// Returns how many inputs are remembered.
     pub fn remembered(&self) -> usize {
         self.memory.len() / self.network().dimension()
     }
@@ -180,7 +180,7 @@ pub struct SavedReplay<S, Q> {
     pub config: ReplayConfig,
     /// The quantizer that learns.
     pub quantizer: Q,
-    /// Remembered inputs, one after the other.
+    /// Remembered inputs, one by one.
     pub memory: Vec<S>,
     /// How many inputs there were.
     pub seen: u64,

@@ -27,9 +27,9 @@ pub trait Scalar:
     /// +∞.
     const INFINITY: Self;
 
-    /// The nearest value of this type.
+    /// Returns the nearest value of this type.
     fn from_f64(value: f64) -> Self;
-    /// The same value, exactly.
+    /// Returns the same value, exactly.
     fn to_f64(self) -> f64;
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool {

@@ -71,7 +71,7 @@ pub struct Tally {
     /// The step at which it came, or the older of the two it was put between, from which it has
     /// wins.
     pub since: u64,
-    /// R: E / M after the last insertion it had part in; none if there was none.
+    /// R: E / M after the last insertion it had part in, or `None` if there was none.
     pub radius: Option<f64>,
 }
 
@@ -90,7 +90,7 @@ impl Tally {
         self.error / self.wins
     }
 
-    /// Whether it is worse off than it remembers.
+    /// Returns whether it is worse off than it remembers.
     fn has_grown(&self) -> bool {
         self.radius.is_some_and(|radius| self.mean_error() > radius)
     }
@@ -123,7 +123,7 @@ impl Tally {
 }
 
 impl<S: Scalar> Soinn<S> {
-    /// An empty network for inputs of `dimension` features.
+    /// Returns an empty network for inputs of `dimension` features.
     ///
     /// # Errors
     /// If the dimension is 0 or a field of `config` is outside its range.
@@ -131,7 +131,8 @@ impl<S: Scalar> Soinn<S> {
         Self::around(Network::new(dimension)?, config)
     }
 
-    /// An empty network whose squared distance is Σ w (x − p)², with one weight w a feature.
+    /// Returns an empty network whose squared distance is Σ w (x − p)², with one weight w a
+    /// feature.
     ///
     /// # Errors
     /// If there are no weights, one is negative or not finite, none is above zero, or a field of
@@ -156,12 +157,12 @@ impl<S: Scalar> Soinn<S> {
         self.network.set_search(search, lanes);
     }
 
-    /// What was chosen.
+    /// Returns what was chosen.
     pub fn config(&self) -> &SoinnConfig {
         &self.config
     }
 
-    /// How many inputs were learnt, not counting those before there were two units.
+    /// Returns how many inputs were learnt, not counting those before there were two units.
     pub fn steps(&self) -> u64 {
         self.steps
     }
@@ -211,7 +212,7 @@ impl<S: Scalar> Soinn<S> {
         met
     }
 
-    /// What to do while there are fewer than two units.
+    /// Returns what to do while there are fewer than two units.
     #[cold]
     fn begin(&mut self, input: &[S], best: Best<S>) -> NearestTwo<S> {
         match self.network.found(best.first) {
@@ -233,7 +234,8 @@ impl<S: Scalar> Soinn<S> {
         self.network.insert(input)
     }
 
-    /// Whether an input lies within the similarity threshold of a unit. (Algorithms 3.2 and 3.3.)
+    /// Returns whether an input lies within the similarity threshold of a unit. (Algorithms 3.2 and
+    /// 3.3.)
     fn is_similar(&self, unit: Candidate<S>) -> bool {
         let (slot, squared) = (unit.slot as usize, unit.squared_distance);
         let reaches = |other| squared <= self.network.squared_distance(slot, other);

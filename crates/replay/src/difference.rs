@@ -56,7 +56,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Where two traces part; none if they are the same to the bit. O(steps).
+/// Returns where two traces part, or `None` if they are the same to the bit. O(steps).
 pub(super) fn first_difference<M: Portrait>(
     first: &Trace<M>,
     second: &Trace<M>,
@@ -109,8 +109,8 @@ fn of_robot<M: Portrait>(
     }
 }
 
-/// The shortest text that reads back as a number differs wherever its bits do, as in the trace
-/// itself.
+/// Returns the shortest text that reads back as a number differs wherever its bits do, as in the
+/// trace itself.
 fn same<T: Serialize>(one: &T, other: &T) -> bool {
     match (serde_json::to_string(one), serde_json::to_string(other)) {
         (Ok(one), Ok(other)) => one == other,

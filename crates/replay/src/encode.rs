@@ -15,7 +15,7 @@ use super::{
 const FORMAT: &str = "tolman-replay";
 const VERSION: u32 = 1;
 
-/// Why a replay cannot be written.
+/// Reason why a replay cannot be written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EncodeError {
@@ -28,7 +28,7 @@ pub enum EncodeError {
         /// What it is, s.
         step_s: f64,
     },
-    /// A number is none.
+    /// A number is not finite.
     #[error("{what} {index} holds a number that is not finite")]
     NotFinite {
         /// Of what.
@@ -86,9 +86,9 @@ pub enum EncodeError {
     },
 }
 
-/// The replay as JSON that may stand between `<script type="application/json">` and `</script>`: no
-/// `<` is in it. At most 9 characters a pose that lies near the one before it, and a few hundred
-/// for each robot.
+/// Returns the replay as JSON that may stand between `<script type="application/json">` and
+/// `</script>`: no `<` is in it. At most 9 characters a pose that lies near the one before it, and
+/// a few hundred for each robot.
 ///
 /// Linear in the size of the replay.
 ///
@@ -261,7 +261,7 @@ fn map(map: &MapGrowth) -> Result<Value, EncodeError> {
     }))
 }
 
-/// What is empty is left out: maps have many nodes, and most say little.
+/// Returns what is empty is left out: maps have many nodes, and most say little.
 fn node(node: &MapNode) -> Result<Value, EncodeError> {
     ascend("move of a node", node.moves.iter().map(|moved| moved.step))?;
     let moves = node.moves.iter();
@@ -306,7 +306,7 @@ fn belief(belief: &Belief) -> Result<Value, EncodeError> {
     Ok(json!({ "name": belief.name, "entries": entries.collect::<Vec<Value>>() }))
 }
 
-/// What is not finite becomes null, which the player leaves out.
+/// Returns what is not finite becomes null, which the player leaves out.
 fn shape(shape: &Shape) -> Value {
     match *shape {
         Shape::Point { position, weight } => {
@@ -384,7 +384,7 @@ fn series(series: &TimeSeries) -> Result<Value, EncodeError> {
     Ok(object)
 }
 
-/// The texts once each, in the order they first appear, and their numbers by step.
+/// Returns the texts once each, in the order they first appear, and their numbers by step.
 fn notes(notes: &Notes) -> Result<Value, EncodeError> {
     let steps = steps("note", notes.notes.iter().map(|note| note.step))?;
     let mut texts: Vec<&str> = Vec::new();
@@ -418,12 +418,12 @@ fn facts(facts: &[Fact]) -> Value {
         .collect()
 }
 
-/// A position to a tenth of a millimetre.
+/// Returns a position to a tenth of a millimetre.
 fn place(point: Point) -> Value {
     json!([short(point.x), short(point.y)])
 }
 
-/// A number to four digits behind the point.
+/// Returns a number to four digits behind the point.
 fn short(number: f64) -> f64 {
     libm::round(number * 1e4) / 1e4
 }
@@ -449,7 +449,7 @@ fn all_finite<T>(what: &str, all: &[T], holds: impl Fn(&T) -> bool) -> Result<()
     }
 }
 
-/// The coordinates of points, one after the other.
+/// Returns the coordinates of points, one by one.
 fn coordinates<'a>(points: impl IntoIterator<Item = &'a Point>) -> impl Iterator<Item = f64> {
     points.into_iter().flat_map(|at| [at.x, at.y])
 }
@@ -482,7 +482,7 @@ mod tests {
     use super::*;
     use crate::{BeliefAt, FieldChange, NodeMove, Note, Sample, Scenery, ZoneKind};
 
-    /// A replay with every layer there is.
+    /// Returns a replay with every layer there is.
     fn full() -> Replay {
         let at = |x: f64| Point::new(x, 0.5);
         let pose = |x| Pose::new(at(x), Heading::from_radians(3.0 + x));

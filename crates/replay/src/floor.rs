@@ -18,8 +18,8 @@ pub struct Floor<'a> {
 }
 
 impl<'a> Floor<'a> {
-    /// What can be reached from `start`; nothing in a world that was not made from a maze, or from
-    /// outside of it. Doors do not count as walls. O(cells) rays.
+    /// Returns what can be reached from `start`; nothing in a world that was not made from a maze,
+    /// or from outside of it. Doors do not count as walls. O(cells) rays.
     pub fn from(world: &'a World, start: Point) -> Option<Self> {
         let (grid, first) = (world.grid()?, world.cell_at(start)?);
         let mut floor = Self {
@@ -44,7 +44,7 @@ impl<'a> Floor<'a> {
         Some(floor)
     }
 
-    /// Whether nothing stands between the middle of a cell and that of its neighbour.
+    /// Returns whether nothing stands between the middle of a cell and that of its neighbour.
     fn is_open(&self, cell: Cell, direction: Direction) -> bool {
         let (east, north) = direction.step();
         let direction = Vector::new(f64::from(east), f64::from(north));
@@ -52,7 +52,7 @@ impl<'a> Floor<'a> {
         caster.cast(self.world.cell_centre(cell), direction, self.pitch) > 0.9 * self.pitch
     }
 
-    /// The cells that cannot be reached, as few solid rectangles.
+    /// Returns the cells that cannot be reached, as few solid rectangles.
     pub fn solid(&self) -> Vec<SceneryZone> {
         // Runs of each row from the south, which grow northwards while the next row has the same.
         let mut done: Vec<(Cell, Cell)> = Vec::new();
@@ -76,7 +76,7 @@ impl<'a> Floor<'a> {
             .collect()
     }
 
-    /// The first and last column of each run of unreachable cells in a row.
+    /// Returns the first and last column of each run of unreachable cells in a row.
     fn solid_runs(&self, y: u16) -> Vec<(u16, u16)> {
         let mut runs: Vec<(u16, u16)> = Vec::new();
         for x in 0..self.grid.width() {
@@ -91,7 +91,7 @@ impl<'a> Floor<'a> {
         runs
     }
 
-    /// The rectangle from its south-western to its north-eastern cell.
+    /// Returns the rectangle from its south-western to its north-eastern cell.
     fn zone(&self, first: Cell, last: Cell) -> SceneryZone {
         let half = Vector::new(0.5 * self.pitch, 0.5 * self.pitch);
         let min = self.world.cell_centre(first) - half;
@@ -103,7 +103,8 @@ impl<'a> Floor<'a> {
         }
     }
 
-    /// The share of the reachable cells that lay under the robot's centre so far, step by step.
+    /// Returns the share of the reachable cells that lay under the robot's centre so far, step by
+    /// step.
     pub fn coverage(&self, path: impl IntoIterator<Item = Point>) -> TimeSeries {
         let all = self.reachable.iter().filter(|cell| **cell).count();
         let mut seen = vec![false; self.reachable.len()];

@@ -41,7 +41,7 @@ pub struct MapNode {
 }
 
 impl MapNode {
-    /// A node that lives for ever, without label, facts, visits and exemplar.
+    /// Returns a node that lives forever, without label, facts, visits and exemplar.
     #[must_use]
     pub const fn new(id: u32, position: Point, born: u32) -> Self {
         Self {
@@ -57,7 +57,7 @@ impl MapNode {
         }
     }
 
-    /// Where it was drawn last.
+    /// Returns where it was drawn last.
     #[must_use]
     pub fn latest(&self) -> Point {
         let last = self.moves.last();
@@ -110,7 +110,7 @@ pub struct MapEdge {
 }
 
 impl MapEdge {
-    /// A passage that stays, without a label.
+    /// Returns a passage that stays, without a label.
     #[must_use]
     pub const fn new(a: u32, b: u32, born: u32) -> Self {
         Self {
@@ -263,7 +263,7 @@ pub struct FieldChange {
     pub step: u32,
     /// Which cell.
     pub cell: u32,
-    /// Its new value; none if it has none any more.
+    /// Its new value, or `None` if it has none any more.
     pub value: Option<f64>,
 }
 

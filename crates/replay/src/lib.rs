@@ -29,6 +29,7 @@
 extern crate alloc;
 
 // What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use tolman_draw as draw;
 pub use tolman_geom as geom;
 pub use tolman_maze as maze;
 pub use tolman_robot as robot;
@@ -40,6 +41,7 @@ mod encode;
 mod floor;
 mod knowledge;
 mod model;
+mod moving_picture;
 mod of_trace;
 mod page;
 mod rounding;
@@ -53,6 +55,7 @@ pub use knowledge::{
     Marks, NodeMove, Note, Notes, Sample, Shape, TimeSeries,
 };
 pub use model::{Fact, Replay, RobotTrack, Scans};
+pub use moving_picture::{Chapter, moving_picture};
 pub use of_trace::{CompareError, Portrait, Trace, TraceComparison};
 pub use page::{is_replay, page, script, style};
 pub use scenery::{DoorChange, Scenery, SceneryDoor, SceneryZone, ZoneKind};

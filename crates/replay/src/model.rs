@@ -24,7 +24,7 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// A replay without facts and marks.
+    /// Returns a replay without facts and marks.
     #[must_use]
     pub fn new(
         title: impl Into<String>,
@@ -49,7 +49,7 @@ impl Replay {
         self
     }
 
-    /// The last step: that of the longest track.
+    /// Returns the last step: that of the longest track.
     #[must_use]
     pub fn steps(&self) -> usize {
         let steps = |track: &RobotTrack| track.poses.len().saturating_sub(1);
@@ -67,7 +67,7 @@ pub struct Fact {
 }
 
 impl Fact {
-    /// A fact.
+    /// Returns a fact.
     pub fn new(name: impl Into<String>, value: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -83,7 +83,7 @@ pub struct RobotTrack {
     pub name: String,
     /// Its outline.
     pub body: Body,
-    /// Its range sensor, whose beams the player casts on the walls; none for a robot without.
+    /// Its range sensor, whose beams the player casts on the walls, or `None` for a robot without.
     pub ring: Option<Ring>,
     /// What the range sensor really read, for runs whose walls are not known; then no beams are
     /// cast.
@@ -107,7 +107,7 @@ pub struct RobotTrack {
 }
 
 impl RobotTrack {
-    /// A track of poses alone.
+    /// Returns a track of poses alone.
     #[must_use]
     pub fn new(name: impl Into<String>, body: Body, poses: Vec<Pose>) -> Self {
         Self {

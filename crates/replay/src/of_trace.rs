@@ -23,7 +23,7 @@ pub trait Portrait: Recordable {
     /// Its range sensor, if it has one.
     fn ring(config: &Self::Config) -> Option<Ring>;
 
-    /// The parts of a command by name, as shares of their full rates.
+    /// Returns the parts of a command by name, as shares of their full rates.
     fn parts(command: &Self::Command) -> Vec<(&'static str, f64)>;
 }
 
@@ -98,7 +98,7 @@ pub(super) struct RobotTrace<M: Recordable> {
     lifts: Vec<u32>,
 }
 
-/// Why traces cannot be shown on one slider.
+/// Reason why traces cannot be shown on one slider.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CompareError {
@@ -134,7 +134,7 @@ pub enum CompareError {
         trace: String,
         /// Which robot, from 0.
         robot: usize,
-        /// Why.
+        /// The underlying error.
         source: Box<dyn core::error::Error + Send + Sync>,
     },
 }
@@ -146,7 +146,7 @@ pub struct TraceComparison {
     pub first: String,
     /// The other's.
     pub second: String,
-    /// Where they part; none if they are the same to the bit.
+    /// Where they part, or `None` if they are the same to the bit.
     pub difference: Option<Difference>,
 }
 
@@ -298,15 +298,15 @@ impl<M: Portrait> RobotTrace<M> {
     }
 }
 
-/// The first step at which a robot is where it was to go.
+/// Returns the first step at which a robot is where it was to go.
 fn arrival(poses: &[Pose], there: impl Fn(&Pose) -> bool) -> Marks {
     let first = poses.iter().position(there);
     Marks::new(Mark::Arrival, "arrived", first.map(|step| step as u32))
 }
 
 impl Replay {
-    /// The replay of one trace, or of several in the same world on one slider, with how each
-    /// compares to the first. The first step at which one differs is marked.
+    /// Returns the replay of one trace, or of several in the same world on one slider, with how
+    /// each compares to the first. The first step at which one differs is marked.
     ///
     /// Linear in the length of the traces; nothing is simulated.
     ///

@@ -7,20 +7,20 @@ use super::{EncodeError, Replay, json};
 /// What the page says of itself, so that a command knows its own files again.
 const GENERATOR: &str = "tolman replay";
 
-/// The player, for a page that opens replays itself: it defines `TolmanReplay`. What is there for
-/// readers of the source is left out.
+/// Returns the player, for a page that opens replays itself: it defines `TolmanReplay`. What is
+/// there for readers of the source is left out.
 #[must_use]
 pub fn script() -> String {
     compact(include_str!("player.js"))
 }
 
-/// The rules the player is drawn by. All lie below `.tolman-replay`.
+/// Returns the rules the player is drawn by. All lie below `.tolman-replay`.
 #[must_use]
 pub const fn style() -> &'static str {
     include_str!("player.css")
 }
 
-/// The whole file: it opens in any browser and needs no network.
+/// Returns the whole file: it opens in any browser and needs no network.
 ///
 /// # Errors
 /// As [`json`].
@@ -53,7 +53,8 @@ pub fn page(replay: &Replay) -> Result<String, EncodeError> {
     Ok(page.into_string())
 }
 
-/// Whether a file that begins with these bytes was made by [`page`]. The first thousand are enough.
+/// Returns whether a file that begins with these bytes was made by [`page`]. The first thousand are
+/// enough.
 #[must_use]
 pub fn is_replay(beginning: &[u8]) -> bool {
     let mark = format!("name=\"generator\" content=\"{GENERATOR}\"");
@@ -96,8 +97,8 @@ fn compact(source: &str) -> String {
     out
 }
 
-/// Whether no space is needed beside this. Plus and minus are not among them: two of them are
-/// something else.
+/// Returns whether no space is needed beside this. Plus and minus are not among them: two of them
+/// are something else.
 fn separates(c: char) -> bool {
     ",;:{}()[]?=<>*&|!".contains(c)
 }
@@ -110,7 +111,7 @@ mod tests {
     use super::*;
     use crate::{RobotTrack, Scenery};
 
-    /// A replay whose every text tries to end the script it stands in.
+    /// Returns a replay whose every text tries to end the script it stands in.
     fn hostile() -> Replay {
         let text = "</script><script>alert(1)</script><!--";
         let poses = vec![Pose::new(Point::origin(), Heading::EAST)];

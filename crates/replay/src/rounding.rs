@@ -11,7 +11,7 @@ const FAR: f64 = 65535.0;
 /// A full turn; it is the same as none.
 const TURN: f64 = 65536.0;
 
-/// A pose inside a rectangle as x, y and heading, rounded to 16 bits each.
+/// Returns a pose inside a rectangle as x, y and heading, rounded to 16 bits each.
 ///
 /// A coordinate is off by at most half of 1/65535 of the rectangle's side (0.13 mm in a maze of 17
 /// m), a heading by at most π/65536 (0.003°).
@@ -32,8 +32,8 @@ pub(super) fn rounded(&Bounds { min, max }: &Bounds, pose: Pose) -> [u16; 3] {
     ]
 }
 
-/// The smallest rectangle that holds all of these, one metre wide and high if it is a point or
-/// nothing.
+/// Returns the smallest rectangle that holds all of these, one metre wide and high if it is a point
+/// or nothing.
 pub(super) fn bounds_of(points: impl IntoIterator<Item = Point>) -> Bounds {
     let bounds = Bounds::of(points);
     if bounds.width() > 0.0 || bounds.height() > 0.0 {
@@ -57,7 +57,7 @@ mod tests {
 
     use super::*;
 
-    /// What the player makes of it.
+    /// Returns what the player makes of it.
     fn decode(bounds: Bounds, numbers: [u16; 3]) -> Pose {
         let [x, y, h] = numbers.map(f64::from);
         let position = Point::new(

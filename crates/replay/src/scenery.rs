@@ -61,11 +61,12 @@ pub struct DoorChange {
     pub state: tolman_sim::DoorState,
 }
 
-/// A disc is drawn with so many corners.
+/// Number of corners of the polygon that a disc is drawn as.
 const DISC_CORNERS: u32 = 48;
 
 impl Scenery {
-    /// The walls and zones of a simulated world, and its doors as they stand at the beginning.
+    /// Returns the walls and zones of a simulated world, and its doors as they stand at the
+    /// beginning.
     #[must_use]
     pub fn of_world(world: &World) -> Self {
         let zones = world.zones().iter().flat_map(|zone| {
@@ -100,7 +101,7 @@ impl Scenery {
     }
 }
 
-/// The corners of a rectangle, counter-clockwise from the south-west.
+/// Returns the corners of a rectangle, counter-clockwise from the south-west.
 pub(super) fn rectangle(&Bounds { min, max }: &Bounds) -> Vec<Point> {
     vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)]
 }

@@ -19,8 +19,8 @@ pub enum Body {
 }
 
 impl Body {
-    /// The radius of the smallest disc round the robot's origin that holds the body, m: the room it
-    /// needs to turn in place.
+    /// Returns the radius of the smallest disc round the robot's origin that holds the body, m: the
+    /// room it needs to turn in place.
     ///
     /// ```
     /// use tolman_geom::Point;

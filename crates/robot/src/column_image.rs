@@ -19,7 +19,7 @@ pub struct ColumnImage {
 }
 
 impl ColumnImage {
-    /// An image of so many black columns.
+    /// Returns an image of `columns` black columns.
     #[must_use]
     pub fn black(columns: u32) -> Self {
         Self {

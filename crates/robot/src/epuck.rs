@@ -37,7 +37,7 @@ const MOUNTS: [(f64, f64, f64); PROXIMITY_SENSORS] = [
     (17.1, 0.030, 0.010),
 ];
 
-/// Where each proximity sensor sits and looks, in the robot's frame.
+/// Returns where each proximity sensor sits and looks, in the robot's frame.
 ///
 /// ```
 /// use tolman_robot::epuck;
@@ -73,8 +73,8 @@ impl WheelSpeeds {
         right: 0.0,
     };
 
-    /// The speeds at which the robot moves like this (m/s, rad/s); where a wheel would turn faster
-    /// than `most`, rad/s, both are slowed alike, so that the path is the same.
+    /// Returns the speeds at which the robot moves like this (m/s, rad/s); where a wheel would turn
+    /// faster than `most`, rad/s, both are slowed alike, so that the path is the same.
     ///
     /// ```
     /// use tolman_geom::Twist;

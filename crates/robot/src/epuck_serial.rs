@@ -54,11 +54,11 @@ use crate::epuck::{
     ENCODER_STEP, EpuckSensing, MOST_WHEEL_SPEED, PROXIMITY_SENSORS, WheelSpeeds, WheelTurns,
 };
 
-/// No answer is longer, bytes.
+/// No answer is longer, with the empty lines before it, bytes.
 const LONGEST: usize = 256;
 
-/// So many lines that are no answer may come while a connection is opened: the firmware's greeting,
-/// or answers to what was asked before.
+/// Number of lines that are no answer and may come while a connection is opened: the firmware's
+/// greeting, or answers to what was asked before.
 const FOREIGN_LINES: usize = 8;
 
 /// A real e-puck behind a port.
@@ -69,7 +69,7 @@ pub struct SerialEpuck<P, W> {
     step_us: u64,
     /// The encoders' counters, which turn over at 2¹⁶.
     counters: [u16; 2],
-    /// So many lines that are no answer are passed over.
+    /// Number of lines, not answers, that are skipped.
     foreign_lines: usize,
     sensing: EpuckSensing,
 }
@@ -142,10 +142,11 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
         }
     }
 
-    /// The next line that is not empty.
+    /// Returns the next line that is not empty.
     fn line(&mut self) -> Result<String, SerialError> {
         let mut line = Vec::new();
-        loop {
+        // Empty lines count too: a port that sends nothing else would hold the robot forever.
+        for _ in 0..LONGEST {
             let mut byte = [0];
             match self.port.read(&mut byte) {
                 Ok(0) => return Err(SerialError::Closed),
@@ -159,22 +160,22 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
                     }
                     line.clear();
                 }
-                Ok(_) if line.len() >= LONGEST => return Err(SerialError::Garbage),
                 Ok(_) => line.push(byte[0]),
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(error) => return Err(SerialError::of(error.kind())),
             }
         }
+        Err(SerialError::Garbage)
     }
 }
 
-/// The speed nearest to this one, rad/s, that can be told and that the wheels can.
+/// Returns the speed nearest to this one, rad/s, that can be told and that the wheels can.
 fn steps_per_second(speed: f64) -> i32 {
     let speed = speed.clamp(-MOST_WHEEL_SPEED, MOST_WHEEL_SPEED);
     (speed / ENCODER_STEP).round() as i32
 }
 
-/// The numbers behind the letter of an answer.
+/// Returns the numbers behind the letter of an answer.
 fn numbers<const N: usize>(answer: String) -> Result<[i32; N], SerialError> {
     let parts = answer.split(',').skip(1);
     let numbers: Option<Vec<i32>> = parts.map(|part| part.trim().parse().ok()).collect();
@@ -231,7 +232,7 @@ impl<P: Read + Write, W: FnMut(Duration)> Robot for SerialEpuck<P, W> {
     }
 }
 
-/// Why the e-puck does not do what it is told.
+/// Reason why the e-puck does not do what it is told.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SerialError {
@@ -249,7 +250,7 @@ pub enum SerialError {
     #[error("the port failed: {0:?}")]
     Port(ErrorKind),
     /// What came is no line of text.
-    #[error("the e-puck sends what is no line of text: check the port's speed and its firmware")]
+    #[error("the e-puck sends bytes that are not text: check the port's speed and its firmware")]
     Garbage,
     /// The answer is that to another command.
     #[error(

@@ -14,7 +14,7 @@ use crate::Landmark;
 pub trait Mapper {
     /// What it takes in at a time.
     type Observation;
-    /// Why it refuses an observation.
+    /// Reason why it refuses an observation.
     type Error;
 
     /// Takes in one observation.
@@ -40,6 +40,11 @@ pub trait Mapper {
     /// its beliefs of old still hold. O(visits · log map).
     fn visits(&self) -> Vec<Option<u32>> {
         Vec::new()
+    }
+
+    /// Returns how many places it came to: as many as [`visits`](Self::visits) names.
+    fn visit_count(&self) -> usize {
+        self.visits().len()
     }
 
     /// Returns how likely it takes its map to be that of what it has seen, 0 … 1; `None` if it does
@@ -74,6 +79,10 @@ impl<M: Mapper + ?Sized> Mapper for &mut M {
 
     fn visits(&self) -> Vec<Option<u32>> {
         (**self).visits()
+    }
+
+    fn visit_count(&self) -> usize {
+        (**self).visit_count()
     }
 
     fn certainty(&self) -> Option<f64> {

@@ -31,13 +31,13 @@ pub trait Robot {
     type Command: Standstill;
     /// What it knows after one.
     type Sensing;
-    /// Why a step can fail: a lost connection, a command that is not a number.
+    /// Reason why a step can fail: a lost connection, a command that is not a number.
     type Error;
 
-    /// What was sensed at the end of the last step (before the first: at rest).
+    /// Returns what was sensed at the end of the last step (before the first: at rest).
     fn sensing(&self) -> &Self::Sensing;
 
-    /// Carries out `command` for one time step and senses anew.
+    /// Carries out `command` for one time step and senses again.
     ///
     /// # Errors
     /// Whatever keeps the robot from carrying it out; it then stands still.

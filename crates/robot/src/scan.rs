@@ -64,7 +64,7 @@ impl Ring {
         }
     }
 
-    /// The bearing of beam `index`, rad counter-clockwise from ahead.
+    /// Returns the bearing of beam `index`, rad counter-clockwise from ahead.
     #[must_use]
     pub fn bearing(&self, index: u32) -> f64 {
         self.first_bearing + f64::from(index) * self.spacing
@@ -82,7 +82,7 @@ pub struct Scan {
 }
 
 impl Scan {
-    /// A scan that met nothing.
+    /// Returns a scan that met nothing.
     #[must_use]
     pub fn clear(ring: Ring) -> Self {
         Self {

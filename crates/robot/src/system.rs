@@ -8,7 +8,7 @@ use crate::{Landmark, Mapper, Robot};
 /// robot stands in the bounds of its implementation, as [capabilities](crate::Ranges) and never as
 /// the name of a robot.
 pub trait System<R: Robot>: Mapper {
-    /// Why it cannot go on: the robot's error, or what its parts refuse.
+    /// Reason why it cannot go on: the robot's error, or what its parts refuse.
     type Failure;
 
     /// Makes the next action of `task` with `robot`, a few time steps, and returns how the task

@@ -148,7 +148,8 @@ fn poses(maze: &Maze, rng: &mut ChaCha8Rng) -> Vec<Pose> {
         .collect()
 }
 
-/// The unit walls of a maze between posts that were moved out of line, so that no two are parallel.
+/// Returns the unit walls of a maze between posts that were moved out of line, so that no two are
+/// parallel.
 fn bent(maze: &Maze, rng: &mut ChaCha8Rng) -> Vec<WallSegment> {
     let grid = maze.grid();
     let columns = usize::from(grid.width()) + 1;

@@ -136,7 +136,7 @@ fn epucks(criterion: &mut Criterion, table: &mut Table) {
     }
 }
 
-/// The same curve without noise.
+/// Returns the same curve without noise.
 fn noiseless(curve: &ResponseCurve) -> ResponseCurve {
     let points = (0..=70).map(|millimetre| ResponsePoint {
         relative_sd: 0.0,

@@ -35,8 +35,8 @@ pub struct AbstractWorld {
 }
 
 impl AbstractWorld {
-    /// One place a cell, `spacing` metres apart, numbered as the grid numbers its cells; a move
-    /// leads to the next cell where no wall stands. All places look alike.
+    /// Returns one place a cell, `spacing` metres apart, numbered as the grid numbers its cells; a
+    /// move leads to the next cell where no wall stands. All places look alike.
     #[must_use]
     pub fn from_maze(maze: &Maze, spacing: f64) -> Self {
         let cells: Vec<_> = maze.grid().cells().collect();
@@ -46,9 +46,9 @@ impl AbstractWorld {
         })
     }
 
-    /// The corridors of a maze whose cells are `spacing` metres apart: a place at every bend,
-    /// junction and dead end, numbered in the order of their cells; a move leads straight on to the
-    /// next. All places look alike.
+    /// Returns the corridors of a maze whose cells are `spacing` metres apart: a place at every
+    /// bend, junction and dead end, numbered in the order of their cells; a move leads straight on
+    /// to the next. All places look alike.
     #[must_use]
     pub fn from_corridors(maze: &Maze, spacing: f64) -> Self {
         let ways = |cell| Direction::ALL.map(|direction| maze.is_open(cell, direction));
@@ -70,7 +70,8 @@ impl AbstractWorld {
         Self::of_cells(&cells, spacing, next)
     }
 
-    /// A place a cell, `spacing` metres apart, and where `next` says that each direction leads.
+    /// Returns a place a cell, `spacing` metres apart, and where `next` says that each direction
+    /// leads.
     fn of_cells(
         cells: &[Cell],
         spacing: f64,
@@ -123,7 +124,7 @@ impl AbstractWorld {
         self
     }
 
-    /// Paints the walls around one place anew, each in a colour it did not have, if there are two
+    /// Paints the walls around one place again, each in a colour it did not have, if there are two
     /// or more.
     #[must_use]
     pub fn repainted(mut self, place: u32, colours: u32) -> Self {
@@ -165,19 +166,20 @@ impl AbstractWorld {
         self
     }
 
-    /// Where the places are, m, by number.
+    /// Returns where the places are, m, by number.
     #[must_use]
     pub fn places(&self) -> &[Point] {
         &self.places
     }
 
-    /// Where a direction leads from a place; none where it is blocked or the place does not exist.
+    /// Returns where a direction leads from a place, or `None` where it is blocked or the place
+    /// does not exist.
     #[must_use]
     pub fn neighbour(&self, place: u32, direction: Direction) -> Option<u32> {
         self.neighbours.get(place as usize)?[direction as usize]
     }
 
-    /// The directions that lead somewhere, in the order of [`Direction::ALL`].
+    /// Returns the directions that lead somewhere, in the order of [`Direction::ALL`].
     pub fn exits(&self, place: u32) -> impl Iterator<Item = Direction> + '_ {
         let all = Direction::ALL.into_iter();
         all.filter(move |&direction| self.neighbour(place, direction).is_some())
@@ -251,7 +253,7 @@ pub struct AbstractMove {
 }
 
 impl AbstractRobot {
-    /// A robot at a place; all its chance comes from `seed`.
+    /// Returns a robot at a place; `seed` seeds all its random numbers.
     ///
     /// # Errors
     /// If an error's bound is negative or no number.
@@ -278,13 +280,13 @@ impl AbstractRobot {
         })
     }
 
-    /// The world.
+    /// Returns the world.
     #[must_use]
     pub fn world(&self) -> &AbstractWorld {
         &self.world
     }
 
-    /// The place it is at.
+    /// Returns the place it is at.
     #[must_use]
     pub const fn at(&self) -> u32 {
         self.at
@@ -311,13 +313,13 @@ impl AbstractRobot {
         self.scale
     }
 
-    /// The numbers of a channel since the last move.
+    /// Returns the numbers of a channel since the last move.
     fn draws(&self, channel: &str) -> Draws {
         let chance = self.chance.at(0, self.moves);
         chance.draws(Channel::named(channel))
     }
 
-    /// What it sees now.
+    /// Returns what it sees now.
     #[must_use]
     pub fn look(&self) -> [f64; 4] {
         let mut draws = self.draws("abstract look");
@@ -326,8 +328,8 @@ impl AbstractRobot {
             .map(|value| value + self.errors.look * (2.0 * draws.uniform() - 1.0))
     }
 
-    /// One of the directions that lead somewhere, each as likely as the others; none if there are
-    /// none.
+    /// Returns one of the directions that lead somewhere, each as likely as the others, or `None`
+    /// if there are none.
     #[must_use]
     pub fn wander(&self) -> Option<Direction> {
         let mut draws = self.draws("abstract walk");
@@ -370,7 +372,7 @@ impl AbstractRobot {
         })
     }
 
-    /// All moves that may have been measured so.
+    /// Returns all moves that may have been measured so.
     fn bounds(&self, measured: Vector, heading: f64) -> Option<PoseBox> {
         let MoveNoise {
             distance, compass, ..

@@ -35,7 +35,7 @@ pub use wall_index::WallIndex;
 
 /// Knows how far it is to the nearest wall in any direction.
 pub trait Caster: fmt::Debug + Send + Sync {
-    /// How far a ray goes before it meets a wall, m; `max_range` if it meets none before.
+    /// Returns how far a ray goes before it meets a wall, m; `max_range` if it meets none before.
     /// `direction` is a unit vector.
     fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64;
 

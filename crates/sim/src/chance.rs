@@ -2,7 +2,7 @@ use core::convert::Infallible;
 
 use rand::TryRng;
 
-/// All chance of one run, for one robot at one tick.
+/// The random numbers of one run, for one robot at one tick.
 ///
 /// Counter-based: what a channel draws is a pure function of (run, robot, tick, channel, how many
 /// it drew before in this tick). Nothing is shared, so a further consumer never shifts another
@@ -29,7 +29,7 @@ pub struct Chance {
 }
 
 impl Chance {
-    /// The chance of the run seeded by `run`: robot 0 at tick 0.
+    /// Returns the chance of the run seeded by `run`: robot 0 at tick 0.
     #[must_use]
     pub const fn of_run(run: u64) -> Self {
         Self {
@@ -39,8 +39,8 @@ impl Chance {
         }
     }
 
-    /// The same run, for this robot at this tick. Robots are told apart up to 2²⁴ of them, ticks up
-    /// to 2⁴⁸ (890,000 years of tenths of a second).
+    /// Returns the same run, for this robot at this tick. Robots are told apart up to 2²⁴ of them,
+    /// ticks up to 2⁴⁸ (890,000 years of tenths of a second).
     #[must_use]
     pub const fn at(self, robot: u32, tick: u64) -> Self {
         Self {
@@ -50,7 +50,7 @@ impl Chance {
         }
     }
 
-    /// The numbers of one channel, from its first.
+    /// Returns the numbers of one channel, from its first.
     #[must_use]
     pub fn draws(&self, channel: Channel) -> Draws {
         Draws {
@@ -71,15 +71,15 @@ impl Chance {
 pub struct Channel(u32);
 
 impl Channel {
-    /// The channel of this name. Two consumers of one robot must not share a name, or they draw the
-    /// same numbers.
+    /// Returns the channel of this name. Two consumers of one robot must not share a name, or they
+    /// draw the same numbers.
     #[must_use]
     pub const fn named(name: &str) -> Self {
         // FNV-1a: constant at compile time, and names are few.
         Self(0x811C_9DC5).joined(name)
     }
 
-    /// The channel of this one's name with `more` behind it.
+    /// Returns the channel of this one's name with `more` behind it.
     pub(crate) const fn joined(self, more: &str) -> Self {
         let bytes = more.as_bytes();
         let mut hash = self.0;
@@ -91,7 +91,7 @@ impl Channel {
         Self(hash)
     }
 
-    /// The channel of the `index`-th of several alike consumers under one name.
+    /// Returns the channel of the `index`-th of several alike consumers under one name.
     #[must_use]
     pub const fn nth(self, index: u32) -> Self {
         // An odd multiplier permutes; the hash of the name is offset by it.

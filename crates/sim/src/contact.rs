@@ -31,7 +31,7 @@ const CHORD_TURN: f64 = 0.1;
 /// Chords of one motion at most, so that a step ends whatever turn a disturbance makes.
 const MOST_CHORDS: f64 = 10_000.0;
 
-/// Whether `body` overlaps no wall of `world` and none of the doors that are `shut`.
+/// Returns whether `body` overlaps no wall of `world` and none of the doors that are `shut`.
 pub(crate) fn is_clear(world: &World, shut: &[WallSegment], body: &Placed) -> bool {
     let clear = |walls: &[WallSegment]| walls.iter().all(|wall| gap_to_wall(body, wall) > 0.0);
     let mut all_clear = clear(shut);
@@ -43,7 +43,7 @@ pub(crate) fn is_clear(world: &World, shut: &[WallSegment], body: &Placed) -> bo
     all_clear
 }
 
-/// The distance between a body and a wall, m; 0 or less where they overlap.
+/// Returns the distance between a body and a wall, m; 0 or less where they overlap.
 pub(crate) fn gap_to_wall(body: &Placed, wall: &WallSegment) -> f64 {
     if body.corners().is_empty() {
         return wall.distance(body.pose().position) - body.radius();
@@ -58,7 +58,7 @@ pub(crate) fn gap_to_wall(body: &Placed, wall: &WallSegment) -> f64 {
     corners.chain(ends).fold(f64::INFINITY, f64::min)
 }
 
-/// The distance between a body and a disc, m; 0 or less where they overlap.
+/// Returns the distance between a body and a disc, m; 0 or less where they overlap.
 fn gap_to_disc(body: &Placed, centre: Point, radius: f64) -> f64 {
     if body.corners().is_empty() {
         return (body.pose().position - centre).norm() - body.radius() - radius;
@@ -72,7 +72,7 @@ fn gap_to_disc(body: &Placed, centre: Point, radius: f64) -> f64 {
         - radius
 }
 
-/// Whether two bodies overlap.
+/// Returns whether two bodies overlap.
 pub(crate) fn overlap(a: &Placed, b: &Placed) -> bool {
     match (a.corners(), b.corners()) {
         (_, []) => gap_to_disc(a, b.pose().position, b.radius()) <= 0.0,
@@ -123,7 +123,7 @@ impl Obstacles {
         self.walls.is_empty() && self.discs.is_empty()
     }
 
-    /// The gap between `body` and the nearest of them, m.
+    /// Returns the gap between `body` and the nearest of them, m.
     fn gap(&self, body: &Placed) -> f64 {
         let walls = self.walls.iter().map(|wall| gap_to_wall(body, wall));
         let discs = self
@@ -240,7 +240,7 @@ impl Mover<'_> {
         }
     }
 
-    /// The share of a small turn after which a polygon first touches something, at most 1.
+    /// Returns the share of a small turn after which a polygon first touches something, at most 1.
     fn first_touch_turning(&self, turn: f64) -> f64 {
         let pivot = self.body.pose().position;
         let (sin, cos) = libm::sincos(turn);
@@ -449,7 +449,7 @@ fn disc_meets_point(
     (share <= 1.0).then_some(Touch { share, normal })
 }
 
-/// The path a body took between two poses, as wheels would count it.
+/// Returns the path a body took between two poses, as wheels would count it.
 pub(crate) fn motion_between(before: Pose, after: Pose) -> Motion {
     let turn = before.heading.turn_to(after.heading);
     let chord = before

@@ -35,7 +35,7 @@ pub struct Door {
 }
 
 impl Door {
-    /// The wall that it is when shut.
+    /// Returns the wall that it is when shut.
     pub(crate) fn wall(&self) -> WallSegment {
         WallSegment {
             start: self.start,

@@ -8,7 +8,7 @@
 //!    never changes; share one between runs with an [`Arc`](std::sync::Arc).
 //! 2. A [`Simulation`] puts robots into it and keeps what changes: where they are and which doors
 //!    are shut. Each [`step`](Simulation::step) takes one command per robot, moves the bodies (they
-//!    stop or slide, and never pass through anything) and lets every robot sense anew.
+//!    stop or slide, and never pass through anything) and lets every robot sense again.
 //! 3. A robot is a [`Model`]: a body, a motor that makes a [`Motion`] of a command, and sensors. A
 //!    [`Sensor`](sensors::Sensor) reads its [`Surroundings`]. [`robots`] holds the models and reads
 //!    like their data sheets.

@@ -33,26 +33,27 @@ pub trait Model {
     /// Its outline.
     fn body(&self) -> &Body;
 
-    /// What happens where the body meets something.
+    /// Returns what happens where the body meets something.
     fn contact(&self) -> Contact;
 
-    /// The length of one time step, µs.
+    /// Returns the length of one time step, µs.
     fn step_us(&self) -> u64;
 
-    /// Whether a command can be carried out at all.
+    /// Returns whether a command can be carried out at all.
     ///
     /// # Errors
     /// The part of the command that is not a number.
     fn check(&self, command: &Self::Command) -> Result<(), CommandError>;
 
-    /// What the motors make of a command. Called only with a command that passed
+    /// Returns what the motors make of a command. Called only with a command that passed
     /// [`check`](Self::check).
     fn motion(&mut self, command: &Self::Command, chance: &Chance) -> Motion;
 
-    /// What it senses before anything was sensed: the buffers that [`sense`](Self::sense) fills.
+    /// Returns what it senses before anything was sensed: the buffers that [`sense`](Self::sense)
+    /// fills.
     fn silent(&self) -> Self::Sensing;
 
-    /// Senses anew.
+    /// Senses again.
     fn sense(
         &mut self,
         surroundings: &Surroundings<'_>,

@@ -1,7 +1,7 @@
 //! Noise and faults: what comes between a sensor and its reading, or a motor and its motion.
 //!
 //! A [`Fault`] changes a value after it was read or made and knows nothing of where it came from;
-//! [`Faults`] are several of one value, one after the other. Every fault draws from a
+//! [`Faults`] are several of one value, one by one. Every fault draws from a
 //! [`Channel`](crate::Channel) of its own, so none shifts another one's numbers.
 //!
 //! To add one to a configuration: give [`Fault`] a variant. To add one from another crate:
@@ -29,8 +29,8 @@ pub trait Values: Clone {
     /// Replaces every number by what `change` makes of it.
     fn change(&mut self, change: impl FnMut(f64) -> f64);
 
-    /// Whether the value is one that a sensor or a motor can give: all its numbers are finite, and
-    /// as many and as large as its type promises.
+    /// Returns whether the value is one that a sensor or a motor can give: all its numbers are
+    /// finite, and as many and as large as its type promises.
     fn is_sound(&self) -> bool {
         let mut is_sound = true;
         self.clone().change(|number| {
@@ -48,7 +48,7 @@ impl Values for f64 {
 }
 
 impl<V: Values> Values for Option<V> {
-    /// What is missing stays so.
+    /// Returns what is missing stays so.
     fn change(&mut self, change: impl FnMut(f64) -> f64) {
         if let Some(value) = self {
             value.change(change);
@@ -72,7 +72,7 @@ impl Values for Scan {
         }
     }
 
-    /// One range per beam of the ring, each from 0 to its maximum.
+    /// Returns one range per beam of the ring, each from 0 to its maximum.
     fn is_sound(&self) -> bool {
         let within = 0.0..=self.ring.max_range;
         self.ranges.len() == self.ring.beams as usize

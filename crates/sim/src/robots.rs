@@ -20,8 +20,8 @@ pub use pioneer_2dx::{
     WheelScale,
 };
 
-/// What a trace calls the disturbances of one value: the name of the value, and how each prints
-/// itself.
+/// Returns what a trace calls the disturbances of one value: the name of the value, and how each
+/// prints itself.
 fn names<V: Values>(value: &str, faults: &Faults<V>) -> impl Iterator<Item = String> {
     faults
         .disturbances()

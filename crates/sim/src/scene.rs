@@ -31,7 +31,7 @@ impl Crowd {
         self.bodies.push(body);
     }
 
-    /// All bodies in order.
+    /// Returns all bodies in order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Placed> {
         self.bodies.iter()
     }
@@ -47,7 +47,7 @@ impl Crowd {
         result
     }
 
-    /// The bodies of all robots but `robot` that come within `reach` of `centre`.
+    /// Returns the bodies of all robots but `robot` that come within `reach` of `centre`.
     pub(crate) fn near(
         &self,
         robot: usize,
@@ -108,22 +108,22 @@ impl Placed {
         self.pose
     }
 
-    /// The smallest disc round the pose that holds the body.
+    /// Returns the smallest disc round the pose that holds the body.
     pub(crate) fn disc(&self) -> Disc {
         (self.pose.position, self.radius)
     }
 
-    /// The radius of that disc.
+    /// Returns the radius of that disc.
     pub(crate) fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// A polygon's corners in the world; none for a disc.
+    /// Returns a polygon's corners in the world; none for a disc.
     pub(crate) fn corners(&self) -> &[Point] {
         &self.corners
     }
 
-    /// A polygon's sides in the world; none for a disc.
+    /// Returns a polygon's sides in the world; none for a disc.
     pub(crate) fn sides(&self) -> impl Iterator<Item = WallSegment> + '_ {
         let next = self.corners.iter().cycle().skip(1);
         self.corners
@@ -132,7 +132,7 @@ impl Placed {
             .map(|(start, end)| WallSegment::between(*start, *end))
     }
 
-    /// A polygon's sides; of a disc, those of the regular polygon round it.
+    /// Returns a polygon's sides; of a disc, those of the regular polygon round it.
     pub(crate) fn outline(&self) -> Vec<WallSegment> {
         if !self.corners.is_empty() {
             return self.sides().collect();
@@ -147,7 +147,7 @@ impl Placed {
         sides.collect()
     }
 
-    /// Whether `point` lies in a polygon; never in a disc, which has no sides.
+    /// Returns whether `point` lies in a polygon; never in a disc, which has no sides.
     pub(crate) fn encloses(&self, point: Point) -> bool {
         !self.corners.is_empty()
             && self
@@ -166,7 +166,7 @@ impl Placed {
         }
     }
 
-    /// How far a ray meets the body from outside, m; infinity if it does not.
+    /// Returns how far a ray meets the body from outside, m; infinity if it does not.
     pub(crate) fn ray(&self, origin: Point, direction: Vector) -> f64 {
         if self.corners.is_empty() {
             let to_centre = self.pose.position - origin;

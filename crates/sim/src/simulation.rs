@@ -33,8 +33,8 @@ pub struct Truth {
 
 /// Robots in a world.
 ///
-/// Robots act one after the other in the order they were added, then all sense. Nothing depends on
-/// anything but the world, the seed, the robots and their commands.
+/// Robots act one by one in the order they were added, then all sense. Nothing depends on anything
+/// but the world, the seed, the robots and their commands.
 #[derive(Debug)]
 pub struct Simulation<M: Model> {
     world: Arc<World>,
@@ -56,7 +56,7 @@ struct Running<M: Model> {
 }
 
 impl<M: Model> Simulation<M> {
-    /// A world without robots at time 0. `run` is the seed of all chance in it.
+    /// Returns a world without robots at time 0. `run` seeds all random numbers.
     pub fn new(world: impl Into<Arc<World>>, run: u64) -> Self {
         let world = world.into();
         let doors = Doors::of(&world);
@@ -244,7 +244,7 @@ impl<M: Model> Simulation<M> {
         Ok(())
     }
 
-    /// What a robot sensed last.
+    /// Returns what a robot sensed last.
     ///
     /// # Panics
     /// If `robot` is of another simulation.
@@ -253,7 +253,7 @@ impl<M: Model> Simulation<M> {
         &self.robots[robot.0 as usize].sensing
     }
 
-    /// What really is.
+    /// Returns what really is.
     ///
     /// # Panics
     /// If `robot` is of another simulation.
@@ -262,7 +262,7 @@ impl<M: Model> Simulation<M> {
         &self.robots[robot.0 as usize].truth
     }
 
-    /// The model of a robot.
+    /// Returns the model of a robot.
     ///
     /// # Panics
     /// If `robot` is of another simulation.
@@ -271,12 +271,12 @@ impl<M: Model> Simulation<M> {
         &self.robots[robot.0 as usize].model
     }
 
-    /// All robots, in the order of adding.
+    /// Returns all robots, in the order of adding.
     pub fn robots(&self) -> impl ExactSizeIterator<Item = RobotId> + use<M> {
         (0..self.robots.len() as u32).map(RobotId)
     }
 
-    /// The world they are in.
+    /// Returns the world they are in.
     #[must_use]
     pub fn world(&self) -> &Arc<World> {
         &self.world
@@ -294,7 +294,7 @@ impl<M: Model> Simulation<M> {
         self.tick * self.step_us
     }
 
-    /// How a door stands.
+    /// Returns how a door stands.
     ///
     /// # Errors
     /// If there is no such door.
@@ -403,7 +403,7 @@ impl Doors {
     }
 }
 
-/// Why a robot cannot be put somewhere.
+/// Reason why a robot cannot be put somewhere.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlaceError {
@@ -474,7 +474,7 @@ pub enum PlaceError {
     Body(#[from] BodyError),
 }
 
-/// Why a step was not made.
+/// Reason why a step was not made.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StepError {

@@ -14,7 +14,7 @@ pub struct Solo<M: Model> {
 }
 
 impl<M: Model> Solo<M> {
-    /// A robot at `pose`. `run` is the seed of all chance.
+    /// Returns a robot at `pose`. `run` seeds all random numbers.
     ///
     /// # Errors
     /// If the robot cannot stand there.
@@ -33,13 +33,13 @@ impl<M: Model> Solo<M> {
         })
     }
 
-    /// What really is.
+    /// Returns what really is.
     #[must_use]
     pub fn truth(&self) -> &Truth {
         self.simulation.truth(self.robot)
     }
 
-    /// The robot's model.
+    /// Returns the robot's model.
     #[must_use]
     pub fn model(&self) -> &M {
         self.simulation.model(self.robot)
@@ -59,13 +59,14 @@ impl<M: Model> Solo<M> {
         self.simulation.place(self.robot, pose)
     }
 
-    /// The simulation it runs in.
+    /// Returns the simulation it runs in.
     #[must_use]
     pub fn simulation(&self) -> &Simulation<M> {
         &self.simulation
     }
 
-    /// The simulation it runs in, to open a door or lift the robot. It must stay alone in it.
+    /// Returns the simulation it runs in, to open a door or lift the robot. It must stay alone in
+    /// it.
     pub fn simulation_mut(&mut self) -> &mut Simulation<M> {
         &mut self.simulation
     }

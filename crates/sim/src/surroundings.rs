@@ -45,14 +45,14 @@ impl Echo {
 const TOUCHING: f64 = 1e-6;
 
 impl<'a> Surroundings<'a> {
-    /// The world.
+    /// Returns the world.
     #[must_use]
     pub fn world(&self) -> &'a World {
         self.scene.world
     }
 
-    /// How far a ray goes before it meets a wall, a shut door or another robot, m; `max_range` if
-    /// it meets nothing before. `direction` is a unit vector in the world.
+    /// Returns how far a ray goes before it meets a wall, a shut door or another robot, m;
+    /// `max_range` if it meets nothing before. `direction` is a unit vector in the world.
     #[must_use]
     pub fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64 {
         let range = self.world().caster().cast(origin, direction, max_range);
@@ -66,7 +66,8 @@ impl<'a> Surroundings<'a> {
         doors.chain(bodies).fold(range, f64::min)
     }
 
-    /// What each ray meets first within `max_range` m: a wall, a shut door or another robot.
+    /// Returns what each ray meets first within `max_range` m: a wall, a shut door or another
+    /// robot.
     #[must_use]
     pub fn echoes<const N: usize>(&self, rays: &[Ray; N], max_range: f64) -> [Echo; N] {
         let caster = self.world().caster();
@@ -106,7 +107,7 @@ impl<'a> Surroundings<'a> {
         }
     }
 
-    /// The material of the wall at a point.
+    /// Returns the material of the wall at a point.
     fn material(&self, point: Point) -> Material {
         if let Some(everywhere) = self.world().common_material() {
             return everywhere;

@@ -57,10 +57,10 @@ pub trait Recordable:
 {
     /// All that is needed to build one.
     type Config: Clone + Debug + Serialize + DeserializeOwned;
-    /// Why one cannot be built.
+    /// Reason why one cannot be built.
     type ConfigError: Error + Send + Sync + 'static;
 
-    /// What this one was built to.
+    /// Returns what this one was built to.
     fn config(&self) -> &Self::Config;
 
     /// Builds one.
@@ -71,9 +71,9 @@ pub trait Recordable:
     where
         Self: Sized;
 
-    /// What disturbs this one from outside its configuration, each as a text that tells it from
-    /// others; see [`Disturbance`](crate::noise::Disturbance). A trace keeps the texts, since it
-    /// cannot keep the code.
+    /// Returns what disturbs this one from outside its configuration, each as a text that tells it
+    /// from others; see [`Disturbance`](crate::noise::Disturbance). A trace keeps the texts, since
+    /// it cannot keep the code.
     fn disturbances(&self) -> Vec<String> {
         Vec::new()
     }

@@ -85,8 +85,8 @@ struct Cells {
 }
 
 impl World {
-    /// A maze drawn to scale. Its goal cells become the zone `destination`, its start cell the zone
-    /// `start`, as far as the maze marks them.
+    /// Returns a maze drawn to scale. Its goal cells become the zone `destination`, its start cell
+    /// the zone `start`, as far as the maze marks them.
     ///
     /// Walls that continue each other in a straight line become one [`WallSegment`]. Thick walls
     /// have an outline, and a post of their thickness wherever one ends.
@@ -154,8 +154,8 @@ impl World {
         })
     }
 
-    /// The outline of the occupied cells of an occupancy grid; beyond its edge everything is
-    /// occupied.
+    /// Returns the outline of the occupied cells of an occupancy grid; beyond its edge everything
+    /// is occupied.
     ///
     /// # Errors
     /// If the grid is empty or wholly occupied, its resolution is not positive, or there is not one
@@ -224,65 +224,65 @@ impl World {
         self
     }
 
-    /// The ray caster all sensors see through.
+    /// Returns the ray caster all sensors see through.
     #[must_use]
     pub fn caster(&self) -> &dyn Caster {
         &*self.caster
     }
 
-    /// All walls by place.
+    /// Returns all walls by place.
     pub(crate) fn index(&self) -> &Arc<WallIndex> {
         &self.index
     }
 
-    /// What all walls are made of, if it is the same.
+    /// Returns what all walls are made of, if it is the same.
     pub(crate) fn common_material(&self) -> Option<Material> {
         self.common_material
     }
 
-    /// The grid the walls stand on, if they do.
+    /// Returns the grid the walls stand on, if they do.
     pub(crate) fn lattice(&self) -> Option<&Arc<Lattice>> {
         self.lattice.as_ref()
     }
 
-    /// All walls, doors not among them.
+    /// Returns all walls, doors not among them.
     #[must_use]
     pub fn walls(&self) -> &[WallSegment] {
         &self.walls
     }
 
-    /// All zones.
+    /// Returns all zones.
     #[must_use]
     pub fn zones(&self) -> &[Zone] {
         &self.zones
     }
 
-    /// The zone of this name.
+    /// Returns the zone of this name.
     #[must_use]
     pub fn zone(&self, name: &str) -> Option<&Zone> {
         self.zones.iter().find(|zone| zone.name() == name)
     }
 
-    /// All doors, as they are when a run begins.
+    /// Returns all doors, as they are when a run begins.
     #[must_use]
     pub fn doors(&self) -> &[Door] {
         &self.doors
     }
 
-    /// The smallest rectangle that holds all walls.
+    /// Returns the smallest rectangle that holds all walls.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.bounds
     }
 
-    /// The size of the maze this world was made from, if it was.
+    /// Returns the size of the maze this world was made from, if it was.
     #[must_use]
     pub fn grid(&self) -> Option<Grid> {
         self.cells.map(|cells| Grid::new(cells.width, cells.height))
     }
 
-    /// The middle of a cell of the maze this world was made from; in a world of another kind, where
-    /// cells have no size, the origin.
+    /// Returns the middle of a cell of the maze this world was made from; in a world of another
+    /// kind, where cells have no size, the origin.
     #[must_use]
     pub fn cell_centre(&self, cell: Cell) -> Point {
         let pitch = self.cells.map_or(0.0, |cells| cells.pitch);
@@ -301,8 +301,8 @@ impl World {
         }
     }
 
-    /// The cell of the maze this world was made from in which `point` lies; none outside it, and
-    /// none in a world of another kind.
+    /// Returns the cell of the maze this world was made from in which `point` lies, or `None`
+    /// outside it, and none in a world of another kind.
     #[must_use]
     pub fn cell_at(&self, point: Point) -> Option<Cell> {
         let Cells {
@@ -317,7 +317,7 @@ impl World {
         Some(Cell::new(along(point.x, width)?, along(point.y, height)?))
     }
 
-    /// How far `point` is from the nearest wall, m. Doors do not count.
+    /// Returns how far `point` is from the nearest wall, m. Doors do not count.
     #[must_use]
     pub fn nearest_wall_distance(&self, point: Point) -> f64 {
         self.walls
@@ -326,8 +326,8 @@ impl World {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether `point` can be stood on at all: not inside a thick wall or an occupied cell, and not
-    /// outside the border of a maze.
+    /// Returns whether `point` can be stood on at all: not inside a thick wall or an occupied cell,
+    /// and not outside the border of a maze.
     #[must_use]
     pub fn is_floor(&self, point: Point) -> bool {
         match &self.lattice {
@@ -336,7 +336,8 @@ impl World {
         }
     }
 
-    /// Whether `body` at `pose` stands on the floor and touches no wall. Doors do not count.
+    /// Returns whether `body` at `pose` stands on the floor and touches no wall. Doors do not
+    /// count.
     #[must_use]
     pub fn clear_for(&self, body: &Body, pose: Pose) -> bool {
         pose.is_finite()

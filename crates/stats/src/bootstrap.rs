@@ -7,8 +7,8 @@ use super::moments::{self, count};
 use super::quantile::{of_sorted, sorted};
 use super::{ConfidenceInterval, SampleError, normal};
 
-/// The BCa bootstrap interval of a statistic (Efron, "Better bootstrap confidence intervals",
-/// 1987).
+/// Returns the BCa bootstrap interval of a statistic (Efron, "Better bootstrap confidence
+/// intervals", 1987).
 ///
 /// `statistic` is called with samples of the size of `sample` and, for the acceleration, with
 /// samples that lack one value. Draws `resamples` × n random indices from `rng`; the same generator
@@ -64,8 +64,8 @@ pub fn bca_interval<T: Copy>(
     from_replicates(statistic(sample), &replicates, &jackknife, level)
 }
 
-/// The BCa interval of a statistic with the value `estimate`, from its bootstrap replicates and its
-/// jackknife values.
+/// Returns the BCa interval of a statistic with the value `estimate`, from its bootstrap replicates
+/// and its jackknife values.
 pub(super) fn from_replicates(
     estimate: f64,
     replicates: &[f64],
@@ -115,7 +115,7 @@ pub(super) fn from_replicates(
     Ok(ConfidenceInterval::new(end(tail), end(1.0 - tail)))
 }
 
-/// The means of `points` values drawn from a sample with replacement, `resamples` times: a
+/// Returns the means of `points` values drawn from a sample with replacement, `resamples` times: a
 /// bootstrap in which the number drawn need not be the size of the sample.
 ///
 /// The spread of the means is σ / √points, so with more points than the sample has values it tells
@@ -157,8 +157,8 @@ pub fn bootstrap_means(
     Ok((0..resamples).map(|_| one()).collect())
 }
 
-/// The interval that holds the middle share `level` of replicates: their R-7 quantiles, as in
-/// Efron's percentile method. O(n log n).
+/// Returns the interval that holds the middle share `level` of replicates: their R-7 quantiles, as
+/// in Efron's percentile method. O(n log n).
 ///
 /// # Errors
 /// If there are no replicates, one is not finite, or the level is no probability.

@@ -10,12 +10,12 @@ pub struct ConfidenceInterval {
 }
 
 impl ConfidenceInterval {
-    /// The interval from `low` to `high`.
+    /// Returns the interval from `low` to `high`.
     pub const fn new(low: f64, high: f64) -> Self {
         Self { low, high }
     }
 
-    /// Whether a value lies between the ends or on one of them.
+    /// Returns whether a value lies between the ends or on one of them.
     pub fn contains(self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)
     }

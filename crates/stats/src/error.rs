@@ -1,6 +1,6 @@
 //! Samples that cannot be measured.
 
-/// Why a statistic is not defined for a sample.
+/// Reason why a statistic is not defined for a sample.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SampleError {
@@ -45,7 +45,7 @@ pub enum SampleError {
         trials: u64,
     },
     /// A probability or confidence level out of range.
-    #[error("{value} is no probability between 0 and 1")]
+    #[error("{value} is not a probability between 0 and 1")]
     Probability {
         /// The value.
         value: f64,

@@ -66,8 +66,8 @@ pub(super) fn u_statistic(a: &[f64], b: &[f64]) -> Result<(f64, f64), SampleErro
     Ok((u, ties))
 }
 
-/// The probability that U is `u` or more under the hypothesis, for samples of `n` and `m` values
-/// without ties.
+/// Returns the probability that U is `u` or more under the hypothesis, for samples of `n` and `m`
+/// values without ties.
 ///
 /// N(u; n, m) arrangements have U = u, and N(u; n, m) = N(u; n, m − 1) + N(u − m; n − 1, m): the
 /// greatest value is of the one sample or of the other. Only sums, so nothing cancels.

@@ -5,7 +5,7 @@ use super::error::{check, check_probability};
 use super::quantile::sorted;
 use super::{ConfidenceInterval, SampleError};
 
-/// The interval of a median between two order statistics (Conover, "Practical Nonparametric
+/// Returns the interval of a median between two order statistics (Conover, "Practical Nonparametric
 /// Statistics", 1999, section 3.2). It holds the median of any distribution with at least the
 /// probability `level`, draws nothing, and is what a median of ties needs, where a bootstrap sees
 /// only a few values.
@@ -52,13 +52,13 @@ pub fn median_interval(sample: &[f64], level: f64) -> Result<ConfidenceInterval,
     ))
 }
 
-/// The probability that `flips` fair coins show at most `heads` heads, of which there are fewer
-/// than flips.
+/// Returns the probability that `flips` fair coins show at most `heads` heads, of which there are
+/// fewer than flips.
 fn at_most_heads(heads: usize, flips: usize) -> f64 {
     regularized_incomplete_beta((flips - heads) as f64, heads as f64 + 1.0, 0.5)
 }
 
-/// The size from which on all coins show one side with a probability of at most `tail`.
+/// Returns the size from which on all coins show one side with a probability of at most `tail`.
 fn least_size(tail: f64) -> usize {
     // A rounded logarithm must not ask for one more.
     (-libm::log2(tail) - 1e-9).ceil() as usize

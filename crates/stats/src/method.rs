@@ -15,7 +15,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// The method to take for a sample that `is_small` or not, and has ties or not.
+    /// Returns the method to take for a sample that `is_small` or not, and has ties or not.
     pub(super) const fn of(self, has_ties: bool, is_small: bool) -> Result<Self, SampleError> {
         match self {
             Self::Exact if has_ties => Err(SampleError::Ties),

@@ -3,7 +3,7 @@
 use super::SampleError;
 use super::error::check;
 
-/// The arithmetic mean. O(n).
+/// Returns the arithmetic mean. O(n).
 ///
 /// # Errors
 /// If the sample is empty or not finite.
@@ -12,7 +12,7 @@ pub fn mean(sample: &[f64]) -> Result<f64, SampleError> {
     Ok(of(sample))
 }
 
-/// The standard deviation of a sample, with n − 1 in the denominator. O(n).
+/// Returns the standard deviation of a sample, with n − 1 in the denominator. O(n).
 ///
 /// ```
 /// use tolman_stats::standard_deviation;
@@ -33,12 +33,12 @@ pub fn standard_deviation(sample: &[f64]) -> Result<f64, SampleError> {
     Ok((squares / (count(sample) - 1.0)).sqrt())
 }
 
-/// The mean of a sample that is known to have a value.
+/// Returns the mean of a sample that is known to have a value.
 pub(super) fn of(sample: &[f64]) -> f64 {
     sample.iter().sum::<f64>() / count(sample)
 }
 
-/// The size of a sample as a number.
+/// Returns the size of a sample as a number.
 pub(super) fn count<T>(sample: &[T]) -> f64 {
     sample.len() as f64
 }

@@ -26,7 +26,7 @@ pub(super) fn ln_upper_tail(z: f64) -> f64 {
     -0.5 * z * z - libm::log(z * (2.0 * PI).sqrt()) + libm::log(series)
 }
 
-/// The `z` with Φ(z) = `probability`, for probabilities strictly between 0 and 1.
+/// Returns the `z` with Φ(z) = `probability`, for probabilities strictly between 0 and 1.
 ///
 /// Newton's method on the logarithm of the tail: that function is concave, so from the second step
 /// on the iteration falls monotonically onto the root.

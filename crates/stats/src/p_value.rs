@@ -15,17 +15,17 @@ impl PValue {
     /// No evidence at all.
     pub const ONE: Self = Self { ln: 0.0 };
 
-    /// The p-value of a natural logarithm; what lies above 1 becomes 1.
+    /// Returns the p-value of a natural logarithm; what lies above 1 becomes 1.
     pub const fn from_ln(ln: f64) -> Self {
         Self { ln: ln.min(0.0) }
     }
 
-    /// The two-sided p-value of a one-sided tail, given as its logarithm.
+    /// Returns the two-sided p-value of a one-sided tail, given as its logarithm.
     pub(super) const fn two_sided(ln_tail: f64) -> Self {
         Self::from_ln(ln_tail + LN_2)
     }
 
-    /// The p-value itself; 0 where it underflows.
+    /// Returns the p-value itself; 0 where it underflows.
     pub fn value(self) -> f64 {
         libm::exp(self.ln)
     }

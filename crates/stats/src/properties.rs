@@ -14,7 +14,7 @@ fn finite(max: usize) -> impl Strategy<Value = Vec<f64>> {
     vec(-1e6..1e6, 1..max)
 }
 
-/// The two-sided p-value by going through every way to choose the first sample.
+/// Returns the two-sided p-value by going through every way to choose the first sample.
 fn mann_whitney_by_enumeration(a: &[f64], b: &[f64]) -> f64 {
     let pooled = [a, b].concat();
     let u_of = |chosen: u32| -> i32 {
@@ -41,7 +41,7 @@ fn mann_whitney_by_enumeration(a: &[f64], b: &[f64]) -> f64 {
     (2.0 * tail as f64 / choices.len() as f64).min(1.0)
 }
 
-/// The two-sided p-value by going through every choice of signs.
+/// Returns the two-sided p-value by going through every choice of signs.
 fn wilcoxon_by_enumeration(differences: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = differences.iter().map(|d| d.abs()).collect();
     sizes.sort_by(f64::total_cmp);

@@ -26,8 +26,8 @@ pub fn wilson_interval(
     ))
 }
 
-/// The exact binomial interval of a success rate (Clopper and Pearson, "The use of confidence or
-/// fiducial limits illustrated in the case of the binomial", 1934), between 0 and 1.
+/// Returns the exact binomial interval of a success rate (Clopper and Pearson, "The use of
+/// confidence or fiducial limits illustrated in the case of the binomial", 1934), between 0 and 1.
 ///
 /// ```
 /// use tolman_stats::exact_binomial_interval;
@@ -72,7 +72,7 @@ fn check(successes: u64, trials: u64, level: f64) -> Result<(f64, f64), SampleEr
     Ok((successes as f64, trials as f64))
 }
 
-/// The zero of an increasing function between 0 and 1, by bisection to the last bit.
+/// Returns the zero of an increasing function between 0 and 1, by bisection to the last bit.
 fn solve(function: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     loop {

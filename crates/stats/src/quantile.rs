@@ -3,8 +3,8 @@
 use super::SampleError;
 use super::error::{check, check_probability};
 
-/// The quantile of a sample by definition R-7 (Hyndman and Fan, "Sample quantiles in statistical
-/// packages", 1996): linear between order statistics, as in R and NumPy by default.
+/// Returns the quantile of a sample by definition R-7 (Hyndman and Fan, "Sample quantiles in
+/// statistical packages", 1996): linear between order statistics, as in R and NumPy by default.
 ///
 /// O(n log n).
 ///
@@ -37,7 +37,7 @@ pub struct FiveNumbers {
     pub upper_whisker: f64,
 }
 
-/// The five numbers of a box plot. O(n log n).
+/// Returns the five numbers of a box plot. O(n log n).
 ///
 /// # Errors
 /// If the sample is empty or not finite.
@@ -64,7 +64,7 @@ pub(super) fn sorted(sample: &[f64]) -> Vec<f64> {
     sorted
 }
 
-/// The R-7 quantile of a sorted sample with at least one value.
+/// Returns the R-7 quantile of a sorted sample with at least one value.
 pub(super) fn of_sorted(sorted: &[f64], probability: f64) -> f64 {
     let place = probability * (sorted.len() - 1) as f64;
     let below = place.floor() as usize;

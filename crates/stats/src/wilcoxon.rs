@@ -71,8 +71,8 @@ pub fn wilcoxon(a: &[f64], b: &[f64], method: Method) -> Result<Wilcoxon, Sample
     })
 }
 
-/// The probability that the rank sum of `n` differences is `sum` or more under the hypothesis: the
-/// share of subsets of the ranks 1 to n whose sum is that large.
+/// Returns the probability that the rank sum of `n` differences is `sum` or more under the
+/// hypothesis: the share of subsets of the ranks 1 to n whose sum is that large.
 fn exact_tail(n: usize, sum: f64) -> f64 {
     // Shares rather than numbers of subsets, which would overflow beyond a thousand pairs.
     let mut share = vec![0.0_f64; n * (n + 1) / 2 + 1];

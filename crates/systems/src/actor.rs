@@ -32,7 +32,7 @@ enum Before {
     Action,
 }
 
-/// Why an actor cannot go on.
+/// Reason why an actor cannot go on.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ActorError<R, B> {
     /// The robot failed.
@@ -182,6 +182,18 @@ impl<B: Brain> Mapper for Actor<B> {
 
     fn belief(&self) -> Vec<Guess> {
         self.brain.belief()
+    }
+
+    fn visits(&self) -> Vec<Option<u32>> {
+        self.brain.visits()
+    }
+
+    fn visit_count(&self) -> usize {
+        self.brain.visit_count()
+    }
+
+    fn certainty(&self) -> Option<f64> {
+        self.brain.certainty()
     }
 
     fn map_bytes(&self) -> Option<usize> {

@@ -1,9 +1,9 @@
 //! The one form of files that hold a learned map: JSON with a header that every system shares.
 //!
 //! A file begins
-//! `{"format":"tolman-map","version":2,"system":"mslst","world":"J","drawing":"5f1…","robot":"laser Pioneer","seed":1,`
-//! and goes on with what the system keeps. Files of other versions are refused by name, and so are
-//! those of the formats that were there before.
+//! `{"format":"tolman-map","version":2,"system":"mslst","world":"J","drawing":"5f1…","robot":"laser
+//! Pioneer","seed":1,` and goes on with what the system keeps. Files of other versions are refused
+//! by name, and so are those of the formats that were there before.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -46,7 +46,7 @@ pub struct Origin {
 #[non_exhaustive]
 pub enum FileError {
     /// The text is not JSON, or has no header.
-    #[error("this is no learned map: make one with `tolman learn`")]
+    #[error("this is not a learned map: make one with `tolman learn`")]
     Header(#[source] serde_json::Error),
     /// The text ends too soon.
     #[error("this map is cut off: copy it again, or make one with `tolman learn`")]
@@ -224,7 +224,7 @@ mod tests {
         }
     }
 
-    /// A body of one field.
+    /// Returns a body of one field.
     fn body() -> BTreeMap<String, f64> {
         BTreeMap::from([("part".to_owned(), 0.1)])
     }

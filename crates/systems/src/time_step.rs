@@ -66,7 +66,7 @@ where
 /// What a robot was doing in a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doing {
-    /// Nothing: it has been put down, before the first action or anew.
+    /// Nothing: it has been put down, before the first action or again.
     PutDown,
     /// An action that goes on.
     UnderWay(Direction),

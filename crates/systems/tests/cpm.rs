@@ -55,7 +55,7 @@ fn centre(cell: Cell) -> Point {
     Point::new(f64::from(cell.x) + 0.5, f64::from(cell.y) + 0.5) * WIDTH
 }
 
-/// The wall on one side of a cell.
+/// Returns the wall on one side of a cell.
 fn wall(cell: Cell, side: Direction) -> (Point, Point) {
     let (out, along) = match side {
         Direction::East => (Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)),
@@ -68,7 +68,7 @@ fn wall(cell: Cell, side: Direction) -> (Point, Point) {
     (middle - half, middle + half)
 }
 
-/// How far a ray goes until it meets a wall.
+/// Returns how far a ray goes until it meets a wall.
 fn range(walls: &[(Point, Point)], from: Point, way: Vector) -> f64 {
     let hits = walls.iter().filter_map(|(a, b)| {
         let (edge, gap) = (b - a, a - from);
@@ -159,7 +159,7 @@ impl SensesLandmarks for ScriptedEpuck {
     }
 }
 
-/// How a task ended, and after how many actions.
+/// Returns how a task ended, and after how many actions.
 fn pursue<R: Robot>(cpm: &mut Cpm, robot: &mut R, task: Task) -> (Standing, u32)
 where
     Cpm: System<R>,

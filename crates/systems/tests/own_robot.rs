@@ -112,7 +112,7 @@ impl Digger {
         self.sensing.compass = Some(heading);
     }
 
-    /// Whether its body would overlap a block.
+    /// Returns whether its body would overlap a block.
     fn collides(&self, position: Point) -> bool {
         self.rock.iter().any(|rock| {
             let apart = (position - rock).map(|along| (along.abs() - 0.5 * WIDTH).max(0.0));
@@ -162,7 +162,7 @@ fn layers() -> Stack {
     Stack::paper(Ring::full(72, 2.5 * ROBOT_UNIT), ROBOT_UNIT, WIDTH).unwrap()
 }
 
-/// A short apprenticeship.
+/// Returns a short apprenticeship.
 fn config() -> MslstConfig {
     MslstConfig {
         scan_steps: 2000,
@@ -187,7 +187,7 @@ where
     Standing::UnderWay
 }
 
-/// One that has learned the corridors, and its robot.
+/// Returns one that has learned the corridors, and its robot.
 fn apprentice() -> (Actor<Mslst>, Digger) {
     let mut mslst = Actor::seeded(Mslst::new(config()), layers(), 5);
     let mut robot = Digger::new(cells('.')[0], 5);
@@ -196,7 +196,7 @@ fn apprentice() -> (Actor<Mslst>, Digger) {
     (mslst, robot)
 }
 
-/// The sum of the steps to the goal from every other cell.
+/// Returns the sum of the steps to the goal from every other cell.
 fn steps_from_everywhere<B: Brain>(system: &mut Actor<B>, robot: &mut Digger) -> u32
 where
     B::Observation: OfStep<Digger>,

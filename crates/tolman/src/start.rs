@@ -55,7 +55,7 @@ impl FromStr for Start {
                 .parse::<f64>()
                 .ok()
                 .filter(|number| number.is_finite());
-            number.ok_or_else(|| format!("`{text}` is no finite number"))
+            number.ok_or_else(|| format!("`{text}` is not a finite number"))
         };
         let parts: Vec<&str> = text.split(',').collect();
         let (x, y, degrees) = match parts[..] {

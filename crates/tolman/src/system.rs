@@ -12,6 +12,7 @@ use tolman_arena::episode::{layers, random_start};
 use tolman_arena::pioneer::{CoursePioneer, LASER_PIONEER, body, calibrated};
 use tolman_control::Stack;
 use tolman_draw::Drawing;
+use tolman_experiment::choices;
 use tolman_geom::Pose;
 use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneer;
@@ -33,7 +34,7 @@ pub trait SystemEntry: Sync {
     }
 
     /// Returns the names of its presets, the first of which is taken where nothing is said, each
-    /// with what it is.
+    /// with a description.
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
         &[]
     }
@@ -141,7 +142,7 @@ pub struct Setup<'a> {
     pub world: &'a str,
     /// The maze or world.
     pub terrain: &'a Terrain,
-    /// What all chance follows from.
+    /// Seed of all random numbers: the same seed gives the same result.
     pub seed: u64,
     /// Where the robot starts; `None` for what the system has for it.
     pub start: Option<Start>,
@@ -170,7 +171,7 @@ impl Setup<'_> {
     /// Returns the one of `robots` that is meant.
     ///
     /// # Errors
-    /// If it is none of them.
+    /// If it is not one of them.
     pub fn robot(&self, robots: &[&'static str]) -> Result<&'static str, Error> {
         choose(
             self.robot,
@@ -221,7 +222,7 @@ impl Settings<'_> {
     /// Returns the one of `presets` that is meant.
     ///
     /// # Errors
-    /// If it is none of them.
+    /// If it is not one of them.
     pub fn preset<T>(
         &self,
         presets: impl IntoIterator<Item = (&'static str, T)>,
@@ -252,10 +253,9 @@ impl Settings<'_> {
 fn set(table: &mut toml::Table, path: &str, value: &str) -> Result<(), Error> {
     let (name, rest) = path.split_once('.').unwrap_or((path, ""));
     let Some(field) = table.get_mut(name) else {
-        let known: Vec<&str> = table.keys().map(String::as_str).collect();
         return Err(anyhow!(
-            "--set {path}={value}: there is no setting {name}; choose one of: {}",
-            known.join(", ")
+            "--set {path}={value}: there is no setting {name}; {}",
+            choices(name, table.keys().map(String::as_str))
         ));
     };
     if let (false, Some(inner)) = (rest.is_empty(), field.as_table_mut()) {
@@ -286,10 +286,10 @@ fn choose<T>(
         }
         names.push(slug(known));
     }
+    let name = name.unwrap_or_default();
     Err(anyhow!(
-        "there is no {what} {}; choose one of: {}",
-        name.unwrap_or_default(),
-        names.join(", ")
+        "there is no {what} {name}; {}",
+        choices(name, names.iter().map(String::as_str))
     ))
 }
 
@@ -324,7 +324,7 @@ pub fn start_anywhere(setup: &Setup<'_>, course: &Course, body: &Body) -> Result
     setup.start(course, Start::Random, random)
 }
 
-/// A name as it is typed.
+/// Returns a name as it is typed.
 pub(crate) fn slug(name: &str) -> String {
     name.to_lowercase().replace(' ', "-")
 }

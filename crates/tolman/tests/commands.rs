@@ -15,7 +15,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
 use std::thread;
 
-/// The command: what `TOLMAN` names, else the one built with this test.
+/// Returns the command: what `TOLMAN` names, else the one built with this test.
 fn tolman() -> PathBuf {
     let named = std::env::var_os("TOLMAN").map(|path| root().join(path));
     named.unwrap_or_else(|| env!("CARGO_BIN_EXE_tolman").into())
@@ -36,7 +36,7 @@ fn sh(folder: &Path, line: &str) -> Output {
     command.stdin(Stdio::null()).output().unwrap()
 }
 
-/// A command and the exit code it should have.
+/// Returns a command and the exit code it should have.
 fn expected(line: &str) -> (String, i32) {
     let (command, comment) = line.split_once(" # ").unwrap_or((line, ""));
     let code = comment.trim().strip_prefix("exits ");
@@ -52,7 +52,7 @@ fn expected(line: &str) -> (String, i32) {
     (command.to_owned(), code)
 }
 
-/// Runs the lines of one page one after the other and returns what went wrong.
+/// Runs the lines of one page one by one and returns what went wrong.
 fn run(page: &str, lines: &[String]) -> Vec<String> {
     let name = page.replace(['/', ' '], "-");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
@@ -79,7 +79,7 @@ fn run(page: &str, lines: &[String]) -> Vec<String> {
     wrong
 }
 
-/// The lines of the fenced blocks of a page that call `tolman`.
+/// Returns the lines of the fenced blocks of a page that call `tolman`.
 fn commands_of_page(text: &str) -> Vec<String> {
     let blocks = text.split("\n```").skip(1).step_by(2);
     let lines = blocks.flat_map(str::lines).map(|line| {
@@ -89,7 +89,7 @@ fn commands_of_page(text: &str) -> Vec<String> {
     lines.filter(|line| line.starts_with("tolman ")).collect()
 }
 
-/// The examples of a verb's help.
+/// Returns the examples of a verb's help.
 fn commands_of_help(verb: &[String]) -> Vec<String> {
     let help = Command::new(tolman())
         .args(verb)
@@ -105,7 +105,7 @@ fn commands_of_help(verb: &[String]) -> Vec<String> {
         .collect()
 }
 
-/// The verbs below `verb`, by the list that its help begins with.
+/// Returns the verbs below `verb`, by the list that its help begins with.
 fn verbs(verb: &[String]) -> Vec<Vec<String>> {
     let help = Command::new(tolman())
         .args(verb)

@@ -18,6 +18,7 @@ pub const ENTRY: Entry = Entry {
     source: "",
     runs: 20,
     quick_runs: 5,
+    tour: None,
     open,
 };
 

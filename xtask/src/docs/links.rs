@@ -33,7 +33,8 @@ pub(super) fn of(text: &str) -> Vec<Link<'_>> {
     links
 }
 
-/// Why `target`, found on `page`, leads nowhere; none if it leads somewhere or off the project.
+/// Reason why `target`, found on `page`, leads nowhere; none if it leads somewhere or off the
+/// project.
 pub(super) fn fault(page: &Path, text: &str, target: &str) -> Option<String> {
     if target.contains("://") || target.starts_with("mailto:") {
         return None;

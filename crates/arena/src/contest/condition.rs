@@ -14,13 +14,13 @@ pub enum Condition {
     /// Nothing.
     #[default]
     AsMade,
-    /// Wheels out of calibration, each by a constant of at most so many percent.
+    /// Wheels out of calibration, each by a constant of at most this many percent.
     Wheels(u8),
     /// A compass that is off by a constant.
     CompassOffset,
     /// What the wheels roll errs by a constant share.
     ConstantOdometry,
-    /// What the wheels roll errs by a share that is drawn anew in each time step.
+    /// What the wheels roll errs by a share that is drawn again in each time step.
     FreshOdometry,
     /// A door that stands open while the robot learns, and is shut afterwards.
     Doors,

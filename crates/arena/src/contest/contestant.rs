@@ -2,6 +2,7 @@ use std::sync::OnceLock;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::diktiometry::{JournalLength, Use};
 use tolman_maze::{Maze, MazeFile};
 use tolman_robot::Ring;
@@ -101,12 +102,12 @@ const NO_STEPS: u32 = 0;
 /// From wall to wall where a robot keeps away from what is near, as GNG-SLAM's does, m.
 const WIDE: f64 = 1.5;
 
-/// MSLST records scans for so many time steps for each cell, and maps so many actions: both
-/// together take the most of what it may drive.
+/// Time steps per cell for which MSLST records scans; it also maps for this many actions per cell.
+/// Together they use most of the distance that it may drive.
 const SCANS_A_CELL: u32 = 10;
 const ACTIONS_A_CELL: u32 = 6;
 
-/// GNG-SLAM takes so many records for each cell: the most of what it may drive.
+/// Records that GNG-SLAM takes per cell, which use most of the distance that it may drive.
 const RECORDS_A_CELL: usize = 5;
 
 impl Contestant {
@@ -201,6 +202,18 @@ impl Contestant {
         )
     }
 
+    /// Returns the pose in the world of the frame in which it has the places of its map, if it
+    /// started at `start`: for pictures.
+    #[must_use]
+    pub const fn world_from_map(self, start: Pose) -> Pose {
+        match self {
+            // Its axes are the compass's.
+            Self::MslstBetter => Pose::new(start.position, Heading::EAST),
+            Self::GngSlamBetter => start,
+            _ => Pose::new(Point::new(0.0, 0.0), Heading::EAST),
+        }
+    }
+
     /// Returns which cells are its places. What it takes for a place beside, with two ways, is a
     /// part of a way.
     #[must_use]
@@ -212,14 +225,17 @@ impl Contestant {
     }
 
     /// Returns whether it says, when it is done, that its map is that of the whole world. MSLST has
-    /// then used up its actions, MSLST Better has been everywhere, GNG-SLAM has its records and the
-    /// micromouse has proven a shortest run: none of them says that its places are those of the
-    /// drawing.
+    /// then used up its actions, GNG-SLAM has its records and the micromouse has proven a shortest
+    /// run: none of them says that its places are those of the drawing.
     #[must_use]
     pub const fn claims(self) -> bool {
         matches!(
             self,
-            Self::Cpm | Self::CpmBetter | Self::Diktiometry | Self::DiktiometryBetter
+            Self::MslstBetter
+                | Self::Cpm
+                | Self::CpmBetter
+                | Self::Diktiometry
+                | Self::DiktiometryBetter
         )
     }
 
@@ -504,8 +520,8 @@ fn ring_as_epuck(
 }
 
 impl Schooling {
-    /// The common patterns that the e-puck learns in the learning maze (section 4.1 of CPM's
-    /// paper).
+    /// Returns the common patterns that the e-puck learns in the learning maze (section 4.1 of
+    /// CPM's paper).
     fn of_epuck(&self) -> Result<CommonPatterns, BoxError> {
         let learned = self.epuck.get().cloned();
         if let Some(learned) = learned {
@@ -516,7 +532,7 @@ impl Schooling {
         Ok(self.epuck.get_or_init(|| learned).clone())
     }
 
-    /// Those that the Pioneer learns there.
+    /// Returns those that the Pioneer learns there.
     fn of_pioneer(&self) -> Result<CommonPatterns, BoxError> {
         let learned = self.pioneer.get().cloned();
         if let Some(learned) = learned {

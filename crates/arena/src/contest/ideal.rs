@@ -12,7 +12,7 @@ use crate::cpm::landmark_at;
 /// An observer that has the drawing and mistakes nothing of what it sees: the ceiling of who
 /// watches the same drive.
 ///
-/// In each cell it sees the walls and the landmark, and through each opening the walls of so many
+/// In each cell it sees the walls and the landmark, and through each opening the walls of several
 /// cells straight on: more than any robot. Where the robot sees colours, it sees those of all walls
 /// around.
 #[derive(Clone, Debug)]
@@ -129,8 +129,8 @@ impl IdealObserver<'_> {
         }
     }
 
-    /// The shortest way from a cell to another one that was seen next: a robot may pass a cell
-    /// between two looks.
+    /// Returns the shortest way from a cell to another one that was seen next: a robot may pass a
+    /// cell between two looks.
     fn between(&self, from: Cell, to: Cell) -> Vec<Direction> {
         let steps = self.maze.steps_to(&[to]);
         let left = |cell: Cell| steps[self.maze.grid().index(cell)];
@@ -147,7 +147,7 @@ impl IdealObserver<'_> {
     }
 }
 
-/// A direction turned by so many quarters, clockwise.
+/// Returns the direction turned clockwise by `quarters` quarter turns.
 fn turned(direction: Direction, quarters: usize) -> Direction {
     Direction::ALL[(direction.index() + quarters) % 4]
 }

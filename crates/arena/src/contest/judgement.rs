@@ -200,24 +200,24 @@ impl<'a> Chart<'a> {
         self.links.get(&place).map_or(0, Vec::len)
     }
 
-    /// Whether it stands for a cell amid a way, and is a part of a chain.
+    /// Returns whether it stands for a cell amid a way, and is a part of a chain.
     fn is_amid(&self, place: u32) -> bool {
         !self.is_true_place(place) && self.cell(place).is_some() && self.degree(place) == 2
     }
 
-    /// Whether a link leads to a cell amid a way and no further.
+    /// Returns whether a link leads to a cell amid a way and no further.
     fn is_stub(&self, place: u32) -> bool {
         !self.is_true_place(place) && self.cell(place).is_some() && self.degree(place) == 1
     }
 
-    /// The places that belong to no chain and end no stub, with their cells.
+    /// Returns the places that belong to no chain and end no stub, with their cells.
     fn nodes(&self) -> Vec<(u32, Option<Cell>)> {
         let places = self.links.keys().copied();
         let nodes = places.filter(|place| !self.is_amid(*place) && !self.is_stub(*place));
         nodes.map(|place| (place, self.cell(place))).collect()
     }
 
-    /// All links, those over places amid a way joined.
+    /// Returns all links, those over places amid a way joined.
     fn chains(&self) -> Vec<Chain> {
         let mut used: BTreeSet<usize> = BTreeSet::new();
         let mut chains = Vec::new();
@@ -307,8 +307,8 @@ mod tests {
         (family.draw)(family.sizes[0], &mut ChaCha8Rng::seed_from_u64(seed)).unwrap()
     }
 
-    /// The map that has each of these cells as a place, by its index, with the openings between
-    /// neighbours as links.
+    /// Returns the map that has each of these cells as a place, by its index, with the openings
+    /// between neighbours as links.
     fn of_cells(maze: &Maze) -> (MapView, Vec<PlaceVisit>) {
         let id = |cell: Cell| maze.grid().index(cell) as u32;
         let mut map = MapView::default();
@@ -328,7 +328,7 @@ mod tests {
         (map, visits)
     }
 
-    /// The map that has the true places alone.
+    /// Returns the map that has the true places alone.
     fn of_places(maze: &Maze, truth: &TrueGraph) -> (MapView, Vec<PlaceVisit>) {
         let id = |cell: Cell| maze.grid().index(cell) as u32;
         let mut map = MapView::default();

@@ -13,6 +13,7 @@ mod judgement;
 mod paint;
 mod pathfinder;
 mod play;
+mod show;
 mod true_graph;
 mod wanderers;
 mod whereabouts;
@@ -23,5 +24,6 @@ pub use judgement::{MapJudgement, judge};
 pub use play::{
     Claim, Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,
 };
+pub use show::{FoundOut, ShowRecord};
 pub use true_graph::{PlaceRule, TrueGraph, TrueWay};
 pub use whereabouts::PlaceVisit;

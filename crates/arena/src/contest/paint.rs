@@ -22,8 +22,8 @@ impl Paint {
         Self(cells.map(seen).collect())
     }
 
-    /// Returns the colours around a cell, clockwise from so many quarters of a turn east of north
-    /// on; none if nobody sees them.
+    /// Returns the colours around a cell, clockwise starting `quarters` quarter turns clockwise
+    /// from north; none if nobody sees them.
     pub(super) fn seen(&self, cell: Cell, quarters: usize) -> impl Iterator<Item = [u8; 3]> + '_ {
         let colours = self.0.get(&cell).map_or(&[][..], Vec::as_slice);
         let turned = colours.iter().cycle().skip(quarters * A_QUARTER);
@@ -31,7 +31,8 @@ impl Paint {
     }
 }
 
-/// The colours that rays meet, evenly spread over the full circle, clockwise from the north on.
+/// Returns the colours that rays meet, evenly spread over the full circle, clockwise from the north
+/// on.
 fn around(world: &World, here: Point) -> Vec<[u8; 3]> {
     let rays = (0..4 * A_QUARTER).map(|ray| {
         let bearing = (ray as f64 + 0.5) / (4 * A_QUARTER) as f64 * TAU;

@@ -39,14 +39,14 @@ pub struct Contest<'a> {
     pub condition: Condition,
     /// How often it is put down to find out where it is, and as often to go to the goal.
     pub starts: u32,
-    /// The seed of all chance.
+    /// The seed of all random numbers.
     pub seed: u64,
     /// What measures how long the contestant thinks; `None` if nobody asks. Nothing else depends on
     /// it.
     pub stopwatch: Option<Stopwatch>,
 }
 
-/// Why a contest cannot be held. That a system fails is a result, and no error.
+/// Reason why a contest cannot be held. That a system fails is a result, and no error.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ContestError {
@@ -57,7 +57,7 @@ pub enum ContestError {
         contestant: &'static str,
         /// The world's name.
         world: String,
-        /// Why.
+        /// The underlying error.
         #[source]
         source: BoxError,
     },
@@ -68,7 +68,7 @@ pub enum ContestError {
         contestant: &'static str,
         /// The world's name.
         world: String,
-        /// Why.
+        /// The underlying error.
         #[source]
         source: BoxError,
     },
@@ -81,6 +81,8 @@ pub enum Moment {
     Begun,
     /// It has made an action.
     Acted,
+    /// Its robot was lifted and put down elsewhere, and it was told.
+    PutDown,
     /// All is over.
     Over,
 }
@@ -88,7 +90,7 @@ pub enum Moment {
 /// What came of a contest.
 #[derive(Clone, Debug, Default)]
 pub struct ContestRecord {
-    /// Why the contestant did not drive at all, which it said before.
+    /// Reason why the contestant did not drive at all, which it said before.
     pub abstained: Option<String>,
     /// What it learned; `None` of who abstained, or learns no map.
     pub learned: Option<LearnRecord>,
@@ -128,8 +130,7 @@ pub struct LearnRecord {
 pub enum Claim {
     /// It is right and whole: the system says that it is done.
     Right,
-    /// It is wrong or unfinished: the system gave up, or held its map for rather wrong than right
-    /// when its time was up.
+    /// It is wrong or unfinished: the system gave up, or holds its map for rather wrong than right.
     Wrong,
     /// The system does not say: its time was up, or being done says nothing of its map.
     Undecided,
@@ -138,9 +139,9 @@ pub enum Claim {
 impl Claim {
     fn of(end: &TaskEnd, claims: bool, certainty: Option<f64>) -> Self {
         match end {
-            TaskEnd::Done if claims => Self::Right,
             TaskEnd::GaveUp { .. } => Self::Wrong,
-            TaskEnd::OutOfTime if certainty.is_some_and(|certainty| certainty < 0.5) => Self::Wrong,
+            _ if certainty.is_some_and(|certainty| certainty < 0.5) => Self::Wrong,
+            TaskEnd::Done if claims => Self::Right,
             TaskEnd::Done | TaskEnd::OutOfTime => Self::Undecided,
         }
     }
@@ -184,7 +185,7 @@ pub enum LocateOutcome {
     Wrong,
     /// It does not say.
     Abstained {
-        /// Why.
+        /// Reason, as a sentence without a full stop.
         why: String,
     },
 }
@@ -221,7 +222,7 @@ pub struct Home {
     pub over_shortest: Option<f64>,
     /// Time steps in which it touched something.
     pub bumps: u32,
-    /// Why it gave up before; empty if it did not.
+    /// Reason why it gave up before; empty if it did not.
     pub gave_up: String,
 }
 
@@ -235,8 +236,8 @@ const DOOR: &str = "door";
 const KIDNAPPED_AT: f64 = 0.5;
 
 impl<'a> Contest<'a> {
-    /// A task ends when so many times the length of all corridors was driven, or of the shortest
-    /// way to the goal.
+    /// A task ends when the robot has driven this many times the length of all corridors, or of the
+    /// shortest way to the goal.
     pub const LIMIT: f64 = 10.0;
 
     /// Holds it. `watch` is shown the contestant at every [`Moment`]; nothing depends on it.
@@ -394,7 +395,7 @@ impl<'a> Contest<'a> {
         place.filter(|_| is_kidnapped)
     }
 
-    /// The cells but goals, and the ways out of them.
+    /// Returns the cells but goals, and the ways out of them.
     fn ways_out(&self) -> Vec<(Cell, Direction)> {
         let maze = self.maze;
         let cells = maze.reachable().filter(|cell| !maze.goals().contains(cell));
@@ -415,7 +416,7 @@ impl<'a> Contest<'a> {
         }
     }
 
-    fn enter_error(&self, source: BoxError) -> ContestError {
+    pub(super) fn enter_error(&self, source: BoxError) -> ContestError {
         ContestError::Enter {
             contestant: self.contestant.name(),
             world: self.name.to_owned(),
@@ -423,7 +424,7 @@ impl<'a> Contest<'a> {
         }
     }
 
-    fn put_error(&self, source: BoxError) -> ContestError {
+    pub(super) fn put_error(&self, source: BoxError) -> ContestError {
         ContestError::PutDown {
             contestant: self.contestant.name(),
             world: self.name.to_owned(),
@@ -440,15 +441,15 @@ fn position(len: usize, rng: &mut impl Rng) -> usize {
 }
 
 /// A contest under way.
-struct Bout<'a> {
-    maze: &'a Maze,
+pub(super) struct Bout<'a> {
+    pub(super) maze: &'a Maze,
     /// As it is once the robot has learned.
     afterwards: Cow<'a, Maze>,
     truth: TrueGraph,
     observer: IdealObserver<'a>,
     claims: bool,
-    squares: Squares,
-    outing: Box<dyn Outing>,
+    pub(super) squares: Squares,
+    pub(super) outing: Box<dyn Outing>,
     /// Whether it was lifted, and has made no step since.
     is_lifted: bool,
     /// The cell that each place of the map stands for.
@@ -456,19 +457,19 @@ struct Bout<'a> {
 }
 
 /// How a task went.
-struct Driven {
-    end: TaskEnd,
+pub(super) struct Driven {
+    pub(super) end: TaskEnd,
     /// The first time step of it.
     from: usize,
     bumps: u32,
     /// Metres until it first was at the goal that it was sent to.
-    arrived: Option<f64>,
+    pub(super) arrived: Option<f64>,
     /// Metres in all.
-    metres: f64,
+    pub(super) metres: f64,
 }
 
 impl<'a> Bout<'a> {
-    fn new(contest: &Contest<'a>, entered: Entered) -> Self {
+    pub(super) fn new(contest: &Contest<'a>, entered: Entered) -> Self {
         let Entered { outing, pitch } = entered;
         let maze = contest.maze;
         let grid = maze.grid();
@@ -485,7 +486,7 @@ impl<'a> Bout<'a> {
         }
     }
 
-    fn here(&self) -> Point {
+    pub(super) fn here(&self) -> Point {
         let last = self.outing.path().last();
         last.map_or_else(Point::origin, |pose| pose.position)
     }
@@ -493,7 +494,7 @@ impl<'a> Bout<'a> {
     /// Lets it pursue a task until it is done, gives up, or has driven `most` metres. After as many
     /// metres as `kidnapping` says it is put elsewhere, and not told. `see` is shown what it was
     /// before and after each action.
-    fn pursue(
+    pub(super) fn pursue(
         &mut self,
         task: Task,
         most: f64,
@@ -576,11 +577,16 @@ impl<'a> Bout<'a> {
     }
 
     /// Metres of all corridors.
-    fn corridors(&self) -> f64 {
+    pub(super) fn corridors(&self) -> f64 {
         self.maze.corridor_count() as f64 * self.squares.pitch
     }
 
-    fn learn(
+    /// What [`LearnRecord::driven`] is a multiple of, m.
+    pub(super) fn scale(&self) -> f64 {
+        self.corridors().max(self.squares.pitch)
+    }
+
+    pub(super) fn learn(
         &mut self,
         kidnapping: Option<(Cell, Direction)>,
         watch: &mut impl FnMut(&dyn Outing, Moment),
@@ -592,7 +598,7 @@ impl<'a> Bout<'a> {
         let mut beliefs: Vec<PlaceVisit> = Vec::new();
         let see = |outing: &dyn Outing, before: Point| {
             let after = outing.path().last().map_or(before, |pose| pose.position);
-            let visits = outing.visits().len();
+            let visits = outing.visit_count();
             while arrivals.len() + 1 < visits {
                 arrivals.push(squares.cell_at(before));
             }
@@ -634,7 +640,7 @@ impl<'a> Bout<'a> {
             certainty,
             end: driven.end,
             judgement,
-            driven: driven.metres / self.corridors().max(squares.pitch),
+            driven: driven.metres / self.scale(),
             steps: (path.len() - 1) as u32,
             bumps: driven.bumps,
             places: map.places.len(),
@@ -644,10 +650,19 @@ impl<'a> Bout<'a> {
     }
 
     /// Puts the robot down amid a cell and tells its system.
-    fn put_down(&mut self, (cell, way): (Cell, Direction)) -> Result<Standing, BoxError> {
+    pub(super) fn put_down(
+        &mut self,
+        (cell, way): (Cell, Direction),
+    ) -> Result<Standing, BoxError> {
         let pose = Pose::new(self.squares.middle(cell), heading_of(way));
         self.is_lifted = true;
         self.outing.put_down(pose)
+    }
+
+    /// Puts the robot back at the pose that it was lifted from.
+    pub(super) fn put_back(&mut self, pose: Pose) -> Result<(), BoxError> {
+        self.is_lifted = false;
+        self.outing.lift(pose)
     }
 
     fn locate(
@@ -658,23 +673,29 @@ impl<'a> Bout<'a> {
         if let Standing::GaveUp { why } = self.put_down(start)? {
             return Ok(Located::undriven(why));
         }
+        watch(&*self.outing, Moment::PutDown);
         let most = Contest::LIMIT * self.corridors();
         let driven = self.pursue(Task::Localize, most, None, |_, _| {}, watch);
         let path = &self.outing.path()[driven.from..];
         let ceiling = self.observer.after(self.squares, start, path);
-        let why = match driven.end {
-            TaskEnd::Done => None,
-            TaskEnd::GaveUp { why } => Some(why),
-            TaskEnd::OutOfTime => Some("it was still looking when its time was up".to_owned()),
-        };
         Ok(Located {
-            outcome: why.map_or_else(|| self.found(), |why| LocateOutcome::Abstained { why }),
+            outcome: self.outcome(driven.end),
             ceiling: Some(ceiling),
             with_true_map: None,
         })
     }
 
-    /// What it says of where it is, by the truth.
+    /// Returns what it says of where it is once its search for that has ended so, by the truth.
+    pub(super) fn outcome(&self, end: TaskEnd) -> LocateOutcome {
+        match end {
+            TaskEnd::Done => self.found(),
+            TaskEnd::GaveUp { why } => LocateOutcome::Abstained { why },
+            TaskEnd::OutOfTime => LocateOutcome::Abstained {
+                why: "it was still looking when its time was up".to_owned(),
+            },
+        }
+    }
+
     fn found(&self) -> LocateOutcome {
         let outing = &self.outing;
         let place = believed(&outing.belief(), || outing.map());
@@ -699,6 +720,7 @@ impl<'a> Bout<'a> {
                 gave_up: why,
             });
         }
+        watch(&*self.outing, Moment::PutDown);
         let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
         let most = Contest::LIMIT * shortest;
         let driven = self.pursue(goal, most, None, |_, _| {}, watch);
@@ -706,26 +728,23 @@ impl<'a> Bout<'a> {
         Ok(Home {
             over_shortest: arrived.filter(|way| *way <= most).map(|way| way / shortest),
             bumps: driven.bumps,
-            gave_up: match driven.end {
-                TaskEnd::GaveUp { why } => why,
-                TaskEnd::Done | TaskEnd::OutOfTime => String::new(),
-            },
+            gave_up: driven.end.why().to_owned(),
         })
     }
 }
 
-/// A system that has not got on by a cell in so many actions is stuck, and turns on the spot for
-/// ever.
+/// A system that has not advanced by one cell within this many actions is stuck; it would turn in
+/// place forever.
 const IDLE: u32 = 500;
 
-/// A task takes so many time steps at most for each cell, however little is driven in them: an
-/// e-puck, the slowest, makes some 1200 in a cell, and may drive ten times through all.
+/// Maximum number of time steps of a task per cell, however little is driven in them: an e-puck,
+/// the slowest, makes some 1200 in a cell, and may drive ten times through all.
 const STEPS_A_CELL: u32 = 20_000;
 
 /// A robot is at a place when it is nearer to it than this, in cells.
 pub(super) const NEAR: f64 = 0.75;
 
-/// The length of a path, m.
+/// Returns the length of a path, m.
 pub(super) fn length(path: &[Pose]) -> f64 {
     let steps = path.windows(2);
     let step = |pair: &[Pose]| match pair {
@@ -740,7 +759,7 @@ pub(super) trait Measured {
     /// Openings between two cells that are reached.
     fn corridor_count(&self) -> usize;
 
-    /// The length of the shortest way from a cell to the goal, m.
+    /// Returns the length of the shortest way from a cell to the goal, m.
     fn metres_to_goal(&self, from: Cell, pitch: f64) -> f64;
 }
 
@@ -872,10 +891,9 @@ mod tests {
             let found = &record.found[0];
             assert_eq!(found.outcome, LocateOutcome::Right, "{contestant:?}");
             assert!(found.ceiling.is_some_and(|chance| chance > 0.0));
-            // The true map is of use only to who has learned it as well.
-            let is_right = record.learned.is_some_and(|map| map.judgement.is_right);
-            assert_eq!(is_right, contestant != Contestant::MslstBetter);
-            assert_eq!(found.with_true_map, is_right.then_some(true));
+            let learned = record.learned.as_ref();
+            assert!(learned.is_some_and(|map| map.judgement.is_right && map.claim == Claim::Right));
+            assert_eq!(found.with_true_map, Some(true));
             let over = record.homes[0].over_shortest;
             assert!(
                 over.is_some_and(|over| over < 5.0),
@@ -939,7 +957,7 @@ mod tests {
                 assert!(driven < 1.2 * Contest::LIMIT, "{condition:?}: {driven}");
                 let told = format!("{record:?}");
                 assert_eq!(told, format!("{:?}", played(contestant, condition)));
-                // An e-puck has no compass, and its wheels slip as made by a share drawn anew.
+                // An e-puck has no compass, and its wheels slip as made by a share drawn again.
                 let is_untouched = contestant == Contestant::CpmBetter
                     && matches!(
                         condition,

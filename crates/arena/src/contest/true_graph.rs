@@ -94,7 +94,7 @@ impl TrueGraph {
     }
 
     /// Returns the numbers of the ways that a robot has gone from end to end which was in these
-    /// cells one after the other. O(cells · ways).
+    /// cells one by one. O(cells · ways).
     #[must_use]
     pub fn gone(&self, cells: impl IntoIterator<Item = Cell>) -> BTreeSet<usize> {
         let mut gone = BTreeSet::new();
@@ -125,7 +125,7 @@ impl TrueGraph {
     }
 }
 
-/// Whether a corridor leads straight on through a cell.
+/// Returns whether a corridor leads straight on through a cell.
 fn is_straight(maze: &Maze, cell: Cell) -> bool {
     let ways = Direction::ALL.map(|way| maze.is_open(cell, way));
     ways == [true, false, true, false] || ways == [false, true, false, true]
@@ -142,7 +142,7 @@ fn turn_back_or_on(between: &mut Vec<Cell>, cell: Cell) {
     }
 }
 
-/// The way that leads `out` of a place, and the direction in which one comes to its end.
+/// Returns the way that leads `out` of a place, and the direction in which one comes to its end.
 fn follow(
     maze: &Maze,
     places: &BTreeSet<Cell>,

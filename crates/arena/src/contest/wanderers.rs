@@ -12,7 +12,7 @@ use crate::episode::{self, Episode, Trial};
 use crate::mind::Mind;
 use crate::pioneer::calibrated;
 
-/// Time steps of a run at most for each metre that may be driven: whoever turns on the spot drives
+/// Time steps of a run at most for each metre that may be driven: whoever turns in place drives
 /// nowhere.
 const STEPS_A_METRE: f64 = 20.0;
 
@@ -37,7 +37,7 @@ impl<'a> Sender<'a> {
         })
     }
 
-    /// A trial from a start that ends when the robot may have driven `most` metres.
+    /// Returns a trial from a start that ends when the robot may have driven `most` metres.
     fn trial(&self, number: u64, start: (Cell, Direction), most: f64) -> Trial<'_> {
         let Contest {
             condition, seed, ..
@@ -131,7 +131,7 @@ impl<'a> Sender<'a> {
     }
 }
 
-/// Where it likeliest is, if enough of the belief lies about there.
+/// Returns where it likeliest is, if enough of the belief lies about there.
 fn sure_of(belief: &[Guess], pitch: f64) -> Option<Point> {
     let point = |guess: &Guess| match guess.at {
         Position::Point(point) => Some(point),

@@ -20,7 +20,7 @@ pub(super) struct Squares {
 }
 
 impl Squares {
-    /// The cell of a point; of a point outside the nearest.
+    /// Returns the cell of a point; of a point outside the nearest.
     pub(super) fn cell_at(self, point: Point) -> Cell {
         let along = |metres: f64, cells: u16| {
             let cell = libm::floor(metres / self.pitch);
@@ -38,7 +38,7 @@ impl Squares {
     }
 }
 
-/// The place that a belief names first; of a point the place that lies nearest to it.
+/// Returns the place that a belief names first; of a point the place that lies nearest to it.
 pub(super) fn believed(belief: &[Guess], map: impl Fn() -> MapView) -> Option<u32> {
     match belief.first()?.at {
         Position::Place(id) => Some(id),
@@ -53,8 +53,8 @@ fn nearest(map: &MapView, point: Point) -> Option<u32> {
     nearest.map(|(id, _)| id)
 }
 
-/// How far the frame of a map lies from that of the world, m, by the places that were visited;
-/// `None` if none of them knows where it lies. The axes are taken to be the same.
+/// Returns how far the frame of a map lies from that of the world, m, by the places that were
+/// visited; `None` if none of them knows where it lies. The axes are taken to be the same.
 pub(super) fn offset<'a>(
     places: impl Iterator<Item = (&'a MapPlace, Cell)>,
     squares: Squares,

@@ -93,8 +93,9 @@ impl Paving {
         }
     }
 
-    /// Whether an end of a wall stops the body between two middles that are clear of it. The wall
-    /// itself does not pass between them, since they lie closer together than the body is wide.
+    /// Returns whether an end of a wall stops the body between two middles that are clear of it.
+    /// The wall itself does not pass between them, since they lie closer together than the body is
+    /// wide.
     fn stops(&self, wall: &WallSegment, start: Point, end: Point) -> bool {
         let way = WallSegment {
             start,
@@ -104,7 +105,7 @@ impl Paving {
         way.distance(wall.start) <= self.radius || way.distance(wall.end) <= self.radius
     }
 
-    /// The squares from which a wall may be touched.
+    /// Returns the squares from which a wall may be touched.
     fn near(&self, wall: &WallSegment) -> impl Iterator<Item = Cell> + use<> {
         let reach = self.radius + 2.0 * self.pitch;
         let across = |start: f64, end: f64, origin: f64, count: u16| {
@@ -118,7 +119,8 @@ impl Paving {
         rows.flat_map(move |y| columns.clone().map(move |x| Cell::new(x, y)))
     }
 
-    /// The squares whose middles lie in a zone, and those that hold the middles of its areas.
+    /// Returns the squares whose middles lie in a zone, and those that hold the middles of its
+    /// areas.
     fn cells_of(&self, zone: &Zone) -> Vec<Cell> {
         let all = self.grid.cells();
         let inside = all.filter(|cell| zone.contains(self.centre(*cell)));
@@ -129,13 +131,13 @@ impl Paving {
         inside.chain(middles).collect()
     }
 
-    /// The middle of a square.
+    /// Returns the middle of a square.
     pub(super) fn centre(&self, cell: Cell) -> Point {
         let offset = Vector::new(f64::from(cell.x) + 0.5, f64::from(cell.y) + 0.5);
         self.origin + self.pitch * offset
     }
 
-    /// The square in which `point` lies.
+    /// Returns the square in which `point` lies.
     pub(super) fn cell_at(&self, point: Point) -> Option<Cell> {
         let along = |value: f64, count: u16| {
             let index = (value / self.pitch).floor();
@@ -146,22 +148,22 @@ impl Paving {
         Some(Cell::new(x, along(offset.y, self.grid.height())?))
     }
 
-    /// The square in which `point` lies, and those around it: a body that stands there touches no
-    /// wall between them.
+    /// Returns the square in which `point` lies, and those around it: a body that stands there
+    /// touches no wall between them.
     pub(super) fn around(&self, point: Point) -> impl Iterator<Item = Cell> + '_ {
         let steps =
             (-1..=1).flat_map(|x| (-1..=1).map(move |y| Vector::new(f64::from(x), f64::from(y))));
         steps.filter_map(move |step| self.cell_at(point + self.pitch * step))
     }
 
-    /// How much of a corridor's length a square stands for, m: the body's centre has but the width
-    /// that the body leaves.
+    /// Returns how much of a corridor's length a square stands for, m: the body's centre has but
+    /// the width that the body leaves.
     pub(super) fn metres_per_cell(&self, corridor_width: f64) -> f64 {
         let left = (corridor_width - 2.0 * self.radius).max(self.pitch);
         self.pitch * self.pitch / left
     }
 
-    /// The middle of the zone `start`, looking along the longest way that is clear there.
+    /// Returns the middle of the zone `start`, looking along the longest way that is clear there.
     pub(super) fn start(&self, maze: &Maze, world: &World) -> Option<Pose> {
         let position = middle(world.zone("start")?.areas().first()?);
         let cell = self.cell_at(position)?;
@@ -170,8 +172,8 @@ impl Paving {
         Some(Pose::new(position, tolman_control::heading_of(direction)))
     }
 
-    /// The middle between what bounds the body to the left and to the right of a square as it looks
-    /// along `direction`.
+    /// Returns the middle between what bounds the body to the left and to the right of a square as
+    /// it looks along `direction`.
     pub(super) fn amid(&self, maze: &Maze, cell: Cell, direction: Direction) -> Point {
         let to = |side| f64::from(run(maze, cell, side));
         let (left, right) = (direction.left(), direction.right());
@@ -181,7 +183,7 @@ impl Paving {
     }
 }
 
-/// How many squares the body can go straight ahead from one.
+/// Returns how many squares the body can go straight ahead from one.
 fn run(maze: &Maze, cell: Cell, direction: Direction) -> u32 {
     let ahead = core::iter::successors(Some(cell), |cell| maze.beside(*cell, direction));
     ahead.skip(1).count() as u32

@@ -133,8 +133,8 @@ fn one_sensor_that_fails_ends_in_an_error_or_as_it_is_said() {
     assert!(stuck_told >= 3, "{stuck_told} told");
 }
 
-/// A world of so many corridors that meet in its middle, each 0.8 m long; the robot is put into the
-/// end of the first, the goal is at the end of the one across.
+/// Returns a world of `branches` corridors that meet in its middle, each 0.8 m long; the robot is
+/// put into the end of the first, the goal is at the end of the one across.
 fn star(branches: u32, width: f64) -> (World, Pose) {
     let (length, half) = (0.8, width / 2.0);
     let spacing = TAU / f64::from(branches);

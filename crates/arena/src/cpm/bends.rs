@@ -59,7 +59,7 @@ impl BendLikeness {
     }
 }
 
-/// The bends of the same fragment from its other end.
+/// Returns the bends of the same fragment from its other end.
 fn inverted(bends: &[Quarters]) -> Vec<Quarters> {
     bends.iter().rev().map(|bend| (4 - bend) % 4).collect()
 }

@@ -42,7 +42,7 @@ pub fn epuck_course_on(name: &str, terrain: &Terrain) -> Result<Course, CourseEr
     }
 }
 
-/// The width of the corridors, if the e-puck sees what such corridors are.
+/// Returns the width of the corridors, if the e-puck sees what such corridors are.
 fn seen(width: Option<f64>) -> Result<f64, CourseError> {
     let width = width.unwrap_or(CORRIDOR_WIDTH);
     let (least, most) = WIDTHS;

@@ -14,7 +14,7 @@ use super::world::shortest_covering_walk;
 /// A maze explored to its end: "the task is to obtain the complete map" (section 6).
 #[derive(Clone, Debug, Default)]
 pub struct Exploration {
-    /// Why it ended; none if it broke off.
+    /// Reason why it ended, or `None` if it broke off.
     pub done: Option<Done>,
     /// Whether each place and fragment of the maze is on the map once, and all are joined as they
     /// truly are.
@@ -23,16 +23,16 @@ pub struct Exploration {
     pub traversals: u32,
     /// Fragments of the maze that can be reached.
     pub fragments: u32,
-    /// Fragments of the shortest walk from the start through all of them, for who knows the maze;
-    /// none where that takes too long to find.
+    /// Fragments of the shortest walk from the start through all of them, for who knows the maze,
+    /// or `None` where that takes too long to find.
     pub best: Option<u32>,
-    /// When the last fragment was walked, s; none if one was not.
+    /// When the last fragment was walked, s, or `None` if one was not.
     pub seconds: Option<f64>,
     /// Theorem 1's bound of that time, with the times that the robot took, s.
     pub bound: f64,
     /// Time steps in which its body touched a wall.
     pub bumps: u32,
-    /// Why it broke off.
+    /// Reason why it broke off.
     pub trouble: Option<String>,
 }
 

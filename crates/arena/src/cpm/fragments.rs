@@ -25,7 +25,7 @@ pub struct WayOut {
     pub cells: u32,
 }
 
-/// What the robot sees to stand in a cell.
+/// Returns what the robot sees to stand in a cell.
 pub(crate) fn landmark_at(maze: &Maze, cell: Cell) -> Option<Landmark> {
     if maze.start().is_some_and(|(start, _)| start == cell) {
         return Some(Landmark::Start);
@@ -33,13 +33,13 @@ pub(crate) fn landmark_at(maze: &Maze, cell: Cell) -> Option<Landmark> {
     maze.goals().contains(&cell).then_some(Landmark::Goal)
 }
 
-/// Whether a cell is a junction, a dead end, the start or a goal.
+/// Returns whether a cell is a junction, a dead end, the start or a goal.
 fn ends_fragments(maze: &Maze, cell: Cell) -> bool {
     maze.degree(cell) != 2 || landmark_at(maze, cell).is_some()
 }
 
-/// The cells of a way that leads `out` of a place to `next` and on to the next place, and the
-/// direction in which one comes there.
+/// Returns the cells of a way that leads `out` of a place to `next` and on to the next place, and
+/// the direction in which one comes there.
 fn follow(
     maze: &Maze,
     out: Direction,
@@ -58,8 +58,8 @@ fn follow(
     (cells, came)
 }
 
-/// The cells of the fragment that leads `out` of a place, that one first, and the direction in
-/// which one comes to its end; none if a wall stands there.
+/// Returns the cells of the fragment that leads `out` of a place, that one first, and the direction
+/// in which one comes to its end, or `None` if a wall stands there.
 pub(super) fn along(maze: &Maze, from: Cell, out: Direction) -> Option<(Vec<Cell>, Direction)> {
     let (_, next) = maze.neighbours(from).find(|(way, _)| *way == out)?;
     let (mut cells, came) = follow(maze, out, next, |cell| ends_fragments(maze, cell));
@@ -67,7 +67,7 @@ pub(super) fn along(maze: &Maze, from: Cell, out: Direction) -> Option<(Vec<Cell
     Some((cells, came))
 }
 
-/// The directions in which one who goes over these cells leaves each but the last.
+/// Returns the directions in which one who goes over these cells leaves each but the last.
 pub(super) fn headings(maze: &Maze, cells: &[Cell]) -> Vec<Direction> {
     let steps = cells.windows(2);
     steps
@@ -82,12 +82,12 @@ pub(super) fn headings(maze: &Maze, cells: &[Cell]) -> Vec<Direction> {
 /// Quarters of a turn, clockwise.
 pub(super) type Quarters = usize;
 
-/// The turn from one direction to another.
+/// Returns the turn from one direction to another.
 pub(super) const fn quarters(from: Direction, to: Direction) -> Quarters {
     (to.index() + 4 - from.index()) % 4
 }
 
-/// The turns between these headings.
+/// Returns the turns between these headings.
 pub(super) fn bends(headings: &[Direction]) -> Vec<Quarters> {
     let bend = |pair: &[Direction]| match pair {
         [came, on] => quarters(*came, *on),
@@ -96,7 +96,7 @@ pub(super) fn bends(headings: &[Direction]) -> Vec<Quarters> {
     headings.windows(2).map(bend).collect()
 }
 
-/// Where one looks who goes from one cell to another.
+/// Returns where one looks who goes from one cell to another.
 fn heading_between(from: Cell, to: Cell) -> Heading {
     let step = |from: u16, to: u16| f64::from(to) - f64::from(from);
     Heading::of(Vector::new(step(from.x, to.x), step(from.y, to.y)))
@@ -111,7 +111,7 @@ pub(super) const DIRECTIONS: [Direction; 4] = [
 ];
 
 impl TrueFragments {
-    /// The fragments of a maze between its junctions, dead ends, start and goals.
+    /// Returns the fragments of a maze between its junctions, dead ends, start and goals.
     #[must_use]
     pub fn of(maze: &Maze) -> Self {
         let is_place = |cell: Cell| ends_fragments(maze, cell);
@@ -138,7 +138,7 @@ impl TrueFragments {
         Self { ways }
     }
 
-    /// The way by which one leaves a place that looks in this heading.
+    /// Returns the way by which one leaves a place that looks in this heading.
     #[must_use]
     pub fn way(&self, from: Cell, heading: Heading) -> Option<WayOut> {
         let nearest = libm::round(heading.radians() / FRAC_PI_2).rem_euclid(4.0) as u32;
@@ -146,7 +146,7 @@ impl TrueFragments {
         self.ways.get(&(from, direction)).copied()
     }
 
-    /// The same fragment, walked the other way.
+    /// Returns the same fragment, walked the other way.
     #[must_use]
     pub fn reversed(&self, way: WayOut) -> Option<WayOut> {
         let is_back =
@@ -154,9 +154,9 @@ impl TrueFragments {
         self.ways.values().find(is_back).copied()
     }
 
-    /// The ways that a drive over these cells was along, one after another; none where it left a
-    /// place by no way. A drive that turns back amid a fragment was along it. One that looks into
-    /// the next cell and comes back was not.
+    /// Returns the ways that a drive over these cells was along, one after another, or `None` where
+    /// it left a place by no way. A drive that turns back amid a fragment was along it. One that
+    /// looks into the next cell and comes back was not.
     pub(super) fn driven(&self, cells: impl IntoIterator<Item = Cell>) -> Option<Vec<WayOut>> {
         let mut cells = cells.into_iter();
         let (Some(mut at), mut driven) = (cells.next(), Vec::new()) else {
@@ -191,8 +191,8 @@ impl TrueFragments {
         Some(driven)
     }
 
-    /// The graph of the maze's cells in which an arc stands for each way, from place to place, that
-    /// has a length.
+    /// Returns the graph of the maze's cells in which an arc stands for each way, from place to
+    /// place, that has a length.
     pub(super) fn graph(&self, maze: &Maze, length: impl Fn(WayOut) -> Option<u32>) -> Arcs {
         let node = |cell: Cell| maze.grid().index(cell) as u32;
         let arc = |(from, _, way): (Cell, Direction, WayOut)| {
@@ -202,8 +202,8 @@ impl TrueFragments {
         Arcs::new(maze.grid().cell_count(), &arcs)
     }
 
-    /// The length of the shortest way from start to goal over the ways that have a length; none if
-    /// none leads there.
+    /// Returns the length of the shortest way from start to goal over the ways that have a length,
+    /// or `None` if none leads there.
     pub fn shortest(&self, maze: &Maze, length: impl Fn(WayOut) -> Option<u32>) -> Option<u32> {
         let (start, _) = maze.start()?;
         let start = maze.grid().index(start) as u32;
@@ -214,13 +214,14 @@ impl TrueFragments {
             .min()
     }
 
-    /// How many there are.
+    /// Returns how many there are.
     pub fn count(&self) -> u32 {
         let forward = self.ways.values().filter(|way| way.is_forward);
         forward.count() as u32
     }
 
-    /// All ways out of all places: the place, the direction in which one leaves it, and the way.
+    /// Returns all ways out of all places: the place, the direction in which one leaves it, and the
+    /// way.
     pub fn ways(&self) -> impl Iterator<Item = (Cell, Direction, WayOut)> + '_ {
         let ways = self.ways.iter();
         ways.map(|((from, out), way)| (*from, *out, *way))

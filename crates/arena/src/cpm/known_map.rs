@@ -5,8 +5,8 @@ use tolman_planners::{Arcs, costs_from};
 
 use super::fragments::{WayOut, landmark_at};
 
-/// What a perfect reasoner of the paper's kind would know of where a robot has walked: the
-/// yardstick of a trial.
+/// What a perfect reasoner of the paper's kind would know of where a robot has walked: the baseline
+/// of a trial.
 ///
 /// Nothing that the paper's robot perceives tells one junction from another. Two visits are known
 /// to be of one place only because a fragment was walked twice, either way, which makes both its
@@ -42,7 +42,7 @@ struct Ends {
 }
 
 impl<'a> KnownMap<'a> {
-    /// A robot that stands at the start.
+    /// Returns a robot that stands at the start.
     pub(super) fn new(maze: &'a Maze) -> Self {
         let mut known = Self {
             maze,
@@ -56,8 +56,8 @@ impl<'a> KnownMap<'a> {
         known
     }
 
-    /// The robot has walked a true fragment, none if it was lost, and come to a cell. `length` is
-    /// that of the walk, in any unit.
+    /// The robot has walked a true fragment, or `None` if it was lost, and come to a cell. `length`
+    /// is that of the walk, in any unit.
     pub(super) fn walk(&mut self, way: Option<WayOut>, to: Cell, length: u32) {
         let from = self.visits.len().saturating_sub(1) as u32;
         let to = self.visit(to);
@@ -81,7 +81,7 @@ impl<'a> KnownMap<'a> {
         self.unify(before.last, ends.last);
     }
 
-    /// The length of the shortest known way from start to goal; none if none is known.
+    /// Returns the length of the shortest known way from start to goal, or `None` if none is known.
     pub(super) fn shortest(&self) -> Option<u32> {
         let (start, _) = self.maze.start()?;
         let both_ways = self.arcs.iter().flat_map(|(from, to, length)| {
@@ -104,14 +104,14 @@ impl<'a> KnownMap<'a> {
         visit
     }
 
-    /// The place of the first visit of a cell.
+    /// Returns the place of the first visit of a cell.
     fn place_of(&self, cell: Cell) -> Option<u32> {
         let mut visits = self.visits.iter();
         let first = visits.position(|visit| visit.cell == cell)?;
         Some(self.place(first as u32))
     }
 
-    /// The earliest visit that is known to be of the same place.
+    /// Returns the earliest visit that is known to be of the same place.
     fn place(&self, visit: u32) -> u32 {
         let mut at = visit;
         while self.visits[at as usize].same != at {
@@ -135,8 +135,8 @@ mod tests {
     use tolman_control::heading_of;
     use tolman_maze::Direction;
 
-    /// The shortest known way after walks by the directions in which each place is left, all cells
-    /// as long as one.
+    /// Returns the shortest known way after walks by the directions in which each place is left,
+    /// all cells as long as one.
     fn shortest(text: &str, directions: &[Direction]) -> Option<u32> {
         let maze = tolman_maze::read(text).unwrap().maze;
         let fragments = TrueFragments::of(&maze);

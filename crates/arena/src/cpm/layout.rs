@@ -34,7 +34,7 @@ pub struct Layout {
     open: Vec<OpenPort>,
 }
 
-/// A port that nobody has been through.
+/// An unexplored port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OpenPort {
     /// The port.
@@ -147,7 +147,7 @@ impl Layout {
         Some((arrive.junction, to, first))
     }
 
-    /// The cell of a junction; none where map and maze do not agree.
+    /// Returns the cell of a junction, or `None` where map and maze do not agree.
     #[must_use]
     pub fn place(&self, junction: JunctionId) -> Option<Cell> {
         self.places.get(&junction).map(|(cell, _)| *cell)
@@ -158,20 +158,20 @@ impl Layout {
         self.places.iter().map(|(id, (cell, _))| (*id, *cell))
     }
 
-    /// Where a fragment lies.
+    /// Returns where a fragment lies.
     #[must_use]
     pub fn fragment(&self, fragment: FragmentId) -> Option<&Lie> {
         self.fragments.get(&fragment)
     }
 
-    /// The ports that nobody has been through.
+    /// Returns the unexplored ports.
     #[must_use]
     pub fn open_ports(&self) -> &[OpenPort] {
         &self.open
     }
 }
 
-/// The ways out of a cell, counter-clockwise from one of them.
+/// Returns the ways out of a cell, counter-clockwise from one of them.
 fn branches(maze: &Maze, cell: Cell, first: Direction) -> Vec<Direction> {
     let from = DIRECTIONS.iter().position(|way| *way == first).unwrap_or(0);
     let around = DIRECTIONS.iter().cycle().skip(from).take(DIRECTIONS.len());

@@ -6,11 +6,11 @@ use tolman_maze::{Cell, Maze};
 use super::fragments::{TrueFragments, landmark_at};
 use super::layout::{Fit, Layout};
 
-/// Whether a map is that of a maze, as far as the robot has been. Laid over the maze from the start
-/// on, port by port, each of its places has to be another true place, of as many ways and with the
-/// same landmark, and each of its fragments another true one that joins the same ports; and
-/// together they have to be the fragments that were walked. So nothing is on it twice, nothing was
-/// taken for another, and nothing hangs in the air.
+/// Returns whether a map is that of a maze, as far as the robot has been. Laid over the maze from
+/// the start on, port by port, each of its places has to be another true place, of as many ways and
+/// with the same landmark, and each of its fragments another true one that joins the same ports;
+/// and together they have to be the fragments that were walked. So nothing is on it twice, nothing
+/// was taken for another, and nothing hangs in the air.
 ///
 /// O(fragments · cells).
 pub(super) fn is_map_right(
@@ -43,7 +43,7 @@ pub fn is_whole_map_right(map: &CpMap, maze: &Maze) -> bool {
     is_map_right(map, maze, &fragments, &all)
 }
 
-/// Whether a place of a map could be a cell, by what is seen there.
+/// Returns whether a place of a map could be a cell, by what is seen there.
 fn is_like(junction: &Junction, maze: &Maze, cell: Cell) -> bool {
     maze.degree(cell) == junction.ports.len() && junction.landmark == landmark_at(maze, cell)
 }
@@ -104,7 +104,8 @@ mod tests {
         file.map(&dictionary).unwrap()
     }
 
-    /// Whether a map is right on which all fragments were walked but those between these cells.
+    /// Returns whether a map is right on which all fragments were walked but those between these
+    /// cells.
     fn is_right(map: &CpMap, unwalked: &[u32]) -> bool {
         let maze = tolman_maze::read(THREE_WAYS).unwrap().maze;
         let fragments = TrueFragments::of(&maze);
@@ -113,7 +114,7 @@ mod tests {
         is_map_right(map, &maze, &fragments, &walked.collect())
     }
 
-    /// The number of the true fragment by which one leaves a cell.
+    /// Returns the number of the true fragment by which one leaves a cell.
     fn leaving(x: u16, y: u16, degrees: f64) -> u32 {
         let maze = tolman_maze::read(THREE_WAYS).unwrap().maze;
         let heading = tolman_geom::Heading::from_degrees(degrees);

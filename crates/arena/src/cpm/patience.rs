@@ -2,9 +2,9 @@ use tolman_maze::Maze;
 
 use super::fragments::TrueFragments;
 
-/// After so many walks for each fragment of the maze a robot gives up. A way through all fragments
-/// takes at most two for each, there and back, and robots that find it by themselves walked 1.3
-/// times as many as the best: whoever walks four times as many no longer knows again where he was.
+/// Walks per fragment of the maze after which a robot gives up. A way through all fragments takes
+/// at most two for each, there and back, and robots that find it by themselves walked 1.3 times as
+/// many as the best: whoever walks four times as many no longer knows again where he was.
 const WALKS: u32 = 8;
 
 /// Returns after how many walks a robot that learns a map of this maze

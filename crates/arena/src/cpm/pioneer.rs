@@ -25,7 +25,7 @@ const STEP_LIMIT: u32 = 100_000;
 /// A loop with two forks, from each of which a way leads to a dead end; the goal is in one of them.
 const FORKS: &str = include_str!("../../mazes/forks.maze");
 
-/// A maze with corridors for a Pioneer.
+/// Returns a maze with corridors for a Pioneer.
 fn course(text: &str) -> Course {
     Course::new("", tolman_maze::read(text).unwrap().maze, CORRIDOR_WIDTH).unwrap()
 }
@@ -33,7 +33,7 @@ fn course(text: &str) -> Course {
 /// A Pioneer that looks like an e-puck.
 type Epuck = RingAsEpuck<Simulated<LaserPioneer>>;
 
-/// The robot at the start of a maze, which looks like an e-puck, and how it is driven.
+/// Returns the robot at the start of a maze, which looks like an e-puck, and how it is driven.
 fn placed(course: &Course, robot: LaserPioneerConfig, seed: u64) -> (Epuck, WalkerConfig) {
     let measures = ring_measures(&robot, CORRIDOR_WIDTH);
     let config = measures.walker_config();

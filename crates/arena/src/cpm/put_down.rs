@@ -30,9 +30,10 @@ pub struct PutDown<'a> {
     pub robot: EpuckConfig,
     /// How it goes to the first place.
     pub approach: Approach,
-    /// After so many places from the one ahead on it has to know; at least 1.
+    /// Number of places, from the one ahead on, after which the robot has to know where it is; at
+    /// least 1.
     pub most_places: u32,
-    /// The seed of all chance.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
@@ -65,8 +66,8 @@ pub struct PutDownRecord {
     pub is_right_within_one_further: bool,
     /// The same at the last place, where it was sure or gave up.
     pub is_right_at_last: bool,
-    /// Whether SOINN-AM recalled the right maze of the first fragment walked whole; none if the
-    /// robot knew before where it was.
+    /// Whether SOINN-AM recalled the right maze of the first fragment walked whole, or `None` if
+    /// the robot knew before where it was.
     pub is_recalled: Option<bool>,
     /// How long it took, s.
     pub seconds: f64,
@@ -75,7 +76,7 @@ pub struct PutDownRecord {
 }
 
 impl KnownMaze<'_> {
-    /// Where a robot may be put that has this map.
+    /// Returns where a robot may be put that has this map.
     fn spots(&self) -> Vec<Spot> {
         Spot::all(&self.course.maze, |way| {
             let mut known = self.learned.truth.values();
@@ -85,7 +86,7 @@ impl KnownMaze<'_> {
 }
 
 impl PutDown<'_> {
-    /// Plays it; none if the map has no fragment that is long enough to stand amid.
+    /// Plays it, or `None` if the map has no fragment that is long enough to stand amid.
     ///
     /// # Errors
     /// [`CpmTrialError`].
@@ -167,7 +168,7 @@ impl PutDown<'_> {
         }))
     }
 
-    /// Whether the fourth layer recalls the maze.
+    /// Returns whether the fourth layer recalls the maze.
     fn recalled(&self, whereabouts: &Whereabouts) -> Result<Option<bool>, CpmTrialError> {
         let Some(walked) = whereabouts.walks.first() else {
             return Ok(None);

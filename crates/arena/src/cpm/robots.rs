@@ -11,7 +11,7 @@ pub type SimulatedEpuck = Simulated<Epuck>;
 /// A sweep at 4.83 rad/s, just below what the wheels can, takes one sample a step.
 const STEP_US: u64 = 13_000;
 
-/// The paper's e-puck, with the wheels of the real one, so that a sweep takes 1.3 s.
+/// Returns the paper's e-puck, with the wheels of the real one, so that a sweep takes 1.3 s.
 #[must_use]
 pub fn epuck() -> EpuckConfig {
     EpuckConfig {
@@ -20,8 +20,8 @@ pub fn epuck() -> EpuckConfig {
     }
 }
 
-/// The paper's e-puck as if its wheels could turn fast enough to sweep at "2π rad/s", in 1 s
-/// (section 4.1).
+/// Returns the paper's e-puck as if its wheels could turn fast enough to sweep at "2π rad/s", in 1
+/// s (section 4.1).
 #[must_use]
 pub fn idealized_epuck() -> EpuckConfig {
     EpuckConfig {
@@ -31,8 +31,8 @@ pub fn idealized_epuck() -> EpuckConfig {
     }
 }
 
-/// The paper's e-puck at the speed of the real one, which swept at 3π/5 rad/s, in 3.3 s (section
-/// 7).
+/// Returns the paper's e-puck at the speed of the real one, which swept at 3π/5 rad/s, in 3.3 s
+/// (section 7).
 #[must_use]
 pub fn slow_epuck() -> EpuckConfig {
     EpuckConfig {

@@ -21,9 +21,9 @@ use super::trial::CpmTrialError;
 pub struct RoundTrip {
     /// From the start until the goal was found.
     pub there: EpisodeSummary,
-    /// Back to the start; none if there was no goal.
+    /// Back to the start, or `None` if there was no goal.
     pub back: Option<EpisodeSummary>,
-    /// Along the shortest way that is known then; none if the robot did not come back.
+    /// Along the shortest way that is known then, or `None` if the robot did not come back.
     pub again: Option<EpisodeSummary>,
     /// How many unknown fragments it entered on the way back.
     pub tried: u32,

@@ -34,7 +34,7 @@ pub(super) struct Score<'a> {
     missed: u32,
     /// The numbers of the walks that closed a loop wrongly.
     wrong: BTreeSet<usize>,
-    /// Where walks are retraced from; none if nobody knows where that was.
+    /// Where walks are retraced from, or `None` if nobody knows where that was.
     base: Option<Base>,
     /// All walks.
     walked: Vec<Walked>,
@@ -48,11 +48,11 @@ pub(super) struct Score<'a> {
 }
 
 /// What all maps have in common that became the likeliest since: how things stood at the start, or
-/// when nothing explained what was met and the mapper began anew.
+/// when nothing explained what was met and the mapper began again.
 struct Base {
     /// The port behind the robot.
     at: Port,
-    /// So many walks came before.
+    /// Number of walks before it.
     walks: usize,
     truth: BTreeMap<FragmentId, WayOut>,
     places: BTreeMap<JunctionId, Cell>,
@@ -238,21 +238,21 @@ impl<'a> Score<'a> {
         }
     }
 
-    /// Whether a map is that of what was walked: each thing once, and joined as it is.
+    /// Returns whether a map is that of what was walked: each thing once, and joined as it is.
     pub(super) fn is_map_right(&self, map: &CpMap, maze: &Maze) -> bool {
         let walked = self.lengths.keys().copied().collect();
         is_map_right(map, maze, &self.fragments, &walked)
     }
 
-    /// The length of the shortest way from start to goal over the fragments that were walked, by
-    /// observations.
+    /// Returns the length of the shortest way from start to goal over the fragments that were
+    /// walked, by observations.
     pub(super) fn shortest_as_it_lies(&self, maze: &Maze) -> Option<u32> {
         let length = |way: WayOut| self.lengths.get(&way.fragment).copied();
         self.fragments.shortest(maze, length)
     }
 
-    /// The length of a drive, in observations of the fragments it was along; none if one of them
-    /// was not walked before.
+    /// Returns the length of a drive, in observations of the fragments it was along, or `None` if
+    /// one of them was not walked before.
     pub(super) fn length_of(&self, world: &World, path: &[Pose]) -> Option<u32> {
         let cells = path.iter().filter_map(|pose| world.cell_at(pose.position));
         let driven = self.fragments.driven(cells)?;
@@ -332,7 +332,7 @@ mod tests {
         score.retrace(&map);
         assert_eq!(score.wrong, BTreeSet::from([2]));
 
-        // Home again, that is of two ways now: nothing explains it, and the mapper begins anew.
+        // Home again, that is of two ways now: nothing explains it, and the mapper begins again.
         score.walked[2].here = Some(fork);
         score.wrong.clear();
         score.retrace(&map);

@@ -67,7 +67,7 @@ impl PlaceAtEnd {
         }
     }
 
-    /// What is seen of it from the cell beside it.
+    /// Returns what is seen of it from the cell beside it.
     fn beside(&self, looks: Looks) -> Self {
         let open = match looks {
             Looks::AtBends => Vec::new(),
@@ -84,7 +84,7 @@ impl PlaceAtEnd {
 }
 
 impl Spot {
-    /// The spots of a maze, on the ways that count.
+    /// Returns the spots of a maze, on the ways that count.
     pub(super) fn all(maze: &Maze, counts: impl Fn(&WayOut) -> bool) -> Vec<Self> {
         let fragments = TrueFragments::of(maze);
         let mut spots = Vec::new();
@@ -137,8 +137,8 @@ impl Spot {
     }
 }
 
-/// How likely the best guess of an ideal observer is right about maze, fragment and direction, for
-/// a robot at a spot of the maze `here`: 0 to 1.
+/// Returns how likely the best guess of an ideal observer is right about maze, fragment and
+/// direction, for a robot at a spot of the maze `here`: 0 to 1.
 ///
 /// It knows the mazes as they are, and how robots are put down: into each maze as often, and at
 /// each of its spots. It mistakes nothing of what it looks at, from the cell behind on. Of that
@@ -185,7 +185,7 @@ const fn key(maze: usize, way: &WayOut) -> (usize, u32, bool) {
 mod tests {
     use super::*;
 
-    /// A corridor from start to goal with so many cells between.
+    /// Returns a corridor from start to goal with `between` cells between them.
     fn straight(between: usize) -> Vec<Spot> {
         let wall = "o---".repeat(between + 2);
         let cells = "    ".repeat(between);

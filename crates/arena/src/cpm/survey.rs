@@ -14,7 +14,7 @@ pub struct SurveyedWalk {
     pub from: Cell,
     /// The fragment, and which way it was to be walked.
     pub way: WayOut,
-    /// The place it truly led to; none outside the maze.
+    /// The place it truly led to, or `None` outside the maze.
     pub to: Option<Cell>,
     /// What was seen on the way.
     pub observations: Vec<Observation>,

@@ -34,7 +34,7 @@ pub struct CpmTrial<'a> {
     pub robot: EpuckConfig,
     /// How it maps.
     pub mode: Mode,
-    /// The seed of all chance.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
@@ -77,12 +77,12 @@ pub struct TrialRecord {
     pub map: CpMap,
     /// The true fragment of each fragment of the map.
     pub truth: BTreeMap<FragmentId, WayOut>,
-    /// Why it broke off.
+    /// Reason why it broke off.
     pub trouble: Option<String>,
 }
 
 impl TrialRecord {
-    /// Whether the goal was found, the shortest known way was planned and led to the goal.
+    /// Returns whether the goal was found, the shortest known way was planned and led to the goal.
     #[must_use]
     pub fn is_solved(&self) -> bool {
         let reached = |episode: Option<EpisodeSummary>| {
@@ -131,7 +131,7 @@ pub fn learn_by(
 }
 
 impl CpmTrial<'_> {
-    /// The robot of the paper with wheels that slip by this share.
+    /// Returns the robot of the paper with wheels that slip by this share.
     #[must_use]
     pub fn slipping(share: f64) -> EpuckConfig {
         EpuckConfig {
@@ -140,7 +140,7 @@ impl CpmTrial<'_> {
         }
     }
 
-    /// The robot anywhere in its world.
+    /// Returns the robot anywhere in its world.
     pub(super) fn walker_at(&self, start: Pose) -> Result<Walker<SimulatedEpuck>, CpmTrialError> {
         let mut config = walker_config(&self.robot, self.course.corridor_width)?;
         config.heading = self.mode.heading();
@@ -241,13 +241,13 @@ impl CpmTrial<'_> {
     }
 }
 
-/// Whether a drive was as short as the shortest way, by observations, give or take what walks vary
-/// by: 5 % and 8 observations.
+/// Returns whether a drive was as short as the shortest way, by observations, give or take what
+/// walks vary by: 5 % and 8 observations.
 fn is_as_short(driven: u32, shortest: Option<u32>) -> bool {
     shortest.is_some_and(|shortest| f64::from(driven) <= 1.05 * f64::from(shortest) + 8.0)
 }
 
-/// Why a trial cannot be played.
+/// Reason why a trial cannot be played.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CpmTrialError {
@@ -302,7 +302,7 @@ pub enum CpmTrialError {
 }
 
 impl CpmTrialError {
-    /// Whether maze or map did not serve; else what the robot did came to nothing.
+    /// Returns whether maze or map did not serve; else what the robot did came to nothing.
     #[must_use]
     pub const fn is_bad_input(&self) -> bool {
         matches!(

@@ -77,7 +77,7 @@ pub struct MazeCorridor {
 }
 
 impl MazeCorridor {
-    /// The port of an end.
+    /// Returns the port of an end.
     #[must_use]
     pub const fn port(&self, sign: Sign) -> WorldPort {
         match sign {
@@ -93,7 +93,7 @@ impl MazeCorridor {
         }
     }
 
-    /// The direction in which one leaves by an end.
+    /// Returns the direction in which one leaves by an end.
     #[must_use]
     pub fn bearing(&self, sign: Sign) -> Heading {
         match (sign, self.line.as_slice()) {
@@ -144,7 +144,7 @@ pub struct WorldBuilder {
     corridors: Vec<MazeCorridor>,
 }
 
-/// Why a drawing is no world.
+/// Reason why a drawing is no world.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlaneMazeError {
@@ -174,7 +174,7 @@ pub enum PlaneMazeError {
 }
 
 impl WorldBuilder {
-    /// An empty sheet.
+    /// Returns an empty sheet.
     #[must_use]
     pub const fn new(dictionary: Dictionary) -> Self {
         Self {
@@ -240,11 +240,11 @@ impl WorldBuilder {
         Ok(number)
     }
 
-    /// The world, with ports in the order of their bearings, and a robot that will start at a place
-    /// with port 0 behind it.
+    /// Returns the world, with ports in the order of their bearings, and a robot that will start at
+    /// a place with port 0 behind it.
     ///
     /// # Errors
-    /// [`PlaneMazeError`] if no corridor leads to a place, or the start is none.
+    /// [`PlaneMazeError`] if no corridor leads to a place, or the start is not one.
     pub fn finish(self, start: u32) -> Result<PlaneMaze, PlaneMazeError> {
         let Self {
             dictionary,
@@ -282,31 +282,31 @@ impl WorldBuilder {
 }
 
 impl PlaneMaze {
-    /// The common patterns its corridors are made of.
+    /// Returns the common patterns its corridors are made of.
     #[must_use]
     pub const fn dictionary(&self) -> &Dictionary {
         &self.dictionary
     }
 
-    /// The places by number.
+    /// Returns the places by number.
     #[must_use]
     pub fn places(&self) -> &[MazePlace] {
         &self.places
     }
 
-    /// The corridors by number.
+    /// Returns the corridors by number.
     #[must_use]
     pub fn corridors(&self) -> &[MazeCorridor] {
         &self.corridors
     }
 
-    /// Where the robot starts.
+    /// Returns where the robot starts.
     #[must_use]
     pub const fn start(&self) -> WorldPort {
         self.start
     }
 
-    /// What is seen at a place; a place that is not there looks like a dead end.
+    /// Returns what is seen at a place; a place that is not there looks like a dead end.
     #[must_use]
     pub fn sighting(&self, place: u32) -> Sighting {
         match self.places.get(place as usize) {
@@ -318,14 +318,14 @@ impl PlaneMaze {
         }
     }
 
-    /// The corridor's end at a port; none if there is no such port.
+    /// Returns the corridor's end at a port, or `None` if there is no such port.
     #[must_use]
     pub fn end_at(&self, port: WorldPort) -> Option<CorridorEnd> {
         let place = self.places.get(port.place as usize)?;
         place.ports.get(port.number as usize).copied()
     }
 
-    /// Where one arrives who leaves by a port; none if there is no such port.
+    /// Returns where one arrives who leaves by a port, or `None` if there is no such port.
     #[must_use]
     pub fn beyond(&self, port: WorldPort) -> Option<WorldPort> {
         let end = self.end_at(port)?;

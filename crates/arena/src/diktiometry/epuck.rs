@@ -52,7 +52,7 @@ impl EpuckSurveyConfig {
         }
     }
 
-    /// The mapper for mazes whose places are at least so far apart, m.
+    /// Returns the mapper for mazes whose places are at least so far apart, m.
     #[must_use]
     pub fn mapper(&self, separation: f64) -> Config {
         // Ways may bend: whoever left to the north does not come back by going south.
@@ -88,11 +88,11 @@ pub struct EpuckSurvey {
     pub moves: u32,
     /// Moves whose true displacement lies within odometry's bounds.
     pub bounded: u32,
-    /// Why it broke off.
+    /// Reason why it broke off.
     pub trouble: Option<String>,
 }
 
-/// Why a survey cannot be made.
+/// Reason why a survey cannot be made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EpuckSurveyError {
@@ -116,7 +116,7 @@ pub enum EpuckSurveyError {
     Map(#[from] MapError<EpuckRoverError>),
 }
 
-/// Why a routine of the e-puck comes to no end.
+/// Reason why a routine of the e-puck comes to no end.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EpuckRoverError {
@@ -223,13 +223,13 @@ impl EpuckRover {
         self.walker.body().truth().pose
     }
 
-    /// The number of the cell it truly stands in.
+    /// Returns the number of the cell it truly stands in.
     fn site(&self, maze: &Maze) -> u32 {
         let cell = self.world().cell_at(self.truth().position);
         cell.map_or(0, |cell| maze.grid().index(cell) as u32)
     }
 
-    /// The heading by the compass.
+    /// Returns the heading by the compass.
     fn heading(&self) -> Heading {
         self.walker.pose().heading.turned(self.ahead.radians())
     }
@@ -243,7 +243,7 @@ impl EpuckRover {
         }
     }
 
-    /// What there is at the place it came to.
+    /// Returns what there is at the place it came to.
     fn arrival(
         &mut self,
         outcome: MoveOutcome,
@@ -288,7 +288,7 @@ impl Rover for EpuckRover {
     }
 }
 
-/// The mean value of a profile about a bearing, as a share of that of a wall.
+/// Returns the mean value of a profile about a bearing, as a share of that of a wall.
 fn value_at(profile: &Profile, bearing: f64) -> f64 {
     let values = profile.values();
     let width = (values.len() / COLUMNS).max(1);
@@ -304,8 +304,8 @@ fn direction_of(heading: Heading) -> Direction {
     Direction::ALL[(5 - quarters % 4) % 4]
 }
 
-/// The junctions, dead ends, start and goals of a maze and where their ways lead, by the number of
-/// their cell.
+/// Returns the junctions, dead ends, start and goals of a maze and where their ways lead, by the
+/// number of their cell.
 fn true_places(maze: &Maze, world: &World) -> Places {
     let fragments = TrueFragments::of(maze);
     let site = |cell: Cell| maze.grid().index(cell) as u32;

@@ -19,8 +19,8 @@ pub struct MoveError {
 }
 
 impl MoveError {
-    /// The errors of a move that the observer reports so, whose odometry was `moved` and that truly
-    /// was `truth`.
+    /// Returns the errors of a move that the observer reports so, whose odometry was `moved` and
+    /// that truly was `truth`.
     #[must_use]
     pub fn of(report: &StepReport, moved: PointBox, truth: Vector) -> Self {
         let square = |middle: Point| (middle.coords - truth).norm_squared();

@@ -54,27 +54,27 @@ impl Memory {
         }
     }
 
-    /// Where a way leads if it is there, for all it knows.
+    /// Returns where a way leads if it is there, for all it knows.
     fn end(&self, way: (u32, Direction)) -> Option<u32> {
         let to = self.led.get(&way)?.site;
         let is_there = !self.shut.contains(&way) && !self.missed.contains(&to);
         is_there.then_some(to)
     }
 
-    /// The ways that it takes to be there.
+    /// Returns the ways that it takes to be there.
     fn ways(&self) -> impl Iterator<Item = ((u32, Direction), u32)> {
         let all = self.led.keys();
         let met = all.filter(|(site, _)| !self.missed.contains(site));
         met.filter_map(|way| Some((*way, self.end(*way)?)))
     }
 
-    /// The share of the ways it takes to be there that lead where it says.
+    /// Returns the share of the ways it takes to be there that lead where it says.
     pub(super) fn precision(&self, truth: &Places) -> f64 {
         let is_right = |(way, to): &((u32, Direction), u32)| leads(truth, *way) == Some(*to);
         share(self.ways().filter(is_right).count(), self.ways().count())
     }
 
-    /// The fewest moves from one site to another, if it knows a way.
+    /// Returns the fewest moves from one site to another, if it knows a way.
     pub(super) fn plan(&self, from: u32, to: u32) -> Option<Vec<Direction>> {
         let path = path_to(self, from, |site| site == to)?;
         let hops = path.windows(2);

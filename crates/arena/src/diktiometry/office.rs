@@ -21,6 +21,9 @@ const DOORWAY_DEPTH: f64 = 0.5;
 /// From jamb to jamb of a doorway, as a share of the corridor's width.
 const DOORWAY_WIDTH: f64 = 2.0 / 3.0;
 
+/// More colours than a camera tells apart, and few enough for a palette of them.
+const MOST_COLOURS: u32 = 1 << 16;
+
 /// How an office is furnished.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -34,7 +37,7 @@ pub struct OfficeConfig {
     /// decides.
     pub doorway_share: f64,
     /// How many colours the walls have, each piece as long as a cell its own: 1 makes all places
-    /// look the same.
+    /// look the same. At most 65536.
     pub colours: u32,
     /// Of the doorways and the colours.
     pub seed: u64,
@@ -84,19 +87,22 @@ pub struct Office {
     config: OfficeConfig,
 }
 
-/// Why a maze makes no office.
+/// Reason why a maze makes no office.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OfficeError {
-    /// The share of doorways is none.
+    /// The share of doorways is invalid.
     #[error("`doorway_share` is {share}; give a number from 0 to 1")]
     DoorwayShare {
         /// The offending share.
         share: f64,
     },
-    /// There are no colours.
-    #[error("`colours` is 0; give 1 or more")]
-    NoColours,
+    /// There are no colours, or more than anybody tells apart.
+    #[error("`colours` is {colours}; give 1 to {MOST_COLOURS}")]
+    Colours {
+        /// The offending number.
+        colours: u32,
+    },
     /// The world cannot be built.
     #[error("the maze makes no world")]
     World(#[from] WorldError),
@@ -119,8 +125,9 @@ impl Office {
         if !(0.0..=1.0).contains(&share) {
             return Err(OfficeError::DoorwayShare { share });
         }
-        if config.colours == 0 {
-            return Err(OfficeError::NoColours);
+        if !(1..=MOST_COLOURS).contains(&config.colours) {
+            let colours = config.colours;
+            return Err(OfficeError::Colours { colours });
         }
         let mut rng = ChaCha8Rng::seed_from_u64(config.seed);
         let cells: Vec<Cell> = match maze.goals() {
@@ -185,7 +192,7 @@ impl Office {
         })
     }
 
-    /// How it is furnished.
+    /// Returns how it is furnished.
     #[must_use]
     pub const fn config(&self) -> &OfficeConfig {
         &self.config
@@ -249,25 +256,25 @@ impl Office {
         }
     }
 
-    /// How many doorways there are.
+    /// Returns how many doorways there are.
     #[must_use]
     pub const fn doorways(&self) -> usize {
         self.doorways.len()
     }
 
-    /// Where a doorway is.
+    /// Returns where a doorway is.
     ///
     /// # Panics
-    /// If there are not so many.
+    /// If the office has `number` doorways or fewer.
     #[must_use]
     pub fn doorway(&self, number: usize) -> Point {
         let (cell, direction) = self.doorways[number];
         self.config.between(cell, direction)
     }
 
-    /// What is truly there while some doorways are shut, by site: a place at every bend, junction
-    /// and dead end of the corridors and in every open doorway, and from each the ways to the next
-    /// in the four directions.
+    /// Returns what is truly there while some doorways are shut, by site: a place at every bend,
+    /// junction and dead end of the corridors and in every open doorway, and from each the ways to
+    /// the next in the four directions.
     ///
     /// A site is the index of a cell in its grid, or behind all cells the number of a doorway.
     /// O(cells · length of the longest corridor).
@@ -299,7 +306,7 @@ impl Office {
         (self.course.maze.grid().cells().count() + number) as u32
     }
 
-    /// A passage as doorways are named.
+    /// Returns a passage as doorways are named.
     fn passage(&self, cell: Cell, direction: Direction) -> Option<(Cell, Direction)> {
         match direction {
             Direction::North | Direction::East => Some((cell, direction)),
@@ -342,16 +349,16 @@ pub struct TruePlace {
     pub site: u32,
     /// Where it is, m.
     pub position: Point,
-    /// The site that the way north, east, south and west leads to; none where a wall is.
+    /// The site that the way north, east, south and west leads to, or `None` where a wall is.
     pub ways: [Option<u32>; 4],
 }
 
-/// Where the way from a site in a direction truly leads.
+/// Returns where the way from a site in a direction truly leads.
 pub(super) fn leads(truth: &Places, (site, direction): (u32, Direction)) -> Option<u32> {
     truth.get(&site)?.ways[direction.index()]
 }
 
-/// The least distance between two places, m; none if there are fewer. O(places²).
+/// Returns the least distance between two places, m, or `None` if there are fewer. O(places²).
 pub(super) fn least_distance(places: &Places) -> Option<f64> {
     let distances = places.values().flat_map(|one| {
         let later = places.range(one.site + 1..);
@@ -379,7 +386,7 @@ impl Chart<'_> {
             && !doorway.is_some_and(|number| self.shut.contains(&number))
     }
 
-    /// Whether the corridors do anything but lead straight on through a cell.
+    /// Returns whether the corridors do anything but lead straight on through a cell.
     fn is_corner(&self, cell: Cell) -> bool {
         let ways = Direction::ALL.map(|direction| self.is_open(cell, direction));
         let straight = [[true, false, true, false], [false, true, false, true]];
@@ -417,18 +424,18 @@ impl Chart<'_> {
 
 /// Where an office's parts are.
 impl OfficeConfig {
-    /// The middle of a cell.
+    /// Returns the middle of a cell.
     fn middle(&self, cell: Cell) -> Point {
         let along = |index: u16| (f64::from(index) + 0.5) * self.pitch();
         Point::new(along(cell.x), along(cell.y))
     }
 
-    /// The middle between a cell and the next.
+    /// Returns the middle between a cell and the next.
     fn between(&self, cell: Cell, direction: Direction) -> Point {
         self.middle(cell) + unit_of(direction) * (0.5 * self.pitch())
     }
 
-    /// The outline of a wall in equal pieces no longer than a cell.
+    /// Returns the outline of a wall in equal pieces no longer than a cell.
     fn pieces(&self, wall: &WallSegment) -> Vec<Point> {
         let along = wall.end - wall.start;
         let count = libm::ceil(along.norm() / self.pitch() - 1e-9).max(1.0) as u32;
@@ -436,8 +443,8 @@ impl OfficeConfig {
         (0..=count).map(at).collect()
     }
 
-    /// The outline of a pillar at the north-east corner of a cell, which keeps the corridors beside
-    /// it apart.
+    /// Returns the outline of a pillar at the north-east corner of a cell, which keeps the
+    /// corridors beside it apart.
     fn pillar(&self, cell: Cell) -> Vec<Point> {
         let half = 0.5 * self.pitch();
         let centre = self.middle(cell) + Vector::new(half, half);
@@ -447,7 +454,7 @@ impl OfficeConfig {
         outline.map(|(x, y)| corner(x, y)).collect()
     }
 
-    /// What narrows a passage to a doorway: on both sides the outline of a post.
+    /// Returns what narrows a passage to a doorway: on both sides the outline of a post.
     fn jambs(&self, cell: Cell, direction: Direction) -> [Vec<Point>; 2] {
         let width = self.corridor_width;
         let (centre, ahead) = (self.between(cell, direction), unit_of(direction));
@@ -463,8 +470,8 @@ impl OfficeConfig {
         })
     }
 
-    /// The two leaves of a doorway's door, one at each face of the wall, so that shut it looks like
-    /// a wall from both sides.
+    /// Returns the two leaves of a doorway's door, one at each face of the wall, so that shut it
+    /// looks like a wall from both sides.
     fn leaves(&self, number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
         let across = unit_of(direction.left()) * (0.5 * self.corridor_width);
         let depth = unit_of(direction) * (0.5 * self.wall_thickness);

@@ -128,7 +128,7 @@ pub fn score(
     }
 }
 
-/// A part of a whole, and all of nothing.
+/// Returns a part of a whole, and all of nothing.
 pub(super) fn share(part: usize, whole: usize) -> f64 {
     if whole == 0 {
         1.0

@@ -35,19 +35,18 @@ pub struct SurveyConfig {
     pub heed: f64,
     /// How many moves are made.
     pub moves: u32,
-    /// After every so many moves one of the office's doorways, by chance, is shut or opened; 0 for
-    /// never.
+    /// Number of moves after which one random doorway of the office is shut or opened; 0 for never.
     pub door_period: u32,
 }
 
 impl SurveyConfig {
-    /// A run of the paper in an office: random walk, no advice, no door that moves.
+    /// Returns a run of the paper in an office: random walk, no advice, no door that moves.
     #[must_use]
     pub fn paper(office: &Office, moves: u32) -> Self {
         Self::of(office, SurveyorConfig::paper(), moves)
     }
 
-    /// The same with another robot.
+    /// Returns the same with another robot.
     #[must_use]
     pub fn of(office: &Office, robot: SurveyorConfig, moves: u32) -> Self {
         Self {
@@ -60,7 +59,7 @@ impl SurveyConfig {
     }
 }
 
-/// The mapper for a robot in an office: what its designers know of both.
+/// Returns the mapper for a robot in an office: what its designers know of both.
 #[must_use]
 pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     let separation = office.separation();
@@ -157,7 +156,7 @@ pub struct SurveyedMove {
     pub report: StepReport,
 }
 
-/// Why a run cannot go on.
+/// Reason why a run cannot go on.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RunError {
@@ -199,7 +198,7 @@ pub enum RunError {
 }
 
 impl Survey {
-    /// A robot at a random place of an office, with a map of that place alone.
+    /// Returns a robot at a random place of an office, with a map of that place alone.
     ///
     /// # Errors
     /// [`RunError`] if robot or observer cannot be had.
@@ -224,8 +223,8 @@ impl Survey {
         Self::after(past, office, config, rover, mapping, seed)
     }
 
-    /// A run that goes on where another ended. `seed` is that of all chance from now on; doorways
-    /// are open.
+    /// Returns a run that goes on where another ended. `seed` seeds all random numbers from now on;
+    /// doorways are open.
     ///
     /// # Errors
     /// [`RunError`] if the robot cannot stand where the other ended, or no place is there.
@@ -241,7 +240,7 @@ impl Survey {
         Self::after(past, office, config, rover, mapping, seed)
     }
 
-    /// The run of a robot that has this past.
+    /// Returns the run of a robot that has this past.
     fn after(
         past: Past,
         office: &Arc<Office>,
@@ -347,7 +346,7 @@ impl Survey {
         self.robot().truth().pose.position
     }
 
-    /// The true place the robot is at.
+    /// Returns the true place the robot is at.
     fn true_site(&self, here: Point) -> Result<u32, RunError> {
         let places = self.truth.values();
         let distances = places.map(|place| ((place.position - here).norm(), place.site));
@@ -357,19 +356,19 @@ impl Survey {
         }
     }
 
-    /// Where it is.
+    /// Returns where it is.
     #[must_use]
     pub const fn office(&self) -> &Arc<Office> {
         &self.office
     }
 
-    /// What it depends on but the office and the seed.
+    /// Returns what it depends on but the office and the seed.
     #[must_use]
     pub const fn config(&self) -> &SurveyConfig {
         &self.config
     }
 
-    /// What truly was so far.
+    /// Returns what truly was so far.
     #[must_use]
     pub fn past(&self) -> Past {
         Past {
@@ -378,40 +377,40 @@ impl Survey {
         }
     }
 
-    /// The observer with its map.
+    /// Returns the observer with its map.
     #[must_use]
     pub const fn observer(&self) -> &Observer {
         self.mapping.observer()
     }
 
-    /// The robot.
+    /// Returns the robot.
     #[must_use]
     pub const fn robot(&self) -> &OfficeRobot {
         self.rover.robot()
     }
 
-    /// The doorways that are shut now.
+    /// Returns the doorways that are shut now.
     #[must_use]
     pub fn shut(&self) -> &[usize] {
         &self.shut
     }
 
-    /// Where the robot truly was and where the map had it, from the start on.
+    /// Returns where the robot truly was and where the map had it, from the start on.
     #[must_use]
     pub fn visits(&self) -> &[Visit] {
         &self.past.visits
     }
 
-    /// The errors of all moves so far.
+    /// Returns the errors of all moves so far.
     #[must_use]
     pub fn errors(&self) -> &[MoveError] {
         &self.errors
     }
 
-    /// Whether a plan from here to a place of the map that is drawn by chance would lead there: its
-    /// actions are followed on the true ways, without moving the robot. A place that cannot be
-    /// planned to counts as one not reached; none if the map has no other place, or the robot was
-    /// never where the one drawn is.
+    /// Returns whether a plan from here to a place of the map that is drawn by chance would lead
+    /// there: its actions are followed on the true ways, without moving the robot. A place that
+    /// cannot be planned to counts as one not reached, or `None` if the map has no other place, or
+    /// the robot was never where the one drawn is.
     pub fn try_plan(&mut self) -> Option<PlanTrial> {
         let paths = &self.mapping.observer().map().paths;
         let here = self.observer().place();
@@ -443,16 +442,16 @@ impl Survey {
         })
     }
 
-    /// The share of ways that lead where they did when the robot last saw them, of those it would
-    /// then take to be there: what a map of this run is measured against that does not guess what
-    /// has changed since. A run that was resumed remembers what it saw since then alone: the ways
-    /// of before are no part of its [`Past`].
+    /// Returns the share of ways that lead where they did when the robot last saw them, of those it
+    /// would then take to be there: what a map of this run is measured against that does not guess
+    /// what has changed since. A run that was resumed remembers what it saw since then alone: the
+    /// ways of before are no part of its [`Past`].
     #[must_use]
     pub fn remembered_precision(&self) -> f64 {
         self.memory.precision(&self.truth)
     }
 
-    /// The places of the map, moved so that the first lies where the run truly began.
+    /// Returns the places of the map, moved so that the first lies where the run truly began.
     #[must_use]
     pub fn drawn(&self) -> Vec<PlaceMark> {
         let map = self.observer().map();
@@ -475,14 +474,14 @@ impl Survey {
         places.collect()
     }
 
-    /// The links of the map, by the ids of the places at their ends.
+    /// Returns the links of the map, by the ids of the places at their ends.
     #[must_use]
     pub fn links(&self) -> Vec<(u32, u32)> {
         let links = self.observer().map().paths.links();
         links.map(|(_, link)| (link.from.0, link.to.0)).collect()
     }
 
-    /// How good the map is by now.
+    /// Returns how good the map is by now.
     #[must_use]
     pub fn score(&self) -> MapScore {
         let paths = &self.observer().map().paths;

@@ -31,7 +31,7 @@ pub struct SurveyFile {
     pub observer: Observer,
 }
 
-/// Why a file holds no survey.
+/// Reason why a file holds no survey.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SurveyFileError {
@@ -45,14 +45,14 @@ pub enum SurveyFileError {
         /// What it says.
         found: f64,
     },
-    /// The maze is none.
-    #[error("its maze is none")]
+    /// The maze is invalid.
+    #[error("its maze is invalid")]
     Maze(#[from] MazeError),
     /// The maze makes no world.
     #[error("its maze makes no world")]
     Office(#[from] OfficeError),
-    /// The map is none, or no journal of it was kept.
-    #[error("its map is none")]
+    /// The map is invalid, or no journal of it was kept.
+    #[error("its map is invalid")]
     Map(#[from] MapFileError),
 }
 
@@ -92,7 +92,7 @@ impl SurveyFile {
         }
     }
 
-    /// The text of the file, with a line end.
+    /// Returns the text of the file, with a line end.
     ///
     /// # Errors
     /// [`SurveyFileError::Map`] if the mapper kept no journal, [`SurveyFileError::File`] if it
@@ -161,7 +161,7 @@ impl SurveyFile {
         self.observer.map().paths.resolve(visit.place)
     }
 
-    /// The survey, to go on with. `seed` is that of all chance from now on.
+    /// Returns the survey, to go on with. `seed` seeds all random numbers from now on.
     ///
     /// # Errors
     /// [`RunError`] if the robot cannot stand where the file has it.
@@ -231,6 +231,9 @@ mod tests {
             "Map(Truncated",
         );
         check(text.replacen("o---o", "o~~~o", 1), "Maze");
-        check(text.replacen("\"colours\":4", "\"colours\":0", 1), "Office");
+        for colours in ["0", "4294967295"] {
+            let colours = format!("\"colours\":{colours}");
+            check(text.replacen("\"colours\":4", &colours, 1), "Office");
+        }
     }
 }

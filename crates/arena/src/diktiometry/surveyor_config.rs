@@ -39,7 +39,7 @@ pub struct SurveyorConfig {
 /// How many times its bound an outlier of odometry is wrong.
 const OUTLYING: f64 = 4.0;
 
-/// Whether there is no such error; files then leave it out.
+/// Returns whether there is no such error; files then leave it out.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it")]
 fn is_none(error: &f64) -> bool {
     *error <= 0.0

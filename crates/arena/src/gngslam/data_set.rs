@@ -64,7 +64,7 @@ impl GoalRecords {
     }
 }
 
-/// How badly a goal is seen from a pose: the least where it is straight ahead and fills the
+/// Returns how badly a goal is seen from a pose: the least where it is straight ahead and fills the
 /// picture, nothing stands before it, and it is not seen aslant.
 fn cost(pitch: &Pitch, pose: Pose, goal: Pose) -> f64 {
     /// From here a goal fills the picture: where the paper's limits stop the robot, m.

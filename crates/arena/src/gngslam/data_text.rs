@@ -1,9 +1,9 @@
 //! Data sets as text: a line of JSON for what holds for all records, then one for each record.
 //!
 //! A file begins
-//! `{"format":"tolman-place-records","version":1,"arena":"pitch","seed":1,"records":1006,"cells":…,"goals":…,"sensors":…, "picture":…}`.
-//! The pictures of the other lines are compressed (zlib) and written in base64; all numbers come
-//! back to the bit.
+//! `{"format":"tolman-place-records","version":1,"arena":"pitch","seed":1,"records":1006,"cells":…,"goals":…,"sensors":…,
+//! "picture":…}`. The pictures of the other lines are compressed (zlib) and written in base64; all
+//! numbers come back to the bit.
 
 use std::io::{Read, Write};
 
@@ -73,15 +73,15 @@ struct Line {
     picture: Option<String>,
 }
 
-/// Why a text holds no data set, or a data set has no text.
+/// Reason why a text holds no data set, or a data set has no text.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DataTextError {
     /// The text is empty.
-    #[error("the file is empty; gather the data anew")]
+    #[error("the file is empty; gather the data again")]
     Empty,
     /// A line is not JSON, or not what it should hold. The source has the column.
-    #[error("line {line} cannot be read; copy the file again, or gather the data anew")]
+    #[error("line {line} cannot be read; copy the file again, or gather the data again")]
     Line {
         /// Which line, from 1.
         line: usize,
@@ -111,7 +111,7 @@ pub enum DataTextError {
         expected: usize,
     },
     /// A record that should show a goal does not exist.
-    #[error("line 1: `goals` names record {index}, and there are {records}; gather the data anew")]
+    #[error("line 1: `goals` names record {index}, and there are {records}; gather the data again")]
     Goal {
         /// Which record.
         index: usize,
@@ -119,7 +119,7 @@ pub enum DataTextError {
         records: usize,
     },
     /// Something in a line contradicts the header, or other records.
-    #[error("line {line}: {what}; copy the file again, or gather the data anew")]
+    #[error("line {line}: {what}; copy the file again, or gather the data again")]
     Record {
         /// Which line, from 1.
         line: usize,
@@ -200,7 +200,7 @@ impl Header {
         serde_json::from_str(text).map_err(first)
     }
 
-    /// Whether there is what it promises.
+    /// Returns whether there is what it promises.
     fn check(&self, found: usize) -> Result<(), DataTextError> {
         let expected = self.records;
         if found != expected {
@@ -216,7 +216,7 @@ impl Header {
         }
     }
 
-    /// What is written of one record.
+    /// Returns what is written of one record.
     fn line(&self, line: usize, labelled: &LabelledRecord) -> Result<Line, DataTextError> {
         let wrong = |what| DataTextError::Record { line, what };
         let Snapshot { soundings, picture } = &labelled.record.snapshot;
@@ -239,7 +239,8 @@ impl Header {
         })
     }
 
-    /// What the sensors read whose ranges these are; `None` if they are too many or too few.
+    /// Returns what the sensors read whose ranges these are; `None` if they are too many or too
+    /// few.
     fn heard(&self, ranges: &[f64]) -> Option<Vec<Sounding>> {
         let readings = self.sensors.iter().zip(ranges);
         let readings = readings.map(|(sensor, range)| Sounding {
@@ -258,7 +259,7 @@ impl Header {
         }
         let on_grid = |cell: Cell| cell.x < CellGrid::SIDE && cell.y < CellGrid::SIDE;
         if !(on_grid(read.cell) && on_grid(read.label)) {
-            return Err(wrong("a cell is none of the 8 × 8"));
+            return Err(wrong("a cell lies outside the 8 × 8"));
         }
         let soundings = self.heard(&read.ranges);
         let picture = match (&self.picture, &read.picture) {
@@ -304,7 +305,7 @@ impl PictureShape {
         }
     }
 
-    /// The picture of a text; `None` if it is damaged or of another size.
+    /// Returns the picture of a text; `None` if it is damaged or of another size.
     fn unpacked(&self, text: &str) -> Option<Picture> {
         let pixels = self.width as usize * self.height as usize;
         if pixels == 0 || pixels > MOST_PIXELS {
@@ -381,7 +382,7 @@ mod tests {
         );
         check(
             &text.replacen("\"label\":{\"x\":", "\"label\":{\"x\":8", 1),
-            "line 2: a cell is none",
+            "line 2: a cell lies outside",
         );
         check(
             &text.replacen("\"width\":80", "\"width\":81", 1),

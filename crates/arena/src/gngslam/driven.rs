@@ -53,11 +53,11 @@ pub struct DrivenMap {
     pub map: PlaceMap,
     /// Where the origin of its odometry truly lies.
     pub world_from_map: Pose,
-    /// One after the other: each begins where the one before ended.
+    /// In order: each begins where the one before ended.
     pub drives: Vec<PlaceDrive>,
 }
 
-/// Why there are no drives.
+/// Reason why there are no drives.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DrivenMapError {
@@ -95,7 +95,7 @@ const DRIVES: u64 = 4;
 
 /// Gathers `records` records, learns a place map of image and odometry by `config`, and lets the
 /// same robot drive on by it, from where it is, to where `drives` of the records were taken, drawn
-/// at random. `seed` is that of all chance.
+/// at random. `seed` seeds all random numbers.
 ///
 /// # Errors
 /// [`DrivenMapError`] if the robot fails or the records make no map.

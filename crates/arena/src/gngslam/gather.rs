@@ -9,7 +9,7 @@ use super::data_set::mislabel;
 use super::{DataSet, GoalRecords, LabelledRecord, Pitch, PutError};
 use crate::Simulated;
 
-/// Why no data was gathered.
+/// Reason why no data was gathered.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GatherError {
@@ -29,8 +29,8 @@ pub enum GatherError {
 const LABELS: u64 = 3;
 
 /// Lets a robot wander in an arena until it has taken `count` records, and writes down the truth
-/// beside each (section 3.2; the paper has 1006). `seed` is that of all chance: where it begins,
-/// its noise, its turns and the labels.
+/// beside each (section 3.2; the paper has 1006). `seed` decides everything random: where it
+/// begins, its noise, its turns and the labels.
 ///
 /// # Errors
 /// [`GatherError`] if the robot cannot be built or put down, or takes no snapshot.
@@ -53,7 +53,7 @@ pub fn gather(
     gather_with(pitch, robot, WandererConfig::paper(), seed, count)
 }
 
-/// The same with a robot that wanders otherwise.
+/// Returns the same with a robot that wanders otherwise.
 ///
 /// # Errors
 /// As [`gather`].
@@ -69,7 +69,7 @@ pub fn gather_with(
     gather_by(pitch, &mut robot, &mut wanderer, seed, count)
 }
 
-/// The same with a robot and a wanderer that are there before and after.
+/// Returns the same with a robot and a wanderer that are there before and after.
 pub(super) fn gather_by(
     pitch: &Pitch,
     robot: &mut Stopping<Simulated<Pioneer2dx>>,
@@ -94,7 +94,7 @@ pub(super) fn gather_by(
     })
 }
 
-/// The next record, with the truth.
+/// Returns the next record, with the truth.
 fn next(
     pitch: &Pitch,
     robot: &mut Stopping<Simulated<Pioneer2dx>>,

@@ -57,7 +57,7 @@ impl OnlineRun {
     }
 }
 
-/// Why there is no run.
+/// Reason why there is no run.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OnlineRunError {
@@ -69,8 +69,8 @@ pub enum OnlineRunError {
     System(#[from] OnlineSlamError<StepError>),
 }
 
-/// Lets a robot learn an arena for so many looks. `seed` is that of all chance: where it begins,
-/// how its wheels are out of calibration, within ± `calibration`, its noise and its turns.
+/// Lets a robot learn an arena for `looks` looks. `seed` decides everything random: where it
+/// begins, how its wheels are out of calibration, within ± `calibration`, its noise and its turns.
 ///
 /// # Errors
 /// [`OnlineRunError`] if the robot cannot be built or put down, or the system cannot go on.
@@ -105,7 +105,7 @@ pub fn localize_online(
     run(system, robot, learned.world_from_map, looks)
 }
 
-/// A robot whose wheels are out of calibration.
+/// Returns a robot whose wheels are out of calibration.
 fn put(
     pitch: &Pitch,
     calibration: f64,

@@ -40,7 +40,7 @@ pub struct Goals {
     pub yellow: Pose,
 }
 
-/// Why there is no such arena, or no place in it.
+/// Reason why there is no such arena, or no place in it.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PitchError {

@@ -31,7 +31,7 @@ pub(super) const SILL: f64 = 0.8;
 /// it is nearer.
 pub(super) const LOW_SILL: f64 = 0.4;
 
-/// A window from its sill, m, to its lintel.
+/// Returns a window from its sill, m, to its lintel.
 pub(super) fn window(sill: f64) -> Material {
     Material::painted(SKY).standing(sill, 2.2).glowing(1.0)
 }

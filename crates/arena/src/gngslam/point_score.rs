@@ -64,7 +64,7 @@ impl PointScore {
     }
 }
 
-/// The middle of a cell, in cells.
+/// Returns the middle of a cell, in cells.
 pub(super) fn middle(cell: Cell) -> Point {
     Point::new(f64::from(cell.x) + 0.5, f64::from(cell.y) + 0.5)
 }

@@ -8,7 +8,7 @@ use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig, Pioneer2dxError};
 use super::{Pitch, PitchError};
 use crate::Simulated;
 
-/// Why no robot was put into an arena.
+/// Reason why no robot was put into an arena.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PutError {

@@ -79,7 +79,7 @@ fn closed_room(corners: &[(f64, f64)], windows: usize, rng: &mut ChaCha8Rng) -> 
     room
 }
 
-/// Two to four windows on one side, and one thing on each other one.
+/// Returns two to four windows on one side, and one thing on each other one.
 fn decoration(windows: usize, sill: f64, rng: &mut ChaCha8Rng) -> Vec<(Span, Material)> {
     let count = rng.random_range(2_u32..=4);
     let share = f64::from(count).recip();
@@ -101,7 +101,7 @@ fn decoration(windows: usize, sill: f64, rng: &mut ChaCha8Rng) -> Vec<(Span, Mat
     all
 }
 
-/// A part of a side somewhere on it, its width a share of it.
+/// Returns a part of a side somewhere on it, its width a share of it.
 fn part_of(side: usize, width: f64, rng: &mut ChaCha8Rng) -> Span {
     let from = rng.random_range(0.05..0.95 - width);
     Span {
@@ -111,7 +111,7 @@ fn part_of(side: usize, width: f64, rng: &mut ChaCha8Rng) -> Span {
     }
 }
 
-/// A door, a cupboard or a poster.
+/// Returns a door, a cupboard or a poster.
 fn thing(rng: &mut ChaCha8Rng) -> Material {
     let (base, height) = match rng.random_range(0_u32..3) {
         0 => (0.0, 2.0),
@@ -132,7 +132,7 @@ fn furnish(room: &mut Room, rng: &mut ChaCha8Rng) {
     }
 }
 
-/// A random place of that size, if lanes are left all round it.
+/// Returns a random place of that size, if lanes are left all round it.
 fn free_place(room: &Room, size: Vector, rng: &mut ChaCha8Rng) -> Option<Bounds> {
     let floor = room.bounds();
     let mut along = |least: f64, most: f64, size: f64| {
@@ -153,28 +153,28 @@ fn free_place(room: &Room, size: Vector, rng: &mut ChaCha8Rng) -> Option<Bounds>
     is_free.then_some(place)
 }
 
-/// How far apart two boxes are along the axis where they are farther apart, m; below 0 where they
-/// overlap.
+/// Returns how far apart two boxes are along the axis where they are farther apart, m; below 0
+/// where they overlap.
 fn gap(a: &Bounds, b: &Bounds) -> f64 {
     let x = (a.min.x - b.max.x).max(b.min.x - a.max.x);
     let y = (a.min.y - b.max.y).max(b.min.y - a.max.y);
     x.max(y)
 }
 
-/// Where on a side a goal hangs: 0.9 to 1.6 m of it.
+/// Returns where on a side a goal hangs: 0.9 to 1.6 m of it.
 fn goal_on(room: &Room, side: usize, rng: &mut ChaCha8Rng) -> Span {
     let width = rng.random_range(0.9..1.6) / room.length(side);
     part_of(side, width, rng)
 }
 
-/// Two strong colours that nobody takes for each other.
+/// Returns two strong colours that nobody takes for each other.
 fn two_colours(rng: &mut ChaCha8Rng) -> [[u8; 3]; 2] {
     let first = rng.random_range(0.0..1.0);
     let second = first + rng.random_range(0.25..0.75);
     [first, second].map(|hue| strong(hue, rng.random_range(0.6..0.95)))
 }
 
-/// The colour of this hue, in turns, with hardly any white in it.
+/// Returns the colour of this hue, in turns, with hardly any white in it.
 fn strong(hue: f64, brightness: f64) -> [u8; 3] {
     [0.0, 2.0, 4.0].map(|shift: f64| {
         let along = (6.0 * hue + shift) % 6.0;
@@ -187,7 +187,7 @@ fn any_colour(rng: &mut ChaCha8Rng) -> [u8; 3] {
     core::array::from_fn(|_| rng.random_range(30_u32..220) as u8)
 }
 
-/// The colour of a wall that somebody lives with.
+/// Returns the colour of a wall that somebody lives with.
 fn pale(rng: &mut ChaCha8Rng) -> [u8; 3] {
     core::array::from_fn(|_| rng.random_range(160_u32..235) as u8)
 }

@@ -46,7 +46,7 @@ impl Room {
         room
     }
 
-    /// The two ends of a side; side 0 leads from corner 0 to corner 1.
+    /// Returns the two ends of a side; side 0 leads from corner 0 to corner 1.
     pub(super) fn side(&self, side: usize) -> (Point, Point) {
         let corners = &self.outline;
         (
@@ -55,13 +55,13 @@ impl Room {
         )
     }
 
-    /// How long a side is, m.
+    /// Returns how long a side is, m.
     pub(super) fn length(&self, side: usize) -> f64 {
         let (start, end) = self.side(side);
         (end - start).norm()
     }
 
-    /// The middle of a part of a side, looking onto the floor.
+    /// Returns the middle of a part of a side, looking onto the floor.
     pub(super) fn before(&self, span: Span) -> Pose {
         let (start, end) = self.side(span.side);
         let along = end - start;
@@ -110,7 +110,7 @@ impl Room {
         }
     }
 
-    /// The wall of the room behind a side of an outline along the axes, a rectangle.
+    /// Returns the wall of the room behind a side of an outline along the axes, a rectangle.
     fn around(&self, side: usize, behind: f64) -> (Point, Point) {
         let bounds = self.bounds();
         let middle = bounds.min + (bounds.max - bounds.min) * 0.5;
@@ -137,23 +137,23 @@ impl Room {
         self.furniture.push(place);
     }
 
-    /// The boxes on the floor.
+    /// Returns the boxes on the floor.
     pub(super) fn furniture(&self) -> &[Bounds] {
         &self.furniture
     }
 
-    /// The smallest rectangle that holds the floor.
+    /// Returns the smallest rectangle that holds the floor.
     pub(super) fn bounds(&self) -> Bounds {
         Bounds::of(self.outline.iter().copied())
     }
 
-    /// Whether a point lies on the floor and in no furniture.
+    /// Returns whether a point lies on the floor and in no furniture.
     pub(super) fn holds(&self, point: Point) -> bool {
         let mut furniture = self.furniture.iter();
         self.surrounds(point) && !furniture.any(|place| place.contains(point))
     }
 
-    /// Whether the outline runs round a point: by how often a ray to the east leaves it.
+    /// Returns whether the outline runs round a point: by how often a ray to the east leaves it.
     fn surrounds(&self, point: Point) -> bool {
         let crossings = (0..self.outline.len()).filter(|side| {
             let (start, end) = self.side(*side);
@@ -166,7 +166,7 @@ impl Room {
         crossings.count() % 2 == 1
     }
 
-    /// The world of all its walls.
+    /// Returns the world of all its walls.
     pub(super) fn world(&self) -> Result<World, WorldError> {
         World::from_segments(self.walls.clone())
     }

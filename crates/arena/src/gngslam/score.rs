@@ -145,7 +145,7 @@ fn nearest(map: &PlaceMap, table: &FeatureTable, record: usize) -> Result<UnitId
     map.nearest_row(table.row(record).ok_or(missing)?)
 }
 
-/// A fifth of the numbers below `count`, rounded, each at most once.
+/// Returns a fifth of the numbers below `count`, rounded, each at most once.
 fn a_fifth(count: usize, rng: &mut impl Rng) -> Vec<usize> {
     let count = count as u32;
     let mut numbers: Vec<u32> = (0..count).collect();
@@ -157,7 +157,7 @@ fn a_fifth(count: usize, rng: &mut impl Rng) -> Vec<usize> {
     drawn.map(|number| number as usize).collect()
 }
 
-/// The mean score of positions; `None` of none.
+/// Returns the mean score of positions; `None` of none.
 fn mean(pairs: &[(Cell, Point)]) -> Option<PointScore> {
     let scores = pairs.iter().map(|(cell, at)| PointScore::of(*cell, *at));
     let sum = scores.reduce(|a, b| PointScore {
@@ -171,8 +171,8 @@ fn mean(pairs: &[(Cell, Point)]) -> Option<PointScore> {
     })
 }
 
-/// Whether positions are turned about their middle against the cells: the determinant of their
-/// covariance is negative.
+/// Returns whether positions are turned about their middle against the cells: the determinant of
+/// their covariance is negative.
 fn is_mirrored(pairs: &[(Cell, Point)]) -> bool {
     let count = pairs.len().max(1) as f64;
     let cells = pairs.iter().map(|(cell, _)| middle(*cell).coords);

@@ -72,8 +72,9 @@ pub enum CertificateError {
 /// The most cells of a step, written down again: the checker takes nothing from the planners.
 const MOST_CELLS: u32 = 3;
 
-/// Whether the certificate holds in this maze: all it says of walls is so, its run is possible, and
-/// no run is shorter in any maze that agrees with it. Uses nothing but the maze types. O(cells).
+/// Returns whether the certificate holds in this maze: all it says of walls is so, its run is
+/// possible, and no run is shorter in any maze that agrees with it. Uses nothing but the maze
+/// types. O(cells).
 ///
 /// # Errors
 /// The first thing that is wrong.
@@ -188,7 +189,7 @@ const fn costs(certificate: &Certificate, open: u32) -> CertificateError {
     }
 }
 
-/// Where one step in a direction may end.
+/// Returns where one step in a direction may end.
 fn reach(
     grid: Grid,
     from: Cell,
@@ -235,7 +236,7 @@ o---o---o---o---o---o
         mouse.certificate().unwrap().clone()
     }
 
-    /// What the checker says once the certificate is changed.
+    /// Returns what the checker says once the certificate is changed.
     fn refuse(change: impl FnOnce(&mut Certificate)) -> CertificateError {
         let maze = maze();
         let mut certificate = certificate(&maze);

@@ -11,11 +11,11 @@ use super::{MouseTrial, MouseTrialError, RefereedStep, brief, check};
 /// How good a trial was.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Judgement {
-    /// Steps of the first run, the reset included; none if it did not end.
+    /// Steps of the first run, the reset included, or `None` if it did not end.
     pub run_1: Option<u32>,
-    /// Steps of the second run; none if it did not end.
+    /// Steps of the second run, or `None` if it did not end.
     pub run_2: Option<u32>,
-    /// A thirtieth of the first and the whole second run; none if the mouse did not finish.
+    /// A thirtieth of the first and the whole second run, or `None` if the mouse did not finish.
     pub score: Option<f64>,
     /// The fewest steps from the start to a goal.
     pub optimum: u32,
@@ -54,7 +54,7 @@ impl Judgement {
         })
     }
 
-    /// How far the score lies above the floor; none if the mouse did not finish.
+    /// Returns how far the score lies above the floor, or `None` if the mouse did not finish.
     #[must_use]
     pub fn above_floor(&self) -> Option<f64> {
         Some(self.score? - self.floor)
@@ -72,7 +72,7 @@ pub fn floor(optimum: u32) -> f64 {
 /// `seed`.
 ///
 /// # Errors
-/// If the maze is none a mouse can run in.
+/// If no mouse can run in the maze.
 pub fn try_on(
     maze: &Maze,
     searcher: Searcher,
@@ -81,10 +81,10 @@ pub fn try_on(
     watch(maze, searcher, seed, |_| {})
 }
 
-/// The same; `see` is told of every step as soon as it is made.
+/// Returns the same; `see` is told of every step as soon as it is made.
 ///
 /// # Errors
-/// If the maze is none a mouse can run in.
+/// If no mouse can run in the maze.
 pub fn watch(
     maze: &Maze,
     searcher: Searcher,

@@ -46,8 +46,8 @@ impl NoisyConfig {
         }
     }
 
-    /// A body of 8 cm, three range sensors that reach 1 m, 2 cm and 0.2 rad in a time step of 20
-    /// ms.
+    /// Returns a body of 8 cm, three range sensors that reach 1 m, 2 cm and 0.2 rad in a time step
+    /// of 20 ms.
     fn robot(&self) -> LaserPioneerConfig {
         let slip = Fault::Slip { share: self.slip };
         let mut robot = LaserPioneerConfig {
@@ -71,7 +71,7 @@ impl NoisyConfig {
         robot
     }
 
-    /// What the mouse is told of its body and its maze.
+    /// Returns what the mouse is told of its body and its maze.
     fn mouse(&self, robot: &LaserPioneerConfig) -> NoisyMouseConfig {
         NoisyMouseConfig {
             localization: self.localization,
@@ -83,7 +83,8 @@ impl NoisyConfig {
         }
     }
 
-    /// What the filter takes for noise: what there is, and a little for what its model leaves out.
+    /// Returns what the filter takes for noise: what there is, and a little for what its model
+    /// leaves out.
     fn filter(&self) -> PoseFilterConfig {
         PoseFilterConfig {
             particles: 200,
@@ -137,7 +138,7 @@ pub enum NoisyEnd {
     OutOfSteps,
 }
 
-/// Why a mouse cannot be sent out.
+/// Reason why a mouse cannot be sent out.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum NoisyError {
@@ -251,7 +252,7 @@ impl<'a> Outing<'a> {
         Ok(())
     }
 
-    /// Whether it really is in a goal.
+    /// Returns whether it really is in a goal.
     fn is_at_goal(&self) -> bool {
         let position = self.body.truth().pose.position;
         let cell = self.mouse.belief().cell_at(position);

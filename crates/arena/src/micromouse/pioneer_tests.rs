@@ -46,7 +46,7 @@ fn config(robot: &LaserPioneerConfig, thickness: f64) -> MazeMouseConfig {
     }
 }
 
-/// Lets a mouse pursue its tasks one after the other with a robot in a maze.
+/// Lets a mouse pursue its tasks one by one with a robot in a maze.
 fn send<S: Search>(
     maze: &Maze,
     thickness: f64,

@@ -4,8 +4,8 @@ use tolman_maze::{Cell, Direction, Maze};
 
 use tolman_systems::baselines::q_learning::{LearningTask, Transition};
 
-/// A maze as a task: a step is one cell in some direction, against a wall it is none, and each
-/// costs 1. Cells are numbered by [`tolman_maze::Grid::index`].
+/// A maze as a task: a step is one cell in some direction, a step against a wall goes nowhere, and
+/// each step costs 1. Cells are numbered by [`tolman_maze::Grid::index`].
 #[derive(Clone, Debug)]
 pub struct CellTask<'a> {
     maze: &'a Maze,
@@ -14,7 +14,7 @@ pub struct CellTask<'a> {
 }
 
 impl<'a> CellTask<'a> {
-    /// The way from `start` to a goal of the maze.
+    /// Returns the way from `start` to a goal of the maze.
     #[must_use]
     pub fn new(maze: &'a Maze, start: Cell) -> Self {
         Self {

@@ -71,21 +71,22 @@ pub enum Ruling {
 /// What the referee has written down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ScoreSheet {
-    /// Steps of the first run, the reset included; none before it ends.
+    /// Steps of the first run, the reset included, or `None` before it ends.
     pub run_1: Option<u32>,
-    /// Steps of the second run; none before it ends.
+    /// Steps of the second run, or `None` before it ends.
     pub run_2: Option<u32>,
 }
 
 impl ScoreSheet {
-    /// A thirtieth of the first run and the whole second one; none if the mouse did not finish.
+    /// Returns a thirtieth of the first run and the whole second one, or `None` if the mouse did
+    /// not finish.
     #[must_use]
     pub fn score(&self) -> Option<f64> {
         Some(f64::from(self.run_1?) / 30.0 + f64::from(self.run_2?))
     }
 }
 
-/// Why a maze cannot be refereed.
+/// Reason why a maze cannot be refereed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RefereeError {
@@ -112,7 +113,7 @@ pub fn brief(maze: &Maze) -> Result<Brief, RefereeError> {
 }
 
 impl<'a> Referee<'a> {
-    /// The mouse stands at the start, no step is done.
+    /// Returns the mouse stands at the start, no step is done.
     ///
     /// # Errors
     /// If the maze has no start, or [`Maze::check`] refuses it.
@@ -130,8 +131,8 @@ impl<'a> Referee<'a> {
         })
     }
 
-    /// What the sensors see now: how many cells are open to the left, ahead and to the right, as
-    /// far as the next wall.
+    /// Returns what the sensors see now: how many cells are open to the left, ahead and to the
+    /// right, as far as the next wall.
     #[must_use]
     pub fn sight(&self) -> Sight {
         let open = |direction| {
@@ -215,13 +216,13 @@ impl<'a> Referee<'a> {
         }
     }
 
-    /// Whether the runs are over, or the time is.
+    /// Returns whether the runs are over, or the time is.
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.stage == Stage::Over || self.steps >= MAX_STEPS
     }
 
-    /// Where the mouse is, and where it looks.
+    /// Returns where the mouse is, and where it looks.
     #[must_use]
     pub const fn pose(&self) -> (Cell, Direction) {
         (self.cell, self.heading)
@@ -233,7 +234,7 @@ impl<'a> Referee<'a> {
         self.steps
     }
 
-    /// What is written down so far.
+    /// Returns what is written down so far.
     #[must_use]
     pub const fn verdict(&self) -> ScoreSheet {
         self.verdict

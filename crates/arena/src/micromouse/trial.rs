@@ -12,7 +12,7 @@ pub struct MouseTrial {
     pub steps: Vec<RefereedStep>,
     /// What the referee wrote down.
     pub verdict: ScoreSheet,
-    /// Why the mouse gave up, if it did.
+    /// Reason why the mouse gave up, if it did.
     pub gave_up: Option<MouseError>,
 }
 
@@ -65,7 +65,7 @@ pub fn sides_seen(sight: Sight, cell: Cell, heading: Direction) -> Vec<SideSeen>
     lines.into_iter().flat_map(line).collect()
 }
 
-/// Why there was no trial.
+/// Reason why there was no trial.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MouseTrialError {
@@ -89,7 +89,7 @@ impl MouseTrial {
         Self::watch(maze, mouse, |_| {})
     }
 
-    /// The same; `see` is told of every step as soon as it is made.
+    /// Returns the same; `see` is told of every step as soon as it is made.
     ///
     /// # Errors
     /// If the referee refuses the maze or an order.

@@ -64,7 +64,7 @@ impl Exchange {
         }
     }
 
-    /// The sides of cells that lie within so many half-steps, up to the border or a post.
+    /// Returns the sides of cells within `half_steps` half-steps, up to the border or a post.
     fn sides_within(
         &self,
         half_steps: usize,
@@ -82,7 +82,7 @@ impl Exchange {
     }
 }
 
-/// The side of a cell that lies half a step ahead of a place, if one does.
+/// Returns the side of a cell that lies half a step ahead of a place, if one does.
 fn ahead(place: LatticePoint, heading: LatticeHeading, grid: Grid) -> Option<(Cell, Direction)> {
     let is_middle = place.x % 2 == 1 && place.y % 2 == 1;
     match (place.gate(heading, grid), heading.side()) {

@@ -1,36 +1,22 @@
 //! Runs a mouse that is a program of its own.
 
 use core::time::Duration;
-use std::io::{self, BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender};
-use std::thread;
-use std::time::Instant;
 
 use serde::Serialize;
-use thiserror::Error;
 use tolman_maze::Maze;
 
 use super::{Exchange, Score, Simulator};
+use crate::foreign::{Budget, ForeignProgram, Launch, LaunchError, Left, Overrun};
 
 /// When a mouse is stopped.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// After so much time.
     pub time: Duration,
-    /// After so many moves, turns and crashes.
+    /// Maximum number of moves, turns and crashes.
     pub movements: u64,
-    /// The reset button is pressed after so many; never if there is no number.
+    /// Number of movements after which the reset button is pressed, or `None` for never.
     pub reset_after: Option<u64>,
-}
-
-/// Whether what a mouse writes to stderr is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Log {
-    /// On our stderr.
-    Shown,
-    /// Nowhere.
-    Dropped,
 }
 
 /// What became of a mouse.
@@ -71,76 +57,48 @@ pub enum MouseExit {
     OutOfMovements,
     /// It wrote a line that no command can be.
     LineTooLong,
+    /// It wrote more than a mouse has to say.
+    TooMuchOutput,
+    /// It closed its stdout and ran on.
+    ClosedOutput,
+    /// Whoever hosts it wanted no more.
+    Interrupted,
 }
 
-/// Why a mouse could not be run.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum HostError {
-    /// The command has no program.
-    #[error("the mouse's command is empty: name a program")]
-    NoProgram,
-    /// The program does not start.
-    #[error("the mouse `{program}` does not start: give the path of a program that can be run")]
-    Start {
-        /// Its name.
-        program: String,
-        /// Why.
-        source: io::Error,
-    },
-    /// The program cannot be waited for.
-    #[error("the mouse cannot be waited for")]
-    Wait(#[source] io::Error),
-}
+/// Time in which a mouse that has closed its stdout is to end.
+const GRACE: Duration = Duration::from_secs(1);
 
-/// No command is longer, bytes.
-const LONGEST_LINE: u64 = 4096;
-
-/// Lines that may wait to be answered before the mouse has to.
-const LINES_AHEAD: usize = 256;
-
-/// Runs the program `words[0]` with the other words as arguments as a mouse in a maze, until it
-/// ends or a limit is reached; then it is killed. `watch` is shown every line with its answer.
+/// Runs a program as a mouse in a maze, until it ends or a limit is reached; then it is killed,
+/// with all that it started. `watch` is shown every line with its answer.
 ///
 /// # Errors
-/// [`HostError`] if it does not start. That it fails, or does not solve the maze, is a result.
+/// [`LaunchError`] if it does not start. That it fails, or does not solve the maze, is a result.
 pub fn host(
-    words: &[String],
+    mouse: &Launch<'_>,
     maze: &Maze,
     limits: &Limits,
-    log: Log,
     watch: impl FnMut(&Exchange),
-) -> Result<Hosted, HostError> {
-    let (program, arguments) = words.split_first().ok_or(HostError::NoProgram)?;
-    let mut child = Command::new(program)
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(match log {
-            Log::Shown => Stdio::inherit(),
-            Log::Dropped => Stdio::null(),
-        })
-        .spawn()
-        .map_err(|source| HostError::Start {
-            program: program.clone(),
-            source,
-        })?;
+) -> Result<Hosted, LaunchError> {
+    let budget = Budget {
+        time: limits.time,
+        ..Budget::default()
+    };
+    let mut program = ForeignProgram::start(mouse, budget)?;
     let mut simulator = Simulator::new(maze);
     if let Some(movements) = limits.reset_after {
         simulator.reset_after(movements);
     }
-    let stopped = match (child.stdin.take(), child.stdout.take()) {
-        (Some(input), Some(output)) => converse(&mut simulator, input, output, limits, watch),
-        _ => None,
-    };
-    let ended = match stopped {
-        Some(ended) => {
-            // It may have ended by itself by now, which is as good.
-            let _ = child.kill();
-            child.wait().map_err(HostError::Wait)?;
-            ended
-        }
-        None => wait(&mut child, limits.time)?,
+    let ended = match converse(&mut simulator, &mut program, limits, watch) {
+        Err(Overrun::Time) => MouseExit::OutOfTime,
+        Err(Overrun::Bytes | Overrun::Lines) => MouseExit::TooMuchOutput,
+        Err(Overrun::LineBytes) => MouseExit::LineTooLong,
+        Err(Overrun::Stop) => MouseExit::Interrupted,
+        Ok(Said::AllItMay) => MouseExit::OutOfMovements,
+        Ok(Said::AllItWould) => match program.left(limits.time.min(GRACE))? {
+            Left::ByItself(status) if status.success() => MouseExit::Done,
+            Left::ByItself(_) => MouseExit::Failed,
+            Left::Killed => MouseExit::ClosedOutput,
+        },
     };
     let (half_steps, cells) = (simulator.score_in_half_steps(), simulator.score_in_cells());
     Ok(Hosted {
@@ -156,107 +114,29 @@ pub fn host(
     })
 }
 
-/// Answers the mouse until it closes its stdout (`None`) or has to be stopped.
-///
-/// Reading and writing have threads of their own, since a mouse that neither writes nor reads must
-/// not hold up the clock.
+/// Why a conversation is over.
+enum Said {
+    /// The mouse closed its stdout.
+    AllItWould,
+    /// It has made all its movements.
+    AllItMay,
+}
+
 fn converse(
     simulator: &mut Simulator<'_>,
-    input: ChildStdin,
-    output: ChildStdout,
+    mouse: &mut ForeignProgram<'_>,
     limits: &Limits,
     mut watch: impl FnMut(&Exchange),
-) -> Option<MouseExit> {
-    let deadline = Instant::now() + limits.time;
-    let (to_us, lines) = mpsc::sync_channel(LINES_AHEAD);
-    let (replies, to_mouse) = mpsc::sync_channel(LINES_AHEAD);
-    // They end as soon as the mouse's ends of the pipes are closed, or ours of the channels.
-    thread::spawn(move || read(output, &to_us));
-    thread::spawn(move || write(input, &to_mouse));
-    loop {
-        let left = deadline.saturating_duration_since(Instant::now());
-        let line = match lines.recv_timeout(left) {
-            Ok(Some(line)) => line,
-            Ok(None) => return Some(MouseExit::LineTooLong),
-            Err(RecvTimeoutError::Timeout) => return Some(MouseExit::OutOfTime),
-            Err(RecvTimeoutError::Disconnected) => return None,
-        };
+) -> Result<Said, Overrun> {
+    while let Some(line) = mouse.hear()? {
         let exchange = Exchange::of(simulator, &line);
         watch(&exchange);
         if simulator.movements() + simulator.crashes() >= limits.movements {
-            return Some(MouseExit::OutOfMovements);
+            return Ok(Said::AllItMay);
         }
-        if let Some(reply) = exchange.reply
-            && !send(&replies, reply, deadline)
-        {
-            return Some(MouseExit::OutOfTime);
+        if let Some(reply) = exchange.reply {
+            mouse.say(reply)?;
         }
     }
-}
-
-/// Hands a reply on; false if the mouse reads nothing until the deadline. One that is gone needs
-/// none.
-fn send(replies: &SyncSender<String>, reply: String, deadline: Instant) -> bool {
-    let mut waiting = reply;
-    loop {
-        match replies.try_send(waiting) {
-            Ok(()) | Err(mpsc::TrySendError::Disconnected(_)) => return true,
-            Err(mpsc::TrySendError::Full(_)) if Instant::now() >= deadline => return false,
-            Err(mpsc::TrySendError::Full(reply)) => {
-                waiting = reply;
-                thread::sleep(Duration::from_millis(1));
-            }
-        }
-    }
-}
-
-/// Reads lines; `None` for one that is too long, and then no more.
-fn read(output: ChildStdout, to_us: &SyncSender<Option<String>>) {
-    let mut output = BufReader::new(output);
-    let mut line = Vec::new();
-    loop {
-        line.clear();
-        match (&mut output)
-            .take(LONGEST_LINE)
-            .read_until(b'\n', &mut line)
-        {
-            Ok(0) | Err(_) => return,
-            Ok(_) => {}
-        }
-        let is_whole = line.ends_with(b"\n") || (line.len() as u64) < LONGEST_LINE;
-        let sent = is_whole.then(|| String::from_utf8_lossy(&line).into_owned());
-        if to_us.send(sent).is_err() || !is_whole {
-            return;
-        }
-    }
-}
-
-fn write(mut input: ChildStdin, to_mouse: &Receiver<String>) {
-    for reply in to_mouse {
-        // A mouse that has gone needs no reply.
-        if writeln!(input, "{reply}")
-            .and_then(|()| input.flush())
-            .is_err()
-        {
-            return;
-        }
-    }
-}
-
-/// Waits for a mouse that has closed its stdout; one that does not end in a second, or in what it
-/// was given if that is less, is killed.
-fn wait(child: &mut Child, time: Duration) -> Result<MouseExit, HostError> {
-    let deadline = Instant::now() + time.min(Duration::from_secs(1));
-    loop {
-        match child.try_wait().map_err(HostError::Wait)? {
-            Some(status) if status.success() => return Ok(MouseExit::Done),
-            Some(_) => return Ok(MouseExit::Failed),
-            None if Instant::now() >= deadline => {
-                let _ = child.kill();
-                child.wait().map_err(HostError::Wait)?;
-                return Ok(MouseExit::OutOfTime);
-            }
-            None => thread::sleep(Duration::from_millis(2)),
-        }
-    }
+    Ok(Said::AllItWould)
 }

@@ -27,6 +27,6 @@ mod score;
 mod simulator;
 
 pub use exchange::Exchange;
-pub use host::{HostError, Hosted, Limits, Log, MouseExit, host};
+pub use host::{Hosted, Limits, MouseExit, host};
 pub use score::{Figures, Score, Unit};
 pub use simulator::Simulator;

@@ -76,7 +76,7 @@ impl Score {
         self.running = true;
     }
 
-    /// The mouse moves straight on by so many half-steps.
+    /// Moves the mouse straight on by `half_steps` half-steps.
     pub(super) fn move_on(&mut self, half_steps: i32) {
         let distance = match self.unit {
             Unit::HalfSteps => half_steps as f32,
@@ -132,7 +132,7 @@ impl Score {
         self.end_run();
     }
 
-    /// The score; less is better, 2000 if no run was finished.
+    /// Returns the score; less is better, 2000 if no run was finished.
     #[must_use]
     pub fn value(&self) -> f32 {
         let Some(best) = self.best else {
@@ -142,8 +142,8 @@ impl Score {
         (f64::from(best.cost()) + 0.1 * f64::from(self.total.cost())) as f32
     }
 
-    /// The reply to `getStat`: the figure of that name, −1 if it has none yet; none for a name that
-    /// mms does not know.
+    /// Returns the reply to `getStat`: the figure of that name, −1 if it has none yet, or `None`
+    /// for a name that mms does not know.
     #[must_use]
     pub fn stat(&self, name: &str) -> Option<String> {
         if name == "score" {
@@ -182,7 +182,7 @@ impl Figures {
     }
 }
 
-/// A number as C's `%g` writes it: at most six significant digits.
+/// Returns a number as C's `%g` writes it: at most six significant digits.
 fn six_digits(value: f32) -> String {
     let scientific = format!("{value:.5e}");
     let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));

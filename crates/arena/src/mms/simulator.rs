@@ -58,15 +58,15 @@ const DRAWING: [&str; 8] = [
     "clearAllText",
 ];
 
-/// Where a question for a wall looks, in eighths of a circle, clockwise from ahead; `None` of other
-/// commands.
+/// Returns where a question for a wall looks, in eighths of a circle, clockwise from ahead; `None`
+/// of other commands.
 pub(super) fn eighths_of(command: &str) -> Option<i8> {
     let wall = WALLS.iter().find(|(name, _)| *name == command);
     wall.map(|(_, eighths)| *eighths)
 }
 
 impl<'a> Simulator<'a> {
-    /// A mouse at the start of a maze.
+    /// Returns a mouse at the start of a maze.
     #[must_use]
     pub fn new(maze: &'a Maze) -> Self {
         Self {
@@ -83,8 +83,8 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// Presses the reset button after so many movements: `wasReset` is true from then on until the
-    /// mouse says `ackReset`.
+    /// Presses the reset button after `movements` movements: `wasReset` is true from then on until
+    /// the mouse says `ackReset`.
     pub fn reset_after(&mut self, movements: u64) {
         self.reset_after = Some(movements);
     }
@@ -138,7 +138,7 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// Whether a wall stands within so many half-steps; at least one is looked at.
+    /// Returns whether a wall stands within `half_steps` half-steps; at least one is checked.
     fn is_wall_within(&self, half_steps: i32, heading: LatticeHeading) -> bool {
         let mut place = self.place;
         for _ in 0..half_steps.max(1) {
@@ -150,7 +150,7 @@ impl<'a> Simulator<'a> {
         false
     }
 
-    /// Whether a wall or a post stands half a step ahead of a place.
+    /// Returns whether a wall or a post stands half a step ahead of a place.
     fn is_blocked(&self, place: LatticePoint, heading: LatticeHeading) -> bool {
         match place.gate(heading, self.maze.grid()) {
             Gate::None => false,
@@ -219,13 +219,13 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// The score as the code of mms counts it, in half-steps.
+    /// Returns the score as the code of mms counts it, in half-steps.
     #[must_use]
     pub fn score_in_half_steps(&self) -> &Score {
         &self.half_steps
     }
 
-    /// The score as the README of mms has it, in cells.
+    /// Returns the score as the README of mms has it, in cells.
     #[must_use]
     pub fn score_in_cells(&self) -> &Score {
         &self.cells
@@ -237,7 +237,7 @@ impl<'a> Simulator<'a> {
         self.movements
     }
 
-    /// How often the mouse ran against a wall, or asked for a move of no length.
+    /// Returns how often the mouse ran against a wall, or asked for a move of no length.
     #[must_use]
     pub const fn crashes(&self) -> u64 {
         self.crashes
@@ -249,13 +249,13 @@ impl<'a> Simulator<'a> {
         self.invalid
     }
 
-    /// Where the mouse is.
+    /// Returns where the mouse is.
     #[must_use]
     pub const fn place(&self) -> LatticePoint {
         self.place
     }
 
-    /// Where the mouse looks.
+    /// Returns where the mouse looks.
     #[must_use]
     pub const fn heading(&self) -> LatticeHeading {
         self.heading

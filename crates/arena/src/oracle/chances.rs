@@ -41,7 +41,7 @@ struct NodeChances {
 #[derive(Clone, Copy)]
 struct Chance {
     steps: f64,
-    /// Where it ended; none in the destination.
+    /// Where it ended, or `None` in the destination.
     end: Option<u32>,
     moved: bool,
 }
@@ -137,7 +137,7 @@ impl NodeChances {
     }
 }
 
-/// The least cost of all actions but the one that has just failed.
+/// Returns the least cost of all actions but the one that has just failed.
 fn best_but(costs: &Costs, barred: Option<Direction>) -> f64 {
     let allowed = Direction::ALL
         .into_iter()
@@ -147,7 +147,7 @@ fn best_but(costs: &Costs, barred: Option<Direction>) -> f64 {
         .fold(HOPELESS, f64::min)
 }
 
-/// A pose that has this node for its nearest.
+/// Returns a pose that has this node for its nearest.
 fn about(lattice: &Lattice, node: u32, rng: &mut ChaCha8Rng) -> Pose {
     let half = 0.5 * lattice.spacing;
     let offset = Vector::new(

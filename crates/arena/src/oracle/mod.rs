@@ -45,8 +45,8 @@ fn noisy_robot(
     Ok(Solo::new(course.world.clone(), model, somewhere, 0)?)
 }
 
-/// The ceiling: knows the maze and its true pose and plans anew at every action, with the same body
-/// and the same layers as everyone else. Not in the paper.
+/// The ceiling: knows the maze and its true pose and plans again at every action, with the same
+/// body and the same layers as everyone else. Not in the paper.
 ///
 /// Its [`Policy`] says what each action is expected to cost in time steps from about where the
 /// robot is. An action that has just failed there is not tried again before the robot has moved.

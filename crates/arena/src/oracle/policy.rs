@@ -23,7 +23,7 @@ pub struct Policy {
     /// For each node and action, the expected steps from there to the destination that begin with
     /// the action.
     costs: Vec<Costs>,
-    /// For each node and action, the node it leads to without noise; none where it fails.
+    /// For each node and action, the node it leads to without noise, or `None` where it fails.
     ends: Vec<[Option<u32>; 4]>,
 }
 
@@ -87,20 +87,20 @@ impl Policy {
         self.costs[self.lattice.nearest(pose) as usize]
     }
 
-    /// Where an action leads from about `pose` without noise; none where it fails.
+    /// Returns where an action leads from about `pose` without noise, or `None` where it fails.
     pub(super) fn end(&self, pose: Pose, action: Direction) -> Option<Point> {
         let head = self.ends[self.lattice.nearest(pose) as usize][action.index()]?;
         Some(self.lattice.pose(head).position)
     }
 
-    /// The positions it knows, by [`Self::position_index`].
+    /// Returns the positions it knows, by [`Self::position_index`].
     pub(super) fn positions(&self) -> impl Iterator<Item = Point> + '_ {
         let axes = AXES.len() as u32;
         let count = self.lattice.node_count() as u32 / axes;
         (0..count).map(move |index| self.lattice.pose(index * axes).position)
     }
 
-    /// The index of the position nearest to `position`.
+    /// Returns the index of the position nearest to `position`.
     pub(super) fn position_index(&self, position: Point) -> usize {
         let node = self.lattice.nearest(Pose::new(position, AXES[0]));
         node as usize / AXES.len()

@@ -48,7 +48,7 @@ impl<'a> Trier<'a> {
         })
     }
 
-    /// Carries out one action from `pose`; none if the robot cannot stand or see there.
+    /// Carries out one action from `pose`, or `None` if the robot cannot stand or see there.
     pub(super) fn carry_out(
         &mut self,
         action: Direction,

@@ -59,10 +59,12 @@ const SURPRISE: f64 = 0.02;
 /// deviation): about half a spacing of the lattice across, and half a beam beside.
 const RANGE_SD: f64 = 0.15;
 
-/// Beyond so many standard deviations a beam met another wall; how far off says no more.
+/// A beam more than this many standard deviations off has met another wall; how far off says no
+/// more.
 const OUTLIER: f64 = 3.0;
 
-/// Beams see the same walls, so that all of them together say no more than so many.
+/// Weight of all beams together, in independent beams: beams that see the same walls are
+/// correlated.
 const INDEPENDENT_BEAMS: f64 = 12.0;
 
 impl PlaceViews {
@@ -105,7 +107,7 @@ impl PlaceViews {
         })
     }
 
-    /// The probability, but for a factor, of seeing `scan` at a place.
+    /// Returns the probability, but for a factor, of seeing `scan` at a place.
     fn likelihood(&self, place: &Standpoint, scan: &[f64]) -> f64 {
         if scan.is_empty() || scan.len() != place.scan.len() {
             return 1.0;
@@ -118,7 +120,7 @@ impl PlaceViews {
         libm::exp(-0.5 * INDEPENDENT_BEAMS * mean)
     }
 
-    /// The belief after an action that ended so.
+    /// Returns the belief after an action that ended so.
     fn moved(
         &self,
         belief: &[f64],
@@ -178,7 +180,7 @@ const SPREAD_STEPS: i32 = 6;
 const NEGLIGIBLE: f64 = 1e-9;
 
 impl UnlocalizedOracle {
-    /// One that has no idea yet where it is.
+    /// Returns one that has no idea yet where it is.
     #[must_use]
     pub fn new(chart: Arc<PlaceViews>) -> Self {
         let count = chart.places.len();
@@ -224,13 +226,13 @@ impl UnlocalizedOracle {
                 *mass /= sum;
             }
         } else {
-            // Nothing it could imagine fits: it begins anew.
+            // Nothing it could imagine fits: it begins again.
             let count = self.belief.len().max(1);
             self.belief.fill(1.0 / count as f64);
         }
     }
 
-    /// The most likely place; the first of equals.
+    /// Returns the most likely place; the first of equals.
     fn most_likely(&self) -> Option<Point> {
         let likelier = |best: (Point, f64), next: (Point, f64)| {
             if next.1 > best.1 { next } else { best }

@@ -65,7 +65,7 @@ proptest! {
             (CpmConfig::online(), Reckoning::None),
             (CpmConfig::robust(), Reckoning::Bounded),
         ] {
-            // Several times what any of these mazes needs: who goes round for ever is told soon.
+            // Several times what any of these mazes needs: who goes round forever is told soon.
             let config = CpmConfig { most_traversals: 400, ..config };
             let mut rng = rng.clone();
             let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, reckoning);

@@ -9,7 +9,7 @@ use tolman_systems::cpm::{Aim, CpmConfig, Explorer};
 
 use super::explorations::pursue;
 
-/// The map of an explored world, with dead reckoning.
+/// Returns the map of an explored world, with dead reckoning.
 fn explored() -> (CpMap, Dictionary) {
     let mut rng = ChaCha8Rng::seed_from_u64(3);
     let world = PlaneMaze::random(&MazeConfig::small(), &mut rng).unwrap();
@@ -59,7 +59,7 @@ fn cut(file: &mut Value, list: &str) {
     file["map"][list].as_array_mut().unwrap().pop();
 }
 
-/// Those of a junction with several ways.
+/// Returns those of a junction with several ways.
 fn bearings(file: &mut Value) -> &mut Vec<Value> {
     let junctions = file["map"]["junctions"].as_array_mut().unwrap();
     let mut lists = junctions

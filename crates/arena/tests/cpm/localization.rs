@@ -38,7 +38,7 @@ fn explored_of(world: PlaneMaze, noise: WalkerNoise, rng: &mut ChaCha8Rng) -> Kn
 }
 
 impl Known {
-    /// Whether the robot, truly at this port, is where it believes to be.
+    /// Returns whether the robot, truly at this port, is where it believes to be.
     fn is_right(&self, found: Location, truth: WorldPort) -> bool {
         let (at, truly_at) = self.at;
         let Some(known) = self.world.correspondence(&self.map, at, truly_at) else {
@@ -51,7 +51,7 @@ impl Known {
         })
     }
 
-    /// A robot that knows this maze alone, and has observed this.
+    /// Returns a robot that knows this maze alone, and has observed this.
     fn localizer_after(&self, walk: &Traversal) -> Localizer {
         let maps = core::slice::from_ref(&self.map);
         let dictionary = self.world.dictionary();
@@ -63,7 +63,7 @@ impl Known {
     }
 }
 
-/// A place in the midst of a corridor: at least half of it, and two observations, to come.
+/// Returns a place in the midst of a corridor: at least half of it, and two observations, to come.
 fn middle(world: &PlaneMaze, rng: &mut ChaCha8Rng) -> (CorridorEnd, u32) {
     loop {
         let corridor = rng.random_range(0..world.corridors().len() as u32);
@@ -132,7 +132,7 @@ fn where_ways_lead_tells_fragments_apart_that_look_alike() {
         ..MazeConfig::small()
     };
     let mut rng = ChaCha8Rng::seed_from_u64(9);
-    // Without bearings, by a glimpse of them, by a look, among so many starts.
+    // Without bearings, by a glimpse of them, by a look, and the number of starts.
     let (mut blind, mut glimpsed, mut seen, mut starts) = (0, 0, 0, 0);
     for _ in 0..20 {
         let known = explored(&maze, WalkerNoise::NONE, &mut rng);

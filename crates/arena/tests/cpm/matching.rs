@@ -13,7 +13,7 @@ use tolman_maps::cpm::{
 /// A sequence as seen, and the corridor it was.
 type Seen = (u32, Vec<PatternId>);
 
-/// Every corridor of a world, walked from both ends.
+/// Returns every corridor of a world, walked from both ends.
 fn sightings(world: &PlaneMaze, noise: WalkerNoise, rng: &mut ChaCha8Rng) -> Vec<Seen> {
     let mut rover = PlaneWalker::new(world, noise, Reckoning::None);
     let mut seen = Vec::new();
@@ -30,8 +30,8 @@ fn sightings(world: &PlaneMaze, noise: WalkerNoise, rng: &mut ChaCha8Rng) -> Vec
     seen
 }
 
-/// The area under the ROC curve: how often a pair of one corridor is more similar than a pair of
-/// two.
+/// Returns the area under the ROC curve: how often a pair of one corridor is more similar than a
+/// pair of two.
 fn auc(matching: &FragmentMatching, dictionary: &Dictionary, seen: &[Seen]) -> f64 {
     let (mut same, mut other) = (Vec::new(), Vec::new());
     for (i, (corridor, patterns)) in seen.iter().enumerate() {
@@ -60,7 +60,7 @@ fn auc(matching: &FragmentMatching, dictionary: &Dictionary, seen: &[Seen]) -> f
     won / (same.len() * other.len()) as f64
 }
 
-/// So many that one maze in which the paper's similarity is as good does not decide.
+/// Enough that one maze in which the paper's similarity is as good does not decide.
 const MAZES: u32 = 40;
 
 #[test]
@@ -70,7 +70,8 @@ fn alignment_tells_fragments_apart_better_than_positions() {
         FragmentMatching::Positions(Similarity::paper()),
         FragmentMatching::Alignment(Alignment::tuned()),
     ];
-    // By how much alignment is to be better than the paper's similarity: about half of what it is.
+    // By how much alignment is to be better than the paper's similarity: about half of the margin
+    // seen.
     for (substitution, gaps, margin) in [(0.05, 0.0, 0.0005), (0.1, 0.05, 0.006), (0.3, 0.1, 0.02)]
     {
         let noise = WalkerNoise {

@@ -121,9 +121,9 @@ fn figure_1() {
     assert!(!explorer.mapper.map().is_complete());
 }
 
-/// The environment of figure 10, as far as its walk and its text tell: A1 from P to Q, A2 from Q to
-/// R, A3 from R to S, A4 from S back to Q; X2 leads from R to the goal, X3 from S to a junction T,
-/// from which X4 and X5 lead to P.
+/// Returns the environment of figure 10, as far as its walk and its text tell: A1 from P to Q, A2
+/// from Q to R, A3 from R to S, A4 from S back to Q; X2 leads from R to the goal, X3 from S to a
+/// junction T, from which X4 and X5 lead to P.
 fn figure_10_world() -> PlaneMaze {
     let mut drawing = WorldBuilder::new(dictionary());
     let place = |x: f64, y: f64| Point::new(x, y);
@@ -151,7 +151,7 @@ fn figure_10_world() -> PlaneMaze {
     drawing.finish(p).unwrap()
 }
 
-/// The turn that takes a rover into a corridor.
+/// Returns the turn that takes a rover into a corridor.
 fn turn_into(world: &PlaneMaze, rover: &PlaneWalker<'_>, corridor: u32) -> Turn {
     let at = rover.at();
     let ports = &world.places()[at.place as usize].ports;

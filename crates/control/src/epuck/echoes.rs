@@ -14,7 +14,7 @@ pub struct Echoes {
 }
 
 impl Echoes {
-    /// The echoes behind these raw values.
+    /// Returns the echoes behind these raw values.
     #[must_use]
     pub fn of(values: &[f64; PROXIMITY_SENSORS], curve: &RangeCurve) -> Self {
         let mounts = proximity_mounts();
@@ -28,19 +28,19 @@ impl Echoes {
         }
     }
 
-    /// What one sensor meets.
+    /// Returns what one sensor meets.
     #[must_use]
     pub fn of_sensor(&self, sensor: usize) -> Option<Point> {
         self.points.get(sensor).copied().flatten()
     }
 
-    /// All that is met.
+    /// Returns all that is met.
     pub fn iter(&self) -> impl Iterator<Item = Point> + '_ {
         self.points.iter().copied().flatten()
     }
 
-    /// How much room is straight ahead of the robot's middle, m; none if neither sensor that looks
-    /// ahead meets anything.
+    /// Returns how much room is straight ahead of the robot's middle, m, or `None` if neither
+    /// sensor that looks ahead meets anything.
     #[must_use]
     pub fn ahead(&self) -> Option<f64> {
         let ahead = [0, 7]

@@ -7,9 +7,8 @@ use super::Echoes;
 ///
 /// It keeps to the middle of the walls beside it, or at half a corridor's width from the one it
 /// sees; where it does not see along a wall, as beside a fork, it goes by how far it has turned
-/// since it did. Where a wall stands across the way, it turns on the spot to the side with more
-/// room, and keeps to that side until the way ahead is free. It knows no junctions: those are layer
-/// 3's.
+/// since it did. Where a wall stands across the way, it turns in place to the side with more room,
+/// and keeps to that side until the way ahead is free. It knows no junctions: those are layer 3's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forward {
     config: ForwardConfig,
@@ -74,12 +73,12 @@ impl ForwardConfig {
 struct Beside {
     /// How far it is, m.
     distance: f64,
-    /// Its direction in the robot's frame, rad; none if only one sensor sees it.
+    /// Its direction in the robot's frame, rad, or `None` if only one sensor sees it.
     angle: Option<f64>,
 }
 
 impl Forward {
-    /// A layer 1 at rest.
+    /// Returns a layer 1 at rest.
     #[must_use]
     pub const fn new(config: ForwardConfig) -> Self {
         Self {
@@ -94,13 +93,13 @@ impl Forward {
         self.way = 0.0;
     }
 
-    /// The robot has turned by so many radians, counter-clockwise, since the last
+    /// Notes that the robot has turned by `radians`, rad, counter-clockwise, since the last
     /// [proposal](Self::propose).
     pub const fn turned(&mut self, radians: f64) {
         self.way -= radians;
     }
 
-    /// What it would do now.
+    /// Returns what it would do now.
     pub fn propose(&mut self, echoes: &Echoes) -> Twist {
         let (left, right) = (self.beside(echoes, 5, 6), self.beside(echoes, 2, 1));
         let ahead = echoes.ahead().unwrap_or(f64::INFINITY);
@@ -166,7 +165,8 @@ impl Forward {
         )
     }
 
-    /// The wall beside, by the sensor that looks straight aside and the one half ahead of it.
+    /// Returns the wall beside, by the sensor that looks straight aside and the one half ahead of
+    /// it.
     fn beside(&self, echoes: &Echoes, aside: usize, half_ahead: usize) -> Option<Beside> {
         let near = |point: &Point| point.y.abs() < self.config.half_width * 1.6;
         let aside = echoes.of_sensor(aside).filter(near)?;
@@ -188,8 +188,8 @@ mod tests {
 
     const WIDTH: f64 = 0.25;
 
-    /// What it senses 3 cm off the middle to the right, where the wall on the left ends so far
-    /// ahead.
+    /// Returns what it senses 3 cm off the middle to the right, where the wall on the left ends so
+    /// far ahead.
     fn beside_a_wall(ahead: f64) -> Echoes {
         let curve = RangeCurve::new(alloc::vec![(0.0, 1.0), (0.25, 0.0)]).unwrap();
         let to_wall = WIDTH / 2.0 + 0.03;

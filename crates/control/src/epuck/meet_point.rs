@@ -55,9 +55,9 @@ impl MeetPointConfig {
 }
 
 impl Profile {
-    /// The position with the most room round it, in the robot's frame, m: at a junction the point
-    /// as far from one wall or corner as from two others, a meet point of the generalized Voronoi
-    /// graph (Choset and Nagatani 2001).
+    /// Returns the position with the most room round it, in the robot's frame, m: at a junction the
+    /// point as far from one wall or corner as from two others, a meet point of the generalized
+    /// Voronoi graph (Choset and Nagatani 2001).
     ///
     /// What the sensors cannot see counts as walls, so from afar it is a step towards that point.
     ///

@@ -19,8 +19,8 @@ pub struct Pilot<R> {
 /// other.
 pub const TURN_STEP: f64 = 2.0 * ENCODER_STEP * WHEEL_RADIUS / TRACK;
 
-/// Encoders that count whole steps may tell nothing of so many time steps of a slow turn, or before
-/// the motors have begun.
+/// Time steps for which encoders that count whole steps may report no motion: in a slow turn, or
+/// before the motors start.
 const PATIENCE: u32 = 10;
 
 /// What a pilot holds to.
@@ -67,7 +67,7 @@ impl<R> Pilot<R>
 where
     R: Robot<Command = WheelSpeeds, Sensing = EpuckSensing>,
 {
-    /// A pilot of this robot.
+    /// Returns a pilot of this robot.
     pub fn new(robot: R, config: PilotConfig) -> Self {
         let forward = Forward::new(config.forward);
         Self::resume(robot, config, forward)
@@ -87,23 +87,23 @@ where
         &self.forward
     }
 
-    /// The robot.
+    /// Returns the robot.
     pub const fn robot(&self) -> &R {
         &self.robot
     }
 
-    /// The robot, to be lifted.
+    /// Returns the robot, to be lifted.
     pub const fn robot_mut(&mut self) -> &mut R {
         &mut self.robot
     }
 
-    /// How much room is straight ahead now, m; none if nothing is met.
+    /// Returns how much room is straight ahead now, m, or `None` if nothing is met.
     pub fn ahead(&self) -> Option<f64> {
         self.echoes().ok()?.ahead()
     }
 
-    /// Whether walls stand ahead and on both sides, none farther than this from the middle of the
-    /// robot, m.
+    /// Returns whether walls stand ahead and on both sides, none farther than this from the middle
+    /// of the robot, m.
     pub fn is_enclosed(&self, within: f64) -> bool {
         let Ok(echoes) = self.echoes() else {
             return false;
@@ -116,12 +116,12 @@ where
         ahead && beside(2) && beside(5)
     }
 
-    /// What it holds to.
+    /// Returns what it holds to.
     pub const fn config(&self) -> &PilotConfig {
         &self.config
     }
 
-    /// Turns once round on the spot, counter-clockwise, and reads all sensors at every sample's
+    /// Turns once round in place, counter-clockwise, and reads all sensors at every sample's
     /// bearing (section 4.1).
     ///
     /// # Errors
@@ -141,9 +141,9 @@ where
         Ok(sweep)
     }
 
-    /// Drives forward along the path for about so many seconds: layer 1 proposes, layer 0 corrects.
-    /// What layer 1 turns on the spot in a bend is not forward and does not count, up to ten times
-    /// as long.
+    /// Drives forward along the path for about `seconds` seconds: layer 1 proposes, layer 0
+    /// corrects. What layer 1 turns in place in a bend is not forward and does not count, up to ten
+    /// times as long.
     ///
     /// # Errors
     /// If the robot fails, or its proximity sensors give nothing.
@@ -173,7 +173,7 @@ where
         self.drive(Twist::ZERO, 1.0)
     }
 
-    /// Turns on the spot by so many radians, counter-clockwise.
+    /// Turns in place by `radians`, rad, counter-clockwise.
     ///
     /// # Errors
     /// If the robot fails, or its wheels do not say how far they turned.
@@ -236,7 +236,7 @@ where
         Ok(turned)
     }
 
-    /// One time step at this twist times `share`.
+    /// Returns one time step at this twist times `share`.
     fn drive(&mut self, twist: Twist, share: f64) -> Result<(), PilotError<R::Error>> {
         let part = Twist::new(twist.linear * share, twist.angular * share);
         let speeds = WheelSpeeds::of_twist(part, self.config.most_wheel_speed);
@@ -253,7 +253,7 @@ where
     }
 }
 
-/// Why the robot stopped.
+/// Reason why the robot stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PilotError<E> {

@@ -84,7 +84,7 @@ impl Profile {
         Ok(Self { values })
     }
 
-    /// A profile of these values, from ahead counter-clockwise.
+    /// Returns a profile of these values, from ahead counter-clockwise.
     ///
     /// # Errors
     /// If there are none or one is not finite.
@@ -98,13 +98,13 @@ impl Profile {
         }
     }
 
-    /// The values, from ahead counter-clockwise.
+    /// Returns the values, from ahead counter-clockwise.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The profile of a robot that looks the other way.
+    /// Returns the profile of a robot that looks the other way.
     #[must_use]
     pub fn half_turned(&self) -> Self {
         let mut values = self.values.clone();
@@ -112,8 +112,8 @@ impl Profile {
         Self { values }
     }
 
-    /// What is met at every bearing, in the robot's frame, m; where nothing is met, the farthest
-    /// point that could be.
+    /// Returns what is met at every bearing, in the robot's frame, m; where nothing is met, the
+    /// farthest point that could be.
     pub(super) fn echoes(&self, curve: &RangeCurve) -> impl Iterator<Item = (Point, Met)> + '_ {
         // The sensors sit on a circle.
         let mounts = proximity_mounts();
@@ -136,9 +136,9 @@ impl Profile {
         })
     }
 
-    /// How far the walls are turned out of the robot's axes, rad, from -π/4 to π/4, where walls
-    /// stand at right angles to each other: a heading without drift for mazes of cells. None if too
-    /// few walls are near.
+    /// Returns how far the walls are turned out of the robot's axes, rad, from -π/4 to π/4, where
+    /// walls stand at right angles to each other: a heading without drift for mazes of cells. None
+    /// if too few walls are near.
     #[must_use]
     pub fn askew(&self, curve: &RangeCurve) -> Option<f64> {
         let points: Vec<(Point, Met)> = self.echoes(curve).collect();
@@ -157,7 +157,7 @@ impl Profile {
         (weight >= 10.0 && agreement > 0.6 * weight).then(|| libm::atan2(sine, cosine) / 4.0)
     }
 
-    /// The bearing of the value at a fractional index, rad, from -π to π.
+    /// Returns the bearing of the value at a fractional index, rad, from -π to π.
     #[must_use]
     pub fn bearing(&self, index: f64) -> f64 {
         let turns = index / self.values.len() as f64;
@@ -165,14 +165,14 @@ impl Profile {
     }
 }
 
-/// Why a sweep makes no [`Profile`].
+/// Reason why a sweep makes no [`Profile`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ProfileError {
     /// There is nothing to average.
     #[error("the sweep has no samples; sweep first")]
     Empty,
-    /// A value is none.
+    /// A value is invalid.
     #[error("sample {index} of sensor {sensor} is not finite; give finite values")]
     NotFinite {
         /// Which sensor.

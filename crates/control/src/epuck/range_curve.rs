@@ -48,7 +48,7 @@ impl RangeCurve {
         }
     }
 
-    /// A curve through points of a range, m, and the value read there.
+    /// Returns a curve through points of a range, m, and the value read there.
     ///
     /// # Errors
     /// If there are fewer than two points, a number is not finite, ranges do not grow or values do
@@ -72,8 +72,8 @@ impl RangeCurve {
         Ok(Self { points })
     }
 
-    /// The range of what reads `value`, m; none at or below the value of the farthest point, which
-    /// is also read where nothing is near.
+    /// Returns the range of what reads `value`, m, or `None` at or below the value of the farthest
+    /// point, which is also read where nothing is near.
     #[must_use]
     pub fn range(&self, value: f64) -> Option<f64> {
         let far = self.points.partition_point(|(_, at)| *at > value);
@@ -112,7 +112,7 @@ impl RangeCurve {
         }
     }
 
-    /// The farthest range that can be told, m.
+    /// Returns the farthest range that can be told, m.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.points.last().map_or(0.0, |point| point.0)
@@ -128,13 +128,13 @@ impl TryFrom<Vec<(f64, f64)>> for RangeCurve {
 }
 
 impl From<RangeCurve> for Vec<(f64, f64)> {
-    /// The ranges, m, and the values there.
+    /// Returns the ranges, m, and the values there.
     fn from(curve: RangeCurve) -> Self {
         curve.points
     }
 }
 
-/// Why points are no [`RangeCurve`].
+/// Reason why points are no [`RangeCurve`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum RangeCurveError {
@@ -144,7 +144,7 @@ pub enum RangeCurveError {
         /// How many there are.
         points: usize,
     },
-    /// A number is none.
+    /// A number is invalid.
     #[error("point {index} of the curve has a number that is not finite; give finite numbers")]
     NotFinite {
         /// Which point, from 0.

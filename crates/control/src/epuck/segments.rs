@@ -77,8 +77,8 @@ pub struct SegmentConfig {
 }
 
 impl SegmentConfig {
-    /// The paper's to the letter, with ours where it is silent: δ = 5; a space reads less than 12
-    /// on average, as nothing within 23 cm does.
+    /// Returns the paper's to the letter, with ours where it is silent: δ = 5; a space reads less
+    /// than 12 on average, as nothing within 23 cm does.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -90,9 +90,9 @@ impl SegmentConfig {
         }
     }
 
-    /// The paper's, with values above 60 cut, which are those of walls within 17 cm, and spaces of
-    /// four samples of 100 at least: through less the robot does not fit at the end of its sensors'
-    /// reach.
+    /// Returns the paper's, with values above 60 cut, which are those of walls within 17 cm, and
+    /// spaces of four samples of 100 at least: through less the robot does not fit at the end of
+    /// its sensors' reach.
     #[must_use]
     pub const fn cut() -> Self {
         Self {
@@ -262,14 +262,14 @@ fn runs(changes: &[bool], origin: usize) -> impl Iterator<Item = (usize, usize)>
 }
 
 impl Segments {
-    /// The segments, counter-clockwise from the way by which the robot came.
+    /// Returns the segments, counter-clockwise from the way by which the robot came.
     #[must_use]
     pub fn segments(&self) -> &[Segment] {
         &self.segments
     }
 
-    /// The bearings of the spaces, rad: the branches of a junction, counter-clockwise from the one
-    /// by which the robot came, that nearest to behind.
+    /// Returns the bearings of the spaces, rad: the branches of a junction, counter-clockwise from
+    /// the one by which the robot came, that nearest to behind.
     pub fn spaces(&self) -> impl Iterator<Item = f64> + '_ {
         let spaces = || {
             let below = self.segments.iter().filter(|segment| {
@@ -285,7 +285,7 @@ impl Segments {
         spaces().skip(first).chain(spaces().take(first))
     }
 
-    /// How many ways lead on, those that are half hidden among them, where ways and walls
+    /// Returns how many ways lead on, those that are half hidden among them, where ways and walls
     /// alternate.
     #[must_use]
     pub fn ways(&self) -> usize {
@@ -295,7 +295,7 @@ impl Segments {
             .count()
     }
 
-    /// What the place is by how many spaces there are.
+    /// Returns what the place is by how many spaces there are.
     #[must_use]
     pub fn place(&self) -> PlaceKind {
         match self.spaces().count() {
@@ -306,8 +306,8 @@ impl Segments {
         }
     }
 
-    /// The input of SOINN: the means, filled up to ten with zeros, and what is known of a landmark
-    /// here (0 for none).
+    /// Returns the input of SOINN: the means, filled up to ten with zeros, and what is known of a
+    /// landmark here (0 for none).
     ///
     /// # Errors
     /// If there are more than ten segments: "the vector's size might be more than ten if the
@@ -329,7 +329,7 @@ impl Segments {
     }
 }
 
-/// Why a profile cannot be segmented, or segments are no feature.
+/// Reason why a profile cannot be segmented, or segments are no feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SegmentError {

@@ -2,8 +2,8 @@ use alloc::vec::Vec;
 
 use tolman_robot::epuck::PROXIMITY_SENSORS;
 
-/// Raw values of all proximity sensors while the robot turns once round, counter-clockwise, on the
-/// spot (section 4.1).
+/// Raw values of all proximity sensors while the robot turns once round, counter-clockwise, in
+/// place (section 4.1).
 ///
 /// Sample *k* of *n* was taken when the robot had turned by *k* · 360°/*n*, so that the first looks
 /// as the robot does.

@@ -36,8 +36,8 @@ pub struct NearLimits {
 }
 
 impl NearLimits {
-    /// The paper's: 1.1 m at the front, 0.15 m at the sides (section 3.2). It gives nothing between
-    /// them.
+    /// Returns the paper's: 1.1 m at the front, 0.15 m at the sides (section 3.2). It gives nothing
+    /// between them.
     #[must_use]
     pub const fn paper() -> Self {
         Self {

@@ -37,8 +37,8 @@ pub struct UntilNearConfig {
 }
 
 impl UntilNearConfig {
-    /// The paper's thresholds, on a robot that turns by some 0.2 rad and drives some 0.04 m in a
-    /// time step at full rate. The paper gives no speeds and no bounds.
+    /// Returns the paper's thresholds, on a robot that turns by some 0.2 rad and drives some 0.04 m
+    /// in a time step at full rate. The paper gives no speeds and no bounds.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -51,7 +51,7 @@ impl UntilNearConfig {
         }
     }
 
-    /// The same at other fractions of the robot's full rates.
+    /// Returns the same at other fractions of the robot's full rates.
     #[must_use]
     pub const fn with_rates(mut self, translate: f64, turn: f64) -> Self {
         self.translate = translate;
@@ -265,7 +265,7 @@ const NEAR_ENOUGH: f64 = 0.02;
 /// How many time steps a robot goes away from what it touched while it turned.
 const STEPS_FREE: u32 = 4;
 
-/// Goes straight on, or back, for so many time steps.
+/// Goes straight ahead, or back, for `steps` time steps.
 fn creep<R>(
     robot: &mut R,
     translate: f64,

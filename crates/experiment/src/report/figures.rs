@@ -14,7 +14,7 @@ pub(super) fn grid<'a>(figures: impl Iterator<Item = &'a Figure>) -> Markup {
     }
 }
 
-/// The figures that belong to no table.
+/// Returns the figures that belong to no table.
 pub(super) fn others(figures: &[Figure]) -> Markup {
     let mut others = figures
         .iter()

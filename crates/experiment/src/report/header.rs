@@ -35,7 +35,7 @@ pub(super) fn header(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// The outcome in a few numbers.
+/// Returns the outcome in a few numbers.
 pub(super) fn cards(outcome: &ExperimentOutcome) -> Markup {
     let values = || outcome.analysis.values().map(|(_, _, measured)| measured);
     let told = outcome.analysis.tally();
@@ -80,7 +80,7 @@ pub(super) fn contents(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// What is found of the paper's values that ours do not match.
+/// Returns what is found of the paper's values that ours do not match.
 fn others(told: &VerdictTally) -> String {
     let better = match told.better {
         0 => String::new(),
@@ -94,14 +94,14 @@ fn others(told: &VerdictTally) -> String {
     format!("of the paper's values; {better}{differs} differ, {cannot_tell} cannot tell")
 }
 
-/// How many of these hold, and how many there are.
+/// Returns how many of these hold, and how many there are.
 fn tally(these: impl Iterator<Item = bool>) -> (usize, usize) {
     these.fold((0, 0), |(hold, all), holds| {
         (hold + usize::from(holds), all + 1)
     })
 }
 
-/// How many runs the rows have, where all have the same number.
+/// Returns how many runs the rows have, where all have the same number.
 fn runs_of_rows(outcome: &ExperimentOutcome) -> String {
     let tables = &outcome.analysis.tables;
     let mut rows = tables.iter().flat_map(|table| &table.table.rows);
@@ -137,7 +137,7 @@ fn counted(count: u64, noun: &str) -> String {
     }
 }
 
-/// A whole number with thin spaces between groups of three digits.
+/// Returns a whole number with thin spaces between groups of three digits.
 pub(super) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();

@@ -5,18 +5,22 @@
 //! that say how to read it all (`notes`), and the replays with the script (`replays`, `page.js`).
 //! `docs/report.md` names the ids and attributes that tests and other scripts may rely on.
 
+mod abstracts;
 mod figures;
 mod header;
 mod notes;
 mod pairs;
 mod replays;
 mod table;
+mod tour;
+
+pub use tour::tour_html;
 
 use maud::{DOCTYPE, PreEscaped, html};
 
 use crate::ExperimentOutcome;
 
-/// The whole page.
+/// Returns the whole page.
 pub(crate) fn html(outcome: &ExperimentOutcome) -> String {
     let page = html! {
         (DOCTYPE)
@@ -36,10 +40,11 @@ pub(crate) fn html(outcome: &ExperimentOutcome) -> String {
             body {
                 main {
                     (header::header(outcome))
+                    p.abstract { (abstracts::of(outcome)) }
                     (header::cards(outcome))
                     (header::contents(outcome))
                     @for (number, table) in (1_u32..).zip(&outcome.analysis.tables) {
-                        (table::section(number, table, &outcome.figures))
+                        (table::section(Some(number), table, &outcome.figures))
                     }
                     (figures::others(&outcome.figures))
                     (notes::notes(outcome))

@@ -6,7 +6,7 @@ use super::replays;
 
 use crate::{ExperimentOutcome, Metric, RESAMPLES, Statistic, Within, heading};
 
-/// The notes below everything, only about what the page shows.
+/// Returns the notes below everything, only about what the page shows.
 pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
     let analysis = &outcome.analysis;
     let metrics: Vec<&Metric> = analysis
@@ -29,8 +29,8 @@ pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
     let carried = replays::carried(outcome);
     let partly = outcome.replays.of_each_row < outcome.runs_per_row;
     html! {
-        section.notes {
-            h2 { "How to read this" }
+        section.notes { details {
+            summary { h2 { "How to read this" } }
             ul {
                 @if judged {
                     li { b { "Verdict. " } "Ours " b { "differs" } " from the paper's value where the 95 % interval of the difference, with \
@@ -80,11 +80,11 @@ pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
                      them again."
                 }
             }
-        }
+        } }
     }
 }
 
-/// The stated tolerances in words, each metric once.
+/// Returns the stated tolerances in words, each metric once.
 fn tolerances(metrics: &[&Metric]) -> String {
     let mut told: Vec<String> = Vec::new();
     for metric in metrics {

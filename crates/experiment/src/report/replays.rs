@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::ExperimentOutcome;
 use crate::shell;
 
-/// The window a replay opens in, hidden until then, and the small text beside a dot.
+/// Returns the window a replay opens in, hidden until then, and the small text beside a dot.
 pub(super) fn dialog(outcome: &ExperimentOutcome) -> Markup {
     html! {
         div #tip role="status" hidden {}
@@ -30,14 +30,17 @@ pub(super) fn dialog(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// Which replays the page carries, and why not all; empty if no run is recorded.
+/// Returns which replays the page carries, and why not all; empty if no run is recorded.
 pub(super) fn carried(outcome: &ExperimentOutcome) -> String {
     let replays = &outcome.replays;
     let megabytes = replays.budget as f64 / 1e6;
     match replays.of_each_row {
         _ if replays.tables.is_empty() => String::new(),
         0 if !replays.recorded.is_empty() => {
-            "This page carries the replays of the runs that say most.".to_owned()
+            format!(
+                "This page carries {} replays, as many as fit.",
+                replays.recorded.len()
+            )
         }
         0 => format!(
             "This page carries no replays: the first of each row alone would take more than the {megabytes:.1} MB that are left."
@@ -57,7 +60,7 @@ pub(super) fn carried(outcome: &ExperimentOutcome) -> String {
 
 const CARRIES: &str = "This page carries the replays of";
 
-/// The rules of the player, if the page has replays.
+/// Returns the rules of the player, if the page has replays.
 pub(super) fn style(outcome: &ExperimentOutcome) -> &'static str {
     match outcome.replays.recorded.is_empty() {
         true => "",
@@ -65,7 +68,7 @@ pub(super) fn style(outcome: &ExperimentOutcome) -> &'static str {
     }
 }
 
-/// What the page's script reads, the replays, the player and the script.
+/// Returns what the page's script reads, the replays, the player and the script.
 pub(super) fn scripts(outcome: &ExperimentOutcome) -> Markup {
     html! {
         script #report-data type="application/json" { (PreEscaped(data(outcome))) }
@@ -78,7 +81,7 @@ pub(super) fn scripts(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// The command that plays a run again, in the parts the script puts together.
+/// Returns the command that plays a run again, in the parts the script puts together.
 fn data(outcome: &ExperimentOutcome) -> String {
     let tables = (1_u32..)
         .zip(&outcome.analysis.tables)

@@ -5,21 +5,30 @@ use maud::{Markup, html};
 use super::header::SIGNIFICANT;
 use super::{figures, pairs};
 use crate::{
-    Comparison, Measured, Metric, MetricAnalysis, Statistic, TableAnalysis, Verdict, heading, ours,
-    value_with_spread,
+    Comparison, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis, Verdict,
+    heading, ours, value_with_spread,
 };
 use tolman_draw::{Figure, Series};
 
-/// The section of the table of this number, from 1, with its figures.
+/// Returns the section of the table, with its figures; `number`, from 1, names it where it is the
+/// only one of that number on the page.
 ///
 /// Each metric is a body of the table. A header with `data-sort` sorts the rows of every body by
 /// the `data-value` of their cells with that `data-column`. On a narrow page a row becomes a card:
 /// name and verdict above, the other cells below with their `data-label`.
-pub(super) fn section(number: u32, analysis: &TableAnalysis, figures: &[Figure]) -> Markup {
+pub(super) fn section(number: Option<u32>, analysis: &TableAnalysis, figures: &[Figure]) -> Markup {
     let table = &analysis.table;
     let columns = Columns::of(analysis);
+    let varying = || {
+        analysis
+            .metrics
+            .iter()
+            .filter(|metric| !is_constant(metric))
+    };
+    let constant = analysis.metrics.iter().filter(|metric| is_constant(metric));
+    let constant = constant.filter_map(same).collect::<Vec<_>>().join("; ");
     html! {
-        section id={ "table-" (number) } {
+        section id=[number.map(|number| format!("table-{number}"))] {
             h2 { "Table " (table.name) @if !table.title.is_empty() { " · " (table.title) } }
             div.wide {
                 table class=[columns.paper.then_some("judged")] aria-label={ "Table " (table.name) } {
@@ -27,7 +36,7 @@ pub(super) fn section(number: u32, analysis: &TableAnalysis, figures: &[Figure])
                         (sortable("row", &html! { "row" }))
                         @if columns.paper { (sortable("paper", &html! { "paper" })) }
                         (sortable("ours", &html! { "ours" }))
-                        @if columns.also { th.also { "also" } }
+                        @if columns.also { th.also { "median or mean" } }
                         th.interval { "95 % interval" }
                         @if let Some(Comparison { reference, correction }) = columns.comparison {
                             (sortable("p", &html! { "p vs. " (reference) " (" (correction.name()) ")" }))
@@ -35,15 +44,41 @@ pub(super) fn section(number: u32, analysis: &TableAnalysis, figures: &[Figure])
                         }
                         @if columns.paper { (sortable("verdict", &html! { "verdict" })) }
                     } }
-                    @for metric in &analysis.metrics { (group(analysis, &columns, metric)) }
+                    @for metric in varying() { (group(analysis, &columns, metric)) }
                 }
             }
+            @if !constant.is_empty() { p.note { "The same in every run: " (constant) "." } }
             @if !analysis.pairs.is_empty() { (pairs::table(analysis)) }
             @for missing in table.missing() { p.note.missing { (missing) } }
             @if !table.note.is_empty() { p.note { (table.note) } }
             (figures::grid(figures.iter().filter(|f| f.table.as_deref() == Some(&table.name))))
         }
     }
+}
+
+/// Whether all rows have one value without spread, of which the paper says nothing.
+fn is_constant(metric: &MetricAnalysis) -> bool {
+    let Some(first) = metric.rows.first() else {
+        return false;
+    };
+    let is_same = |row: &Measured| {
+        row.value.total_cmp(&first.value).is_eq()
+            && row.reached == Reached::Yes
+            && row.paper.is_none()
+            && row.n > 1
+            && row.sd.is_none_or(|sd| sd <= 0.0)
+    };
+    metric.rows.len() > 1 && metric.rows.iter().all(is_same)
+}
+
+/// The value of a constant metric, in words.
+fn same(metric: &MetricAnalysis) -> Option<String> {
+    let (first, decimals) = (metric.rows.first()?, metric.metric.places());
+    Some(format!(
+        "{} {:.decimals$}",
+        heading(&metric.metric),
+        first.value
+    ))
 }
 
 /// Which columns a table has, beside those that all have.
@@ -85,7 +120,7 @@ fn sortable(column: &str, title: &Markup) -> Markup {
     }
 }
 
-/// The rows of one metric below its heading.
+/// Returns the rows of one metric below its heading.
 fn group(analysis: &TableAnalysis, columns: &Columns<'_>, metric: &MetricAnalysis) -> Markup {
     html! {
         tbody data-metric=(metric.metric.name) {
@@ -102,7 +137,7 @@ fn group(analysis: &TableAnalysis, columns: &Columns<'_>, metric: &MetricAnalysi
     }
 }
 
-/// What a reader is told who points at the heading of a metric; `None` if there is nothing.
+/// Returns what a reader is told who points at the heading of a metric; `None` if there is nothing.
 fn explained(metric: &Metric) -> Option<String> {
     let explanation = metric.explanation();
     (!explanation.is_empty()).then_some(explanation)
@@ -128,7 +163,7 @@ fn row(columns: &Columns<'_>, metric: &Metric, measured: &Measured, place: usize
                 td data-label="ours" data-column="ours" data-value=(measured.value) { (ours(metric, measured)) }
             } @else { td.none { "–" } }
             @if columns.also {
-                @if let Some(also) = also { td.quiet data-label="also" { (also) } } @else { td.none { "–" } }
+                @if let Some(also) = also { td.quiet data-label="median or mean" { (also) } } @else { td.none { "–" } }
             }
             @if let Some(interval) = measured.interval {
                 td.quiet data-label="95 % interval" {
@@ -160,8 +195,8 @@ fn contrast(comparison: &Comparison, measured: &Measured) -> Markup {
     }
 }
 
-/// How large an effect is, in the words of Vargha and Delaney ("A critique and improvement of the
-/// CL common language effect size statistics of McGraw and Wong", 2000).
+/// Returns how large an effect is, in the words of Vargha and Delaney ("A critique and improvement
+/// of the CL common language effect size statistics of McGraw and Wong", 2000).
 fn magnitude(a12: f64) -> &'static str {
     match (a12 - 0.5).abs() {
         distance if distance < 0.06 => "none",
@@ -171,8 +206,8 @@ fn magnitude(a12: f64) -> &'static str {
     }
 }
 
-/// The verdict, with how much of a difference could have been seen; who points at it reads the
-/// tolerance or the reason.
+/// Returns the verdict, with how much of a difference could have been seen; who points at it reads
+/// the tolerance or the reason.
 fn verdict(metric: &Metric, verdict: Option<&Verdict>) -> Markup {
     html! {
         @if let Some(verdict) = verdict {
@@ -191,7 +226,7 @@ fn verdict(metric: &Metric, verdict: Option<&Verdict>) -> Markup {
     }
 }
 
-/// Which values lie within the tolerance, and why nobody can tell.
+/// Returns which values lie within the tolerance, and why nobody can tell.
 fn told(metric: &Metric, verdict: &Verdict) -> String {
     let decimals = metric.places();
     let within = verdict.accepted.map(|accepted| {
@@ -205,7 +240,7 @@ fn told(metric: &Metric, verdict: &Verdict) -> String {
     parts.join("; ")
 }
 
-/// The median beside a mean, the mean beside a median.
+/// Returns the median beside a mean, the mean beside a median.
 fn also(metric: &Metric, measured: &Measured) -> Option<String> {
     let decimals = metric.places();
     match metric.statistic {

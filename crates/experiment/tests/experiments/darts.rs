@@ -123,6 +123,7 @@ pub(crate) const DARTS_ENTRY: Entry = Entry {
     source: "After nobody's paper: values made up for tests",
     runs: 400,
     quick_runs: 10,
+    tour: None,
     open: |_| Ok((&Darts::new()).into()),
 };
 
@@ -168,7 +169,7 @@ impl Procedure for Darts {
         Ok(vec![figure.caption("Ring: first dart. Dot: last dart.")])
     }
 
-    /// The darts of the near board, as if a robot went from one to the next.
+    /// Returns the darts of the near board, as if a robot went from one to the next.
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
         if job.table != "1 (near)" {
             return Ok(None);

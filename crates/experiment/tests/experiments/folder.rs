@@ -5,7 +5,7 @@ use std::fs;
 use serde::{Deserialize, Serialize};
 use tolman_experiment::{
     BoxError, Build, Column, Entry, Error, Experiment, Fields, Job, Metric, Options, Procedure,
-    Progress, ProgressEvent, Record, Silent, Table, execute, record,
+    Progress, ProgressEvent, Record, Silent, Table, execute, record, verify,
 };
 
 use crate::darts::{DARTS_ENTRY, Darts, Throws};
@@ -89,6 +89,12 @@ fn an_interrupted_experiment_goes_on_where_it_stopped() {
     }
 }
 
+/// A line as versions without checksums wrote it.
+fn without_checksum(line: &str) -> String {
+    let (values, _) = line.split_once(",\"checksum\"").unwrap();
+    format!("{values}}}")
+}
+
 #[test]
 fn broken_lines_are_told_and_played_again() {
     let out = fresh("broken").join("out");
@@ -105,12 +111,8 @@ fn broken_lines_are_told_and_played_again() {
         .unwrap()
         .replace("\"seed\":", "\"seed\":1")
         .into();
-    lines.push(
-        String::from_utf8(lines[0].clone())
-            .unwrap()
-            .replace("\"miss\":0", "\"miss\":1")
-            .into(),
-    );
+    let older = without_checksum(whole.lines().next().unwrap());
+    lines.push(older.replace("\"miss\":0", "\"miss\":1").into());
     // As after a process that died within a line.
     lines.push(b"{\"table\":\"1 (n".to_vec());
     fs::write(out.join("runs.jsonl"), lines.join(&b'\n')).unwrap();
@@ -178,6 +180,98 @@ fn lines_of_what_no_run_measures_are_told_and_played_again() {
         assert_eq!(outcome.unwrap().played, 0, "{wrong}");
         assert!(listener.messages()[0].ends_with("; Ignored"), "{wrong}");
     }
+}
+
+#[test]
+fn a_flipped_digit_is_told_and_its_run_played_again() {
+    let out = fresh("flipped").join("out");
+    run(&Darts::new(), &options(&out)).0.unwrap();
+    let whole = read(&out, "runs.jsonl");
+    let verified = |options: &Options| {
+        verify(&(&Darts::new()).into(), options, &build(), &out, &Silent).unwrap()
+    };
+    let found = verified(&options(&out));
+    assert_eq!((found.played, found.runs), (240, 240));
+    assert!(found.faults.is_empty(), "{found}");
+
+    // Another value that a run may have.
+    let line = whole.lines().nth(7).unwrap();
+    let flipped = match line.contains("\"throws\":3,") {
+        true => line.replace("\"throws\":3,", "\"throws\":4,"),
+        false => {
+            let at = line.find("\"throws\":").unwrap() + 9;
+            format!(
+                "{}3{}",
+                &line[..at],
+                &line[at + line[at..].find(',').unwrap()..]
+            )
+        }
+    };
+    assert_ne!(flipped, line);
+    fs::write(out.join("runs.jsonl"), whole.replacen(line, &flipped, 1)).unwrap();
+    let found = verified(&options(&out));
+    assert!(
+        found.faults[0].starts_with("runs.jsonl, line 8: its values do not have its checksum"),
+        "{found}"
+    );
+    let (outcome, listener) = run(&Darts::new(), &options(&out));
+    assert_eq!(outcome.unwrap().played, 1);
+    let told = &listener.messages()[0];
+    assert!(
+        told.starts_with("runs.jsonl:8: ") && told.ends_with("; PlayedAgain"),
+        "{told}"
+    );
+    assert_eq!(read(&out, "runs.jsonl"), whole);
+}
+
+#[test]
+fn a_folder_is_verified_by_playing_its_runs_again() {
+    let out = fresh("verified").join("out");
+    run(&Darts::new(), &options(&out)).0.unwrap();
+    let verified =
+        |options: &Options| verify(&(&Darts::new()).into(), options, &build(), &out, &Silent);
+    let one = Options {
+        runs: None,
+        ..options(&out)
+    };
+    assert_eq!(
+        verified(&one).unwrap().played,
+        6,
+        "one of each of two tables' rows"
+    );
+
+    // Without its checksum a line passes for one of an older version: playing finds the value.
+    let whole = read(&out, "runs.jsonl");
+    let older: String = whole
+        .lines()
+        .map(|line| {
+            let line = line.replace("\"throws\":2,", "\"throws\":3,");
+            format!("{}\n", without_checksum(&line))
+        })
+        .collect();
+    fs::write(out.join("runs.jsonl"), older).unwrap();
+    let found = verified(&options(&out)).unwrap();
+    assert!(
+        found
+            .faults
+            .iter()
+            .any(|fault| fault.contains("throws is 3 and 2 when played")),
+        "{found}"
+    );
+    assert!(
+        found.to_string().contains("summary.json does not follow"),
+        "{found}"
+    );
+
+    let other = Options {
+        seed: 8,
+        ..options(&out)
+    };
+    let error = verified(&other).unwrap_err();
+    assert!(
+        matches!(&error, Error::NotVerifiable { reason, .. } if reason == "seed 7"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -369,9 +463,12 @@ fn tables_that_contradict_themselves_are_refused() {
         ),
         (
             |tables| tables[0].rows[0].paper[0].metric = "luck".into(),
-            "no metric",
+            "not a metric",
         ),
-        (|tables| tables[0].rows[1].name = "Expert".into(), "no row"),
+        (
+            |tables| tables[0].rows[1].name = "Expert".into(),
+            "not a row",
+        ),
         (
             |tables| tables[1].metrics[2].name = "THROWS".into(),
             "two figures",
@@ -382,11 +479,11 @@ fn tables_that_contradict_themselves_are_refused() {
         ),
         (
             |tables| tables[0].metrics.push(Metric::mean("luck")),
-            "no field",
+            "not a field",
         ),
         (
             |tables| tables[0].metrics.push(Metric::mean("success")),
-            "no field of kind [Count, Number]",
+            "not a field of kind [Count, Number]",
         ),
         (
             |tables| tables[0].record = Table::of::<Twice>("", "").record,
@@ -462,7 +559,7 @@ impl Procedure for Spoilt {
     }
 }
 
-/// A hit of which nothing else is told.
+/// Returns a hit of which nothing else is told.
 fn hit() -> Throws {
     Throws {
         success: true,

@@ -9,7 +9,7 @@ use tolman_experiment::{
     Build, Error, Experiment, ExperimentOutcome, Options, Progress, ProgressEvent, execute,
 };
 
-/// A folder for one test, empty at its begin.
+/// Returns a folder for one test, empty at its begin.
 pub(crate) fn fresh(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("experiments")

@@ -6,15 +6,15 @@ use thiserror::Error;
 pub struct G2oFault {
     /// Which line, from 1.
     pub line: usize,
-    /// Why.
+    /// What is wrong with the line.
     pub kind: G2oFaultKind,
 }
 
-/// Why a line of a pose graph's file is of no use.
+/// Reason why a line of a pose graph's file is of no use.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum G2oFaultKind {
-    /// Its first word is none of those that are read.
+    /// Its first word is not one that the reader knows.
     #[error("`{word}` is not read; only VERTEX_SE2, EDGE_SE2 and FIX are")]
     Unknown {
         /// The word.
@@ -30,14 +30,14 @@ pub enum G2oFaultKind {
         /// How many there should be.
         expected: usize,
     },
-    /// A number is none, or is NaN or infinite.
+    /// A number is invalid, NaN or infinite.
     #[error("`{text}` is not a finite number; measure the line again or remove it")]
     Number {
         /// What stands there.
         text: String,
     },
     /// An id is no whole number.
-    #[error("`{text}` is no id of a pose; ids are whole numbers from 0")]
+    #[error("`{text}` is not the id of a pose; ids are whole numbers from 0")]
     Id {
         /// What stands there.
         text: String,

@@ -75,7 +75,7 @@ fn placed([x, y, heading]: [&str; 3]) -> Result<Pose, G2oFaultKind> {
     Ok(Pose::new(position, heading))
 }
 
-/// A symmetric matrix by its upper triangle, row by row.
+/// Returns a symmetric matrix by its upper triangle, row by row.
 fn matrix([xx, xy, xt, yy, yt, tt]: [&str; 6]) -> Result<Matrix3<f64>, G2oFaultKind> {
     let (xx, xy, xt) = (number(xx)?, number(xy)?, number(xt)?);
     let (yy, yt, tt) = (number(yy)?, number(yt)?, number(tt)?);

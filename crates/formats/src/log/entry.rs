@@ -83,14 +83,14 @@ pub struct LogScan {
     pub scan: Scan,
 }
 
-/// A scan, and how many of its ranges are none.
+/// A scan, and the number of its ranges that are invalid.
 pub(crate) struct ReadScan {
     pub(crate) scan: LogScan,
     pub(crate) bad_ranges: usize,
 }
 
 impl ReadScan {
-    /// The scan with its ranges, m, of which those too long have hit nothing.
+    /// Returns the scan with its ranges, m, of which those too long have hit nothing.
     pub(crate) fn of(mut scan: LogScan, ranges: &[Option<f64>]) -> Self {
         let most = scan.scan.ring.max_range;
         let length = |range: &Option<f64>| range.map_or(most, |range| range.min(most));

@@ -68,9 +68,13 @@ fn text(bytes: &[u8]) -> Line<'_> {
     core::str::from_utf8(bytes).map_or(Line::NoText, |text| Line::Text(text.trim()))
 }
 
+/// A line that goes on for longer ends the file: it has no lines, or never ends, bytes.
+const SKIPPED: usize = 64 << 20;
+
 /// Reads on to the end of a line; returns whether there may be another.
 fn skip_line(source: &mut impl BufRead) -> bool {
-    loop {
+    let mut skipped = 0;
+    while skipped < SKIPPED {
         let Ok(buffer) = source.fill_buf() else {
             return false;
         };
@@ -83,7 +87,9 @@ fn skip_line(source: &mut impl BufRead) -> bool {
         if end.is_some() {
             return true;
         }
+        skipped += used;
     }
+    false
 }
 
 #[cfg(test)]

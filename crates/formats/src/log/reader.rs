@@ -59,7 +59,7 @@ impl<R: BufRead> LogReader<R> {
         &self.report
     }
 
-    /// One line: what it says, if it says something.
+    /// Returns one line: what it says, if it says something.
     fn entry(
         parameters: &mut Parameters,
         report: &mut LogReport,

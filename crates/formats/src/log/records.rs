@@ -42,7 +42,7 @@ pub(crate) fn records<T>(
     (records, report)
 }
 
-/// The text of a line that is neither empty nor a comment.
+/// Returns the text of a line that is neither empty nor a comment.
 fn content<'a>(line: &Line<'a>) -> Result<Option<&'a str>, Wrong> {
     match line {
         Line::Text(text) => Ok((!text.is_empty() && !text.starts_with('#')).then_some(*text)),

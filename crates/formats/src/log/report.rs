@@ -46,7 +46,7 @@ pub struct TroubleCount {
 pub enum LogTrouble {
     /// It ends before its fields do. Left out.
     Cut,
-    /// A field that must be a finite number is none. Left out.
+    /// A field that must be a finite number is not. Left out.
     NoNumber,
     /// It is no UTF-8 text. Left out.
     NoText,
@@ -104,7 +104,7 @@ impl LogReport {
         }
     }
 
-    /// Why a file holds nothing: what was looked for, and the first that was wrong.
+    /// Returns why a file holds nothing: what was looked for, and the first that was wrong.
     pub(crate) fn nothing(&self, path: &Path, what: &str) -> LogError {
         let first = self.troubles.iter().next();
         let first = first.map_or_else(String::new, |(trouble, met)| format!("; {trouble}: {met}"));
@@ -153,10 +153,10 @@ impl fmt::Display for LogTrouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Cut => "cut lines, left out",
-            Self::NoNumber => "fields that are no finite numbers, their lines left out",
-            Self::NoText => "lines that are no text, left out",
+            Self::NoNumber => "fields that are not finite numbers, their lines left out",
+            Self::NoText => "lines that are not text, left out",
             Self::TooLong => "lines longer than a megabyte, left out",
-            Self::NoRange => "ranges that are no numbers, taken for beams that hit nothing",
+            Self::NoRange => "ranges that are not numbers, taken for beams that hit nothing",
             Self::BackInTime => "times before those of the line above, used in the file's order",
             Self::ClockJump => "jumps of the clock by more than a minute, used",
             Self::EndsEarly => "the file cannot be read to its end; what stands above is used",

@@ -13,7 +13,7 @@ pub struct GreyMap {
     pub values: Vec<u16>,
 }
 
-/// Why a picture cannot be read. Bytes are counted from 0.
+/// Reason why a picture cannot be read. Bytes are counted from 0.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum GreyMapError {
@@ -21,7 +21,7 @@ pub enum GreyMapError {
     #[error("byte 0: expected P5 or P2; save the picture as a grey PGM")]
     Magic,
     /// A number is expected.
-    #[error("byte {byte}: expected {what}; save the picture anew as a PGM")]
+    #[error("byte {byte}: expected {what}; save the picture again as a PGM")]
     Number {
         /// Where.
         byte: usize,
@@ -29,13 +29,13 @@ pub enum GreyMapError {
         what: &'static str,
     },
     /// A number is out of its range.
-    #[error("byte {byte}: {what} is {value}, and may be 1 to {most}; save the picture anew")]
+    #[error("byte {byte}: {what} is {value}, and may be 1 to {most}; save the picture again")]
     Range {
         /// Where.
         byte: usize,
         /// What the number says.
         what: &'static str,
-        /// What it is.
+        /// The value given.
         value: u64,
         /// What it may be.
         most: u64,
@@ -51,7 +51,7 @@ pub enum GreyMapError {
         most: u16,
     },
     /// The picture ends too early.
-    #[error("byte {byte}: the picture ends, with {found} of {wanted} values; copy it anew")]
+    #[error("byte {byte}: the picture ends, with {found} of {wanted} values; copy it again")]
     TooShort {
         /// Where it ends.
         byte: usize,
@@ -117,7 +117,7 @@ impl Reader<'_> {
         self.at += rest.take_while(|byte| !b"\r\n".contains(byte)).count();
     }
 
-    /// The next number, if there is one; one too large to hold is the largest.
+    /// Returns the next number, if there is one; one too large to hold is the largest.
     fn number(&mut self) -> Option<u64> {
         self.skip_blanks();
         let rest = self.bytes[self.at..].iter();
@@ -145,8 +145,8 @@ impl Reader<'_> {
         }
     }
 
-    /// The values as words. A value takes two bytes or more, so that no header asks for more memory
-    /// than its file.
+    /// Returns the values as words. A value takes two bytes or more, so that no header asks for
+    /// more memory than its file.
     fn plain(&mut self, wanted: usize, most: u16) -> Result<Vec<u16>, GreyMapError> {
         let mut values = Vec::new();
         while values.len() < wanted {
@@ -161,7 +161,7 @@ impl Reader<'_> {
         Ok(values)
     }
 
-    /// What is wrong where a value should be.
+    /// Returns what is wrong where a value should be.
     fn ended(&self, byte: usize, found: usize, wanted: usize) -> GreyMapError {
         if byte == self.bytes.len() {
             return GreyMapError::TooShort {
@@ -174,7 +174,8 @@ impl Reader<'_> {
         GreyMapError::Number { byte, what }
     }
 
-    /// The values as bytes, or as pairs of them with the higher one first where white is above 255.
+    /// Returns the values as bytes, or as pairs of them with the higher one first where white is
+    /// above 255.
     fn binary(&mut self, wanted: usize, most: u16) -> Result<Vec<u16>, GreyMapError> {
         // One blank, and one only: the next byte may be a value that looks like another.
         let first = self.at + 1;

@@ -20,7 +20,7 @@ pub struct RosMapHeader {
     pub free_thresh: f64,
 }
 
-/// Why a YAML file is not that of a map. Lines are counted from 1.
+/// Reason why a YAML file is not that of a map. Lines are counted from 1.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RosMapHeaderError {
@@ -221,7 +221,7 @@ impl Entry {
     }
 }
 
-/// The line up to a # that begins it or follows a blank.
+/// Returns the line up to a # that begins it or follows a blank.
 fn without_comment(text: &str) -> &str {
     let mut hashes = text.match_indices('#').map(|(at, _)| at);
     let comment = hashes.find(|at| {
@@ -233,7 +233,7 @@ fn without_comment(text: &str) -> &str {
     comment.map_or(text, |at| &text[..at])
 }
 
-/// A finite number.
+/// Returns a finite number.
 fn number(text: &str) -> Option<f64> {
     let number = text.trim().parse::<f64>().ok();
     number.filter(|number| number.is_finite())

@@ -81,8 +81,8 @@ impl Stamp {
 }
 
 impl LaserScan {
-    /// Returns the scan, and how many of its ranges are none; `None` if its angles are none. What
-    /// is nearer than the laser sees or farther has hit nothing.
+    /// Returns the scan, and how many of its ranges are invalid, or `None` if its angles are
+    /// invalid. What is nearer than the laser sees or farther has hit nothing.
     pub(super) fn scan(&self) -> Option<(Scan, usize)> {
         let (first, spacing, most) = (self.angle_min, self.angle_increment, self.range_max);
         let are_numbers =
@@ -120,7 +120,7 @@ impl Transform {
     }
 }
 
-/// What of a pose lies on the floor.
+/// Returns what of a pose lies on the floor.
 fn pose([x, y, _]: [f64; 3], orientation: [f64; 4]) -> Pose {
     Pose::new(Point::new(x, y), quaternion::heading(orientation))
 }

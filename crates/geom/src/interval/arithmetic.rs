@@ -8,8 +8,8 @@ use super::rounding::{
 use super::{Interval, IntervalError};
 
 impl Interval {
-    /// All quotients of a number here and one of `divisor` other than 0; none if the divisor is 0
-    /// alone. Where 0 lies inside or at the end of the divisor, a bound is missing.
+    /// Returns all quotients of a number here and one of `divisor` other than 0, or `None` if the
+    /// divisor is 0 alone. Where 0 lies inside or at the end of the divisor, a bound is missing.
     #[must_use]
     pub fn checked_div(self, divisor: Self) -> Option<Self> {
         let Self { low, high } = divisor;
@@ -38,14 +38,14 @@ impl Interval {
         ))
     }
 
-    /// All squares; narrower than the product with itself where 0 lies inside.
+    /// Returns all squares; narrower than the product with itself where 0 lies inside.
     #[must_use]
     pub fn squared(self) -> Self {
         let Self { low, high } = self.abs();
         Self::from_bounds(product_down(low, low).max(0.0), product_up(high, high))
     }
 
-    /// The roots of the numbers that have one; none if all are negative.
+    /// Returns the roots of the numbers that have one, or `None` if all are negative.
     #[must_use]
     pub fn sqrt(self) -> Option<Self> {
         (self.high >= 0.0).then(|| {
@@ -56,7 +56,7 @@ impl Interval {
         })
     }
 
-    /// All absolute values.
+    /// Returns all absolute values.
     #[must_use]
     pub fn abs(self) -> Self {
         if self.low >= 0.0 {

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-/// Why numbers do not bound an interval.
+/// Reason why numbers do not bound an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum IntervalError {

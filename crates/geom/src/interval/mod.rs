@@ -10,8 +10,8 @@ use core::fmt;
 pub use error::IntervalError;
 use rounding::{sum_down, sum_up};
 
-/// A closed interval of reals, never empty, whose bounds are known for certain: `low` ≤ `high`. A
-/// bound that is infinite says that there is none on that side.
+/// A closed interval of reals, never empty, whose bounds are known for certain: `low` ≤ `high`. An
+/// infinite bound means that the number is unbounded on that side.
 ///
 /// Arithmetic is *sound*: if x lies in `a` and y in `b`, then x + y lies in `a + b`, whatever was
 /// rounded on the way; bounds are rounded outwards where they are not exact. It is *monotone*:
@@ -62,7 +62,7 @@ impl Interval {
         Ok(Self { low, high })
     }
 
-    /// One number.
+    /// Returns one number.
     ///
     /// # Errors
     /// If it is NaN or infinite.
@@ -87,7 +87,7 @@ impl Interval {
         Self { low, high }
     }
 
-    /// One number that is known to be finite.
+    /// Returns one number that is known to be finite.
     pub(crate) const fn point(value: f64) -> Self {
         Self::from_bounds(value, value)
     }
@@ -101,13 +101,13 @@ impl Interval {
         )
     }
 
-    /// The least it may be.
+    /// Returns the least it may be.
     #[must_use]
     pub const fn low(self) -> f64 {
         self.low
     }
 
-    /// The most it may be.
+    /// Returns the most it may be.
     #[must_use]
     pub const fn high(self) -> f64 {
         self.high
@@ -120,7 +120,7 @@ impl Interval {
         sum_up(self.high, -self.low)
     }
 
-    /// A number in the middle, always inside; 0 or the one bound if the other is missing.
+    /// Returns a number in the middle, always inside; 0 or the one bound if the other is missing.
     #[must_use]
     pub fn middle(self) -> f64 {
         match (self.low.is_finite(), self.high.is_finite()) {
@@ -132,26 +132,26 @@ impl Interval {
         }
     }
 
-    /// Whether both bounds are there.
+    /// Returns whether both bounds are there.
     #[must_use]
     pub const fn is_bounded(self) -> bool {
         self.low.is_finite() && self.high.is_finite()
     }
 
-    /// Whether `value` lies inside; never NaN.
+    /// Returns whether `value` lies inside; never NaN.
     #[must_use]
     #[inline]
     pub fn contains(self, value: f64) -> bool {
         self.low <= value && value <= self.high
     }
 
-    /// Whether all of `other` lies inside.
+    /// Returns whether all of `other` lies inside.
     #[must_use]
     pub fn encloses(self, other: Self) -> bool {
         self.low <= other.low && other.high <= self.high
     }
 
-    /// Whether the two have a number in common.
+    /// Returns whether the two have a number in common.
     #[must_use]
     #[inline]
     pub fn meets(self, other: Self) -> bool {
@@ -166,7 +166,7 @@ impl Interval {
             .max(0.0)
     }
 
-    /// What both allow; none if they contradict each other.
+    /// Returns what both allow, or `None` if they contradict each other.
     #[must_use]
     #[inline]
     pub fn intersection(self, other: Self) -> Option<Self> {
@@ -174,7 +174,7 @@ impl Interval {
             .then(|| Self::from_bounds(self.low.max(other.low), self.high.min(other.high)))
     }
 
-    /// The least interval that holds both.
+    /// Returns the least interval that holds both.
     #[must_use]
     #[inline]
     pub fn hull(self, other: Self) -> Self {

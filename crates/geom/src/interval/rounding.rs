@@ -4,7 +4,7 @@
 //! A result rounded to nearest lies within half a unit in the last place of the exact one, so its
 //! neighbour bounds it. Sums that are exact are kept: what adds up grows by no more than it must.
 //!
-//! An infinite operand stands for a bound that is not there, for ever larger finite numbers, so 0
+//! An infinite operand stands for a bound that is not there, forever larger finite numbers, so 0
 //! times it is 0.
 
 /// At most a + b.
@@ -56,7 +56,7 @@ pub(super) fn quotient_down(a: f64, b: f64) -> f64 {
     }
 }
 
-/// The neighbour below a rounded result; but what is positive has not less than 0 below it.
+/// Returns the neighbour below a rounded result; but what is positive has not less than 0 below it.
 fn below(rounded: f64, positive: bool) -> f64 {
     if positive {
         rounded.next_down().max(0.0)

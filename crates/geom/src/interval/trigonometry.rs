@@ -22,14 +22,14 @@ const MOST_QUARTERS: f64 = 1_048_576.0;
 const REMAINDER: Interval = Interval::from_bounds(-1.2e-19, 1.2e-19);
 
 impl Interval {
-    /// The sines of all angles here, in radians: exact up to a few units in the last place, also
-    /// where an extreme lies inside.
+    /// Returns the sines of all angles here, in radians: exact up to a few units in the last place,
+    /// also where an extreme lies inside.
     #[must_use]
     pub fn sin(self) -> Self {
         self.sines().0
     }
 
-    /// The cosines of all angles here, in radians.
+    /// Returns the cosines of all angles here, in radians.
     #[must_use]
     pub fn cos(self) -> Self {
         self.sines().1
@@ -75,7 +75,7 @@ fn multiple_of_half_pi(quarters: i32) -> Interval {
     quarters * rest + quarters * second + exact_product(quarters, first)
 }
 
-/// The product of a whole number of at most 20 bits with a number whose last 22 bits are 0.
+/// Returns the product of a whole number of at most 20 bits with a number whose last 22 bits are 0.
 fn exact_product(whole: Interval, short: Interval) -> Interval {
     Interval::point(whole.low * short.low)
 }

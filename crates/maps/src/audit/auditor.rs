@@ -166,8 +166,8 @@ impl Judge<'_, '_> {
         AuditCycle::of(self.link(link), way, self.belief.links, self.board).ok()
     }
 
-    /// The cycles that agree with a closure and share no run: the surest, then those over one other
-    /// closure, then odometry alone.
+    /// Returns the cycles that agree with a closure and share no run: the surest, then those over
+    /// one other closure, then odometry alone.
     fn witnesses(&self, link: u32, way: &Way) -> Option<Vec<AuditCycle>> {
         let links = self.belief.links;
         let mut runs: Vec<u32> = alloc::vec![self.link(link).run];
@@ -197,7 +197,7 @@ impl Judge<'_, '_> {
         cycle.gap().supports(self.belief.config).then_some(cycle)
     }
 
-    /// What a cycle beyond its bound makes of a closure.
+    /// Returns what a cycle beyond its bound makes of a closure.
     fn against(&mut self, link: u32, way: &Way) -> Option<ClosureVerdict> {
         let against = self.cycle(link, way)?;
         let shunned: Vec<u32> = way.closures().collect();
@@ -214,8 +214,8 @@ impl Judge<'_, '_> {
         })
     }
 
-    /// The surest cycle that shares no run with `shunned`, if it agrees and is not much wider than
-    /// tight.
+    /// Returns the surest cycle that shares no run with `shunned`, if it agrees and is not much
+    /// wider than tight.
     fn second_opinion(&mut self, link: u32, shunned: &[u32]) -> Option<AuditCycle> {
         let Belief {
             links,
@@ -251,7 +251,7 @@ impl Judge<'_, '_> {
         }
     }
 
-    /// The covariance as seen from the higher pose, where it lies by odometry.
+    /// Returns the covariance as seen from the higher pose, where it lies by odometry.
     fn at_second(&self, link: &Link, gap: &Gap) -> Spread {
         let second = &self.belief.chain.reckoned[link.second as usize];
         gap.spread.seen_from(&second.inverse())

@@ -9,7 +9,7 @@ use super::link::{Gap, Link};
 use super::search::Search;
 use super::way::Way;
 
-/// The most rounds in which closures are believed or dropped anew.
+/// The most rounds in which closures are believed or dropped again.
 const MOST_ROUNDS: u32 = 6;
 
 /// How many members of a group are held against what is believed before it.
@@ -53,7 +53,7 @@ impl<'a> Belief<'a> {
         }
     }
 
-    /// Looks for the surest way anew, and returns how far the closure is off from it.
+    /// Looks for the surest way again, and returns how far the closure is off from it.
     fn look(&mut self, link: u32) -> Option<Gap> {
         let way = self.search.way(link, self.links, &self.believed, &[]);
         let found = way.map(|way| {
@@ -123,7 +123,7 @@ impl<'a> Belief<'a> {
         })
     }
 
-    /// Whether nothing speaks against a closure that is not believed.
+    /// Returns whether nothing speaks against a closure that is not believed.
     fn is_candidate(&self, link: usize) -> bool {
         let found = self.found[link].as_ref();
         let refuted = found.is_some_and(|(_, gap)| gap.refutes(self.config));
@@ -148,18 +148,19 @@ impl<'a> Belief<'a> {
         }
     }
 
-    /// Whether a group is of more than one run.
+    /// Returns whether a group is of more than one run.
     fn is_broad(&self, group: &[u32]) -> bool {
         let run = |link: &u32| self.links[*link as usize].run;
         group.iter().any(|link| run(link) != run(&group[0]))
     }
 
-    /// Whether a group has more than one member, or one that odometry supports.
+    /// Returns whether a group has more than one member, or one that odometry supports.
     fn can_last(&self, group: &[u32]) -> bool {
         group.len() > 1 || self.by_odometry[group[0] as usize] == ByOdometry::Supports
     }
 
-    /// Whether at most three in ten of a group's members lie beyond the bounds of what is believed.
+    /// Returns whether at most three in ten of a group's members lie beyond the bounds of what is
+    /// believed.
     fn fits(&mut self, group: &[u32]) -> bool {
         let (mut for_it, mut against) = (0, 0);
         for link in group.iter().take(PROBED) {
@@ -198,7 +199,7 @@ impl<'a> Belief<'a> {
         }
     }
 
-    /// The closures that are believed, or are not, though odometry does not refute them.
+    /// Returns the closures that are believed, or are not, though odometry does not refute them.
     fn open(&self, believed: bool) -> Vec<u32> {
         let of = |link: &u32| {
             let link = *link as usize;

@@ -77,7 +77,7 @@ impl Chain {
         self.reckoned.push(motion);
     }
 
-    /// Whether odometry leads from one pose to the other.
+    /// Returns whether odometry leads from one pose to the other.
     pub(super) fn joins(&self, a: u32, b: u32) -> bool {
         self.piece[a as usize] == self.piece[b as usize]
     }
@@ -100,7 +100,7 @@ impl Chain {
     }
 }
 
-/// What odometry's edge says of the way from the lower pose to the higher.
+/// Returns what odometry's edge says of the way from the lower pose to the higher.
 pub(super) fn forward(edge: &PoseEdge, config: &AuditConfig) -> (Pose, Spread) {
     let spread = spread_of(edge, config);
     if edge.from < edge.to {
@@ -110,18 +110,18 @@ pub(super) fn forward(edge: &PoseEdge, config: &AuditConfig) -> (Pose, Spread) {
     (edge.measured.inverse(), spread)
 }
 
-/// The covariance of an edge in the frame of the pose it leads to.
+/// Returns the covariance of an edge in the frame of the pose it leads to.
 pub(super) fn spread_of(edge: &PoseEdge, config: &AuditConfig) -> Spread {
     let covariance = edge.information.try_inverse().unwrap_or_default();
     Spread::of(&covariance).scaled(config.sigma_scale * config.sigma_scale)
 }
 
-/// How much an edge costs when the surest way is looked for.
+/// Returns how much an edge costs when the surest way is looked for.
 pub(super) fn cost_of(spread: &Spread, config: &AuditConfig) -> f64 {
     spread.xx + spread.yy + config.lever * config.lever * spread.tt
 }
 
-/// The first odometry edge to each pose from the one before.
+/// Returns the first odometry edge to each pose from the one before.
 fn steps(graph: &PoseGraph) -> Result<Vec<Option<u32>>, AuditError> {
     let mut steps = alloc::vec![None; graph.poses().len()];
     for (index, edge) in (0..).zip(graph.edges()) {

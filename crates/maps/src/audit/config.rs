@@ -51,13 +51,13 @@ impl AuditConfig {
         self
     }
 
-    /// The greatest χ² within the bound: k².
+    /// Returns the greatest χ² within the bound: k².
     pub(super) const fn most_chi2(&self) -> f64 {
         self.bound * self.bound
     }
 
-    /// The greatest determinant of a tight covariance: that of the ellipsoid 4/3 π k³ √det that
-    /// fills the share of π near² · 2π.
+    /// Returns the greatest determinant of a tight covariance: that of the ellipsoid 4/3 π k³ √det
+    /// that fills the share of π near² · 2π.
     pub(super) fn most_det(&self) -> f64 {
         let near_by = PI * self.near * self.near * 2.0 * PI;
         let ball = 4.0 / 3.0 * PI * self.bound * self.bound * self.bound;

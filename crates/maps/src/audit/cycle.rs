@@ -47,7 +47,7 @@ pub struct CycleStep {
     pub over: Option<u32>,
 }
 
-/// Why some steps are no cycle of a graph.
+/// Reason why some steps are no cycle of a graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum CycleError {
@@ -65,8 +65,8 @@ pub enum CycleError {
         /// Where the one before ends.
         to: u32,
     },
-    /// A step leads over an edge that is no closure between its poses.
-    #[error("step {step} leads over edge {edge}, which is no closure between its poses")]
+    /// A step leads over an edge that is not a closure between its poses.
+    #[error("step {step} leads over edge {edge}, which is not a closure between its poses")]
     NoClosure {
         /// Which step, from 0.
         step: usize,

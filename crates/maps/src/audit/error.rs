@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-/// Why a graph cannot be audited.
+/// Reason why a graph cannot be audited.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AuditError {
@@ -17,7 +17,7 @@ pub enum AuditError {
         /// The pose it leads to.
         to: u32,
     },
-    /// The scale of the standard deviations is none.
+    /// The scale of the standard deviations is invalid.
     #[error("the sigma scale is {scale}; give a positive number")]
     Scale {
         /// The scale.

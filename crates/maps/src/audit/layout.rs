@@ -80,7 +80,7 @@ fn place(graph: &mut PoseGraph, config: &AuditConfig) {
     }
 }
 
-/// The pose at the other end of an edge, as seen from this one.
+/// Returns the pose at the other end of an edge, as seen from this one.
 fn across(graph: &PoseGraph, edge: u32, pose: u32) -> (u32, Pose) {
     let edge = &graph.edges()[edge as usize];
     match edge.from == pose {

@@ -39,17 +39,17 @@ impl Gap {
         }
     }
 
-    /// Whether it is within its bound.
+    /// Returns whether it is within its bound.
     pub(super) fn agrees(&self, config: &AuditConfig) -> bool {
         self.chi2 <= config.most_chi2()
     }
 
-    /// Whether it is beyond its bound, and by more than rounding.
+    /// Returns whether it is beyond its bound, and by more than rounding.
     pub(super) fn refutes(&self, config: &AuditConfig) -> bool {
         self.chi2 > config.most_chi2() * (1.0 + 1e-6)
     }
 
-    /// Whether its region excludes most poses near by.
+    /// Returns whether its region excludes most poses near by.
     pub(super) fn is_tight(&self, config: &AuditConfig) -> bool {
         self.spread.det() <= config.most_det()
     }
@@ -59,8 +59,8 @@ impl Gap {
     }
 }
 
-/// The closures in the order of their poses, with their runs. O(closures · log closures) for
-/// closures that are spread out.
+/// Returns the closures in the order of their poses, with their runs. O(closures · log closures)
+/// for closures that are spread out.
 pub(super) fn links(graph: &PoseGraph, chain: &Chain, config: &AuditConfig) -> Vec<Link> {
     let mut links: Vec<Link> = Vec::new();
     for (index, edge) in (0..).zip(graph.edges()) {

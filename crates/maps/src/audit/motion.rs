@@ -144,7 +144,7 @@ impl Spread {
         }
     }
 
-    /// What is left of the spread of x and y where the heading is known: (xx, xy, yy).
+    /// Returns what is left of the spread of x and y where the heading is known: (xx, xy, yy).
     fn without_heading(&self) -> (f64, f64, f64) {
         let (across, up) = (self.xt / self.tt, self.yt / self.tt);
         (

@@ -72,7 +72,8 @@ impl SigmaScale {
         })
     }
 
-    /// Whether the tail is so heavy that smaller standard deviations would refute right closures.
+    /// Returns whether the tail is so heavy that smaller standard deviations would refute right
+    /// closures.
     #[must_use]
     pub fn is_heavy(&self) -> bool {
         self.tail > HEAVY * TAIL / MEDIAN

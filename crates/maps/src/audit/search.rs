@@ -159,7 +159,7 @@ impl Search {
     }
 }
 
-/// The open closures of each station, and where those of each begin.
+/// Returns the open closures of each station, and where those of each begin.
 fn closures_at(stations: usize, ends: &[[u32; 2]], is_open: &[bool]) -> (Vec<u32>, Vec<u32>) {
     let open = || (0_u32..).zip(ends).zip(is_open).filter(|(_, open)| **open);
     let mut first_at = alloc::vec![0_u32; stations + 1];

@@ -55,7 +55,7 @@ pub enum RefutedBy {
     SupportedClosures,
 }
 
-/// Why a closure is undecided.
+/// Reason why a closure is undecided.
 #[derive(Clone, Debug, PartialEq)]
 pub enum UndecidedBecause {
     /// What leads from one of its poses to the other is too uncertain to tell.
@@ -81,13 +81,13 @@ pub enum UndecidedBecause {
 }
 
 impl ClosureVerdict {
-    /// Whether cycles agree with it.
+    /// Returns whether cycles agree with it.
     #[must_use]
     pub const fn is_supported(&self) -> bool {
         matches!(self, Self::Supported { .. })
     }
 
-    /// Whether a cycle speaks against it.
+    /// Returns whether a cycle speaks against it.
     #[must_use]
     pub const fn is_refuted(&self) -> bool {
         matches!(self, Self::Refuted { .. })

@@ -1,4 +1,4 @@
-//! Audits checked again: every cycle is measured anew from the graph alone.
+//! Audits checked again: every cycle is measured again from the graph alone.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
@@ -18,7 +18,7 @@ use crate::pose_graph::{PoseEdgeKind, PoseGraph};
 /// How far a number of a certificate may lie from what it is measured to be again, as a share.
 const ROUNDING: f64 = 1e-7;
 
-/// Why a certificate does not hold.
+/// Reason why a certificate does not hold.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AuditCertificateError {
@@ -26,7 +26,7 @@ pub enum AuditCertificateError {
     #[error(transparent)]
     Graph(#[from] AuditError),
     /// It is not of a closure of this graph.
-    #[error("edge {edge} is no closure of this graph")]
+    #[error("edge {edge} is not a closure of this graph")]
     NoClosure {
         /// The edge.
         edge: u32,
@@ -37,12 +37,12 @@ pub enum AuditCertificateError {
         /// The edge.
         edge: u32,
     },
-    /// A cycle is none.
-    #[error("the cycle of edge {edge} is none: {error}")]
+    /// A cycle is invalid.
+    #[error("the cycle of edge {edge} is invalid: {error}")]
     Cycle {
         /// The edge.
         edge: u32,
-        /// Why.
+        /// The underlying error.
         error: CycleError,
     },
     /// A cycle begins with another closure.

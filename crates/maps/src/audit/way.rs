@@ -32,7 +32,7 @@ impl Way {
         })
     }
 
-    /// Adds a span; one of no length is none, and one that goes on lengthens the last.
+    /// Adds a span; one of no length is ignored, and one that continues the last lengthens it.
     pub(super) fn span(&mut self, from: u32, to: u32) {
         if let Some(Leg::Span(_, end)) = self.legs.last_mut() {
             *end = to;
@@ -41,14 +41,14 @@ impl Way {
         }
     }
 
-    /// The way along odometry alone.
+    /// Returns the way along odometry alone.
     pub(super) fn of_odometry(link: &Link) -> Self {
         let mut way = Self::default();
         way.span(link.first, link.second);
         way
     }
 
-    /// The way over one other closure.
+    /// Returns the way over one other closure.
     pub(super) fn over(link: &Link, other: u32, links: &[Link]) -> Self {
         let mut way = Self::default();
         let over = &links[other as usize];

@@ -34,9 +34,9 @@ impl Alignment {
         }
     }
 
-    /// How similar two sequences are: 1 less the cheapest alignment's cost for each position of the
-    /// longer one. Equal ones have 1, ones without anything in common about 0, an empty one beside
-    /// any has 0. O(length²) and the distances of prototypes.
+    /// Returns how similar two sequences are: 1 less the cheapest alignment's cost for each
+    /// position of the longer one. Equal ones have 1, ones without anything in common about 0, an
+    /// empty one beside any has 0. O(length²) and the distances of prototypes.
     #[must_use]
     pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
         if a.is_empty() || b.is_empty() {

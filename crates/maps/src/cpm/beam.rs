@@ -45,7 +45,7 @@ pub(super) enum Understood {
     Not,
 }
 
-/// Why a beam explains nothing.
+/// Reason why a beam explains nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Lost {
     /// It was full once, so a wider one may have kept the truth.
@@ -65,10 +65,10 @@ struct Child {
 /// The logarithm of odds from which a hypothesis is given up.
 const HOPELESS: f64 = 25.0;
 
-/// A beam that has lost the truth is made up to so many times as wide.
+/// Maximum factor by which a beam that has lost the truth is widened.
 const WIDEST: usize = 16;
 
-/// After so many walks understood one after the other a beam that was made wider is halved.
+/// Walks in a row that must be understood before a widened beam is halved.
 const CALM: u32 = 32;
 
 impl Beam {
@@ -85,15 +85,15 @@ impl Beam {
         }
     }
 
-    /// The likeliest map, and where the robot is on it.
+    /// Returns the likeliest map, and where the robot is on it.
     pub(super) fn best(&self) -> &Mapper {
         self.hypotheses
             .first()
             .map_or(&self.begin, |best| &best.mapper)
     }
 
-    /// How likely the likeliest map is among all that it keeps and that can be, with places at
-    /// least `apart` m apart, 0 … 1.
+    /// Returns how likely the likeliest map is among all that it keeps and that can be, with places
+    /// at least `apart` m apart, 0 … 1.
     pub(super) fn certainty(&self, apart: f64) -> f64 {
         let can_be = |other: &&Hypothesis| {
             let Mapper { map, at } = &other.mapper;
@@ -187,7 +187,8 @@ impl Beam {
         arrival.ok_or(lost)
     }
 
-    /// The robot has turned round in an unknown fragment after so many observations.
+    /// Notes that the robot has turned round in an unknown fragment after `observations`
+    /// observations.
     ///
     /// # Errors
     /// If the place where the robot is has no such turn; nothing is changed then.
@@ -209,7 +210,8 @@ fn turn_back(hypotheses: &mut Vec<Hypothesis>, turn: Turn, observations: u32) {
     });
 }
 
-/// What a walk makes of the hypotheses, the likeliest first; of those that say the same one.
+/// Returns what a walk makes of the hypotheses, the likeliest first; of those that say the same
+/// one.
 fn children(
     parents: &[Hypothesis],
     turn: Turn,
@@ -272,7 +274,7 @@ mod tests {
         dictionary
     }
 
-    /// A walk of ten equal observations to the east or the west.
+    /// Returns a walk of ten equal observations to the east or the west.
     fn walk(pattern: u32, east: f64, sighting: Sighting) -> Traversal {
         let heading = if east > 0.0 {
             0.0

@@ -23,7 +23,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bearings(Vec<f64>);
 
-/// Why numbers are no bearings.
+/// Reason why numbers are no bearings.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BearingsError {
@@ -35,7 +35,7 @@ pub enum BearingsError {
     NotFinite {
         /// Counted from 0.
         way: usize,
-        /// What it is.
+        /// The value given.
         value: f64,
     },
     /// Counter-clockwise they do not come in this order.
@@ -72,19 +72,19 @@ impl Bearings {
         Ok(Self(bearings))
     }
 
-    /// The bearings, ascending from 0 to less than 2π.
+    /// Returns the bearings, ascending from 0 to less than 2π.
     #[must_use]
     pub fn radians(&self) -> &[f64] {
         &self.0
     }
 
-    /// How many ways there are; at least 1.
+    /// Returns how many ways there are; at least 1.
     #[must_use]
     pub const fn count(&self) -> u32 {
         self.0.len() as u32
     }
 
-    /// The same ways, counted from another of them.
+    /// Returns the same ways, counted from another of them.
     #[must_use]
     pub fn counted_from(&self, way: u32) -> Self {
         let count = self.0.len();
@@ -109,7 +109,7 @@ impl Bearings {
         (self.0.len() == other.0.len()).then_some(most)
     }
 
-    /// The ways on: all but the first.
+    /// Returns the ways on: all but the first.
     pub(super) fn onward(&self) -> &[f64] {
         self.0.get(1..).unwrap_or_default()
     }
@@ -118,7 +118,7 @@ impl Bearings {
 /// How far directions of ways are off that are seen from the middle of a place, rad.
 pub(super) const SHARP: f64 = 0.35;
 
-/// The angle between two directions, rad, 0 to π.
+/// Returns the angle between two directions, rad, 0 to π.
 pub(super) fn between(a: f64, b: f64) -> f64 {
     let angle = wrapped(a - b);
     if angle > PI { TAU - angle } else { angle }

@@ -23,8 +23,8 @@ pub struct CpMapperConfig {
 pub enum Candidates {
     /// Each.
     All,
-    /// So many that have the most patterns in common with it, counted the more the rarer they are
-    /// (tf-idf, section 8); on smaller maps that is each.
+    /// The number of fragments compared: those that have the most patterns in common with it,
+    /// counted the more the rarer they are (tf-idf, section 8); on smaller maps that is each.
     Best(u32),
 }
 
@@ -37,9 +37,9 @@ pub enum Mapping {
     /// *Offline CPM*: the robot takes ports at random and keeps all it has walked; the map is
     /// optimized once the goal is found.
     Offline {
-        /// After so many fragments without the goal it goes on *online*, so that no loop can hold
-        /// it for ever; with `u32::MAX` it does as the paper, whose robot "might be locked in
-        /// infinite loops of duplicated path-fragments".
+        /// Number of fragments without the goal after which it goes on *online*, so that no loop
+        /// can hold it forever; with `u32::MAX` it does as the paper, whose robot "might be locked
+        /// in infinite loops of duplicated path-fragments".
         patience: u32,
     },
     /// *Online CPM*, section 6: the map is optimized, and looked at, before each decision.
@@ -58,7 +58,7 @@ pub enum Mapping {
 }
 
 impl Mapping {
-    /// Whether a robot that has walked so many fragments looks at its map.
+    /// Returns whether a robot that has walked `traversals` fragments looks at its map.
     pub(super) const fn looks_at_map(self, traversals: u32) -> bool {
         match self {
             Self::Offline { patience } => traversals >= patience,
@@ -87,7 +87,7 @@ impl CpMapperConfig {
         }
     }
 
-    /// All that we know better than the paper: alignment, hypotheses.
+    /// Returns all that we know better than the paper: alignment, hypotheses.
     #[must_use]
     pub const fn robust() -> Self {
         Self {

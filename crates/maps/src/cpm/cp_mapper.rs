@@ -78,13 +78,13 @@ pub enum MapUpdate {
 }
 
 impl MapUpdate {
-    /// Whether the fragment had been walked before.
+    /// Returns whether the fragment had been walked before.
     const fn came_again(self) -> bool {
         matches!(self, Self::Known | Self::Duplicate)
     }
 }
 
-/// Why an exploration cannot begin or a walk cannot be taken in. The map is as before.
+/// Reason why an exploration cannot begin or a walk cannot be taken in. The map is as before.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CpmError {
@@ -154,13 +154,14 @@ impl CpMapper {
         }
     }
 
-    /// The map as it is now. Offline it holds duplicates until it is [optimized](Self::optimize).
+    /// Returns the map as it is now. Offline it holds duplicates until it is
+    /// [optimized](Self::optimize).
     #[must_use]
     pub fn map(&self) -> &CpMap {
         &self.knowledge.mapper().map
     }
 
-    /// Where the robot is on the map: the port behind it.
+    /// Returns where the robot is on the map: the port behind it.
     #[must_use]
     pub fn at(&self) -> Port {
         self.knowledge.mapper().at
@@ -188,19 +189,20 @@ impl CpMapper {
         doubt.or_else(|| (certainty < SURE).then_some(MapDoubt::Unsure { percent }))
     }
 
-    /// How many fragments were walked to their end.
+    /// Returns how many fragments were walked to their end.
     #[must_use]
     pub const fn traversals(&self) -> u32 {
         self.traversals
     }
 
-    /// n_p of Theorem 1: how many fragments were passed before one came again; none if none did.
+    /// n_p of Theorem 1: how many fragments were passed before one came again, or `None` if none
+    /// did.
     #[must_use]
     pub const fn before_duplicate(&self) -> Option<u32> {
         self.before_duplicate
     }
 
-    /// How often the map was not what the robot found.
+    /// Returns how often the map was not what the robot found.
     #[must_use]
     pub const fn contradictions(&self) -> u32 {
         self.contradictions
@@ -243,8 +245,8 @@ impl CpMapper {
         Ok(arrival)
     }
 
-    /// The robot has turned round in an unknown fragment after so many observations, and is back at
-    /// the junction it came from.
+    /// Notes that the robot has turned round in an unknown fragment after `observations`
+    /// observations, and is back at the junction it came from.
     ///
     /// # Errors
     /// [`CpmError::Turn`] if the junction has no such turn.
@@ -281,14 +283,14 @@ impl CpMapper {
         self.config.mapping.looks_at_map(self.traversals)
     }
 
-    /// The shortest known way from here to a landmark; none if none is known.
+    /// Returns the shortest known way from here to a landmark, or `None` if none is known.
     #[must_use]
     pub fn plan(&self, landmark: Landmark) -> Option<Plan> {
         let map = self.map();
         map.plan(self.at(), |id| map.has(id, landmark))
     }
 
-    /// The robot has been put at a place of the map, with this port behind it.
+    /// Returns the robot has been put at a place of the map, with this port behind it.
     ///
     /// # Errors
     /// [`CpmError::Turn`] if the map has no such port.

@@ -2,13 +2,13 @@ use thiserror::Error;
 
 use super::map::{CpMap, JunctionId};
 
-/// Why a map is not to be believed, as far as whoever learned it can tell without the truth.
+/// Reason why a map is not to be believed, as far as whoever learned it can tell without the truth.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MapDoubt {
     /// Nothing explained what was met, so that a new map was begun beside the old one.
     #[error(
-        "{places} of its places are not joined to the rest: the robot lost its way and began anew there"
+        "{places} of its places are not joined to the rest: the robot lost its way and began again there"
     )]
     Apart {
         /// Places that no known way joins to the robot's.
@@ -49,7 +49,7 @@ impl CpMap {
         twice.find_map(|twice| twice)
     }
 
-    /// Returns that another place lies on the spot of this one. O(ports · log places).
+    /// Returns that another place lies in place of this one. O(ports · log places).
     #[must_use]
     pub fn twice_at(&self, place: JunctionId, apart: f64) -> Option<MapDoubt> {
         let positions = self.positions_from(place);
@@ -64,7 +64,7 @@ impl CpMap {
         })
     }
 
-    /// How many places known ways join to one, itself among them.
+    /// Returns how many places known ways join to one, itself among them.
     fn reached_from(&self, from: JunctionId) -> usize {
         let Some(first) = self.junctions.rank(from) else {
             return 0;
@@ -94,7 +94,7 @@ mod tests {
     use super::super::traversal::{DeadReckoning, Sighting};
     use super::*;
 
-    /// A map of places that each way leads `(x, y)` m on from one to the next.
+    /// Returns a map of places that each way leads `(x, y)` m on from one to the next.
     fn chain(ways: &[(f64, f64)]) -> CpMap {
         let mut map = CpMap::default();
         let mut last = map.add_junction(Sighting::plain(1), None);

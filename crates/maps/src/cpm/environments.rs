@@ -67,7 +67,7 @@ pub struct Recollection {
     pub distance: f64,
 }
 
-/// Why a path cannot be learned, or nothing be recalled.
+/// Reason why a path cannot be learned, or nothing be recalled.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RecallError {
@@ -96,7 +96,7 @@ impl Environments {
     /// Places along a fragment that its code holds.
     pub const SAMPLES: usize = 16;
 
-    /// An empty memory for sequences of a dictionary and of all its later versions.
+    /// Returns an empty memory for sequences of a dictionary and of all its later versions.
     ///
     /// # Errors
     /// [`RecallError::Config`] if its patterns have no features.
@@ -150,8 +150,8 @@ impl Environments {
         Ok(())
     }
 
-    /// The fragment that a sequence is most like, the environment it is of, and what follows.
-    /// O(learned · chain).
+    /// Returns the fragment that a sequence is most like, the environment it is of, and what
+    /// follows. O(learned · chain).
     ///
     /// # Errors
     /// [`RecallError`] if nothing was learned, or a pattern is not in the dictionary.
@@ -181,14 +181,15 @@ impl Environments {
         })
     }
 
-    /// The learned fragment with the nearest code, and how far that is; the first of equals.
+    /// Returns the learned fragment with the nearest code, and how far that is; the first of
+    /// equals.
     fn nearest(&self, code: &[f64]) -> Option<(&Learned, f64)> {
         let all = self.learned.iter();
         let all = all.map(|known| (known, euclidean(&known.code, code)));
         all.min_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
-    /// The prototypes at evenly spaced places of a sequence, one after the other.
+    /// Returns the prototypes at evenly spaced places of a sequence, one by one.
     fn code(
         &self,
         sequence: &[PatternId],

@@ -13,9 +13,9 @@ use super::map::{CpMap, JunctionId, Port, PortState, Sign};
 /// What dead reckoning has to say of a map. Ours, not the paper's, which only suggests it: "Another
 /// good choice is to add the odometry data".
 impl CpMap {
-    /// Where each of the junctions, by id, lies, seen from one of them: along the way on which the
-    /// bounds grow least (Dijkstra 1959); none where no reckoned way leads. O(ports · log
-    /// junctions).
+    /// Returns where each of the junctions, by id, lies, seen from one of them: along the way on
+    /// which the bounds grow least (Dijkstra 1959), or `None` where no reckoned way leads. O(ports
+    /// · log junctions).
     pub(super) fn positions_from(&self, origin: JunctionId) -> Vec<Option<PointBox>> {
         let mut positions = vec![None; self.junctions.len()];
         let mut settled = vec![false; self.junctions.len()];
@@ -47,7 +47,8 @@ impl CpMap {
         positions
     }
 
-    /// The rank of the junction beyond such a port, and where it lies, seen from the port's.
+    /// Returns the rank of the junction beyond such a port, and where it lies, seen from the
+    /// port's.
     fn step(&self, port: PortState) -> Option<(usize, PointBox)> {
         let PortState::Filled(end) = port else {
             return None;
@@ -62,7 +63,8 @@ impl CpMap {
         Some((self.junctions.rank(head)?, step))
     }
 
-    /// The direction in which one leaves by a port, if a fragment is known there and was reckoned.
+    /// Returns the direction in which one leaves by a port, if a fragment is known there and was
+    /// reckoned.
     fn bearing(&self, port: Port) -> Option<Interval> {
         let end = self.end_at(port)?;
         let motion = self.fragment(end.fragment)?.motion?;
@@ -72,10 +74,10 @@ impl CpMap {
         })
     }
 
-    /// How unlikely it is that a port looks into some direction, given those of the junction's
-    /// other ports: none if it cannot be, as bearings would not ascend with the ports' numbers;
-    /// else a negative logarithm up to a constant, which is least where the ports are evenly
-    /// spaced.
+    /// Returns how unlikely it is that a port looks into some direction, given those of the
+    /// junction's other ports: none if it cannot be, as bearings would not ascend with the ports'
+    /// numbers; else a negative logarithm up to a constant, which is least where the ports are
+    /// evenly spaced.
     pub(super) fn bearing_cost(&self, port: Port, bearing: Interval) -> Option<f64> {
         let degree = self.degree(port.junction);
         let (mut cost, mut before) = (0.0_f64, None);

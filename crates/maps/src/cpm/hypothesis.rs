@@ -24,8 +24,8 @@ pub(super) struct Hypothesis {
     pub(super) cost: f64,
 }
 
-/// Where the junctions of a map, by id, lie, seen from where a walk began; none where that is not
-/// known.
+/// Where the junctions of a map, by id, lie, seen from where a walk began, or `None` where that is
+/// not known.
 type Positions = [Option<PointBox>];
 
 impl Hypothesis {
@@ -33,7 +33,7 @@ impl Hypothesis {
         Self { mapper, cost: 0.0 }
     }
 
-    /// All hypotheses that a walk makes of this one; none if it cannot have been.
+    /// Returns all hypotheses that a walk makes of this one; none if it cannot have been.
     pub(super) fn after(
         &self,
         turn: Turn,
@@ -72,8 +72,8 @@ impl Hypothesis {
         Ok(all)
     }
 
-    /// Whether a walk has led, for certain, to a place of the map: to the only start, if it is
-    /// known where that lies from here, or where one like it is and two do not fit.
+    /// Returns whether a walk has led, for certain, to a place of the map: to the only start, if it
+    /// is known where that lies from here, or where one like it is and two do not fit.
     fn is_known_place(
         &self,
         walk: &Traversal,
@@ -90,7 +90,7 @@ impl Hypothesis {
         })
     }
 
-    /// The walk followed a fragment of the map.
+    /// Returns the walk followed a fragment of the map.
     fn along(
         &self,
         exit: Port,
@@ -116,8 +116,7 @@ impl Hypothesis {
         Some(next)
     }
 
-    /// The walk was a new fragment that led to a known place, through a port nobody has been
-    /// through.
+    /// The walk was a new fragment that led to a known place, through an unexplored port.
     fn to_places(
         &self,
         exit: Port,
@@ -158,8 +157,8 @@ impl Hypothesis {
         all
     }
 
-    /// The fragment just added is one that the map has already. The place it led to is the last,
-    /// and has no position yet.
+    /// Returns the fragment just added is one that the map has already. The place it led to is the
+    /// last, and has no position yet.
     fn duplicates(
         &self,
         new: FragmentId,
@@ -205,7 +204,7 @@ impl Hypothesis {
         all
     }
 
-    /// What speaks for two walks being along one fragment; none if they cannot be.
+    /// Returns what speaks for two walks being along one fragment, or `None` if they cannot be.
     fn motion_evidence(
         &self,
         known: Option<DeadReckoning>,
@@ -223,7 +222,8 @@ impl Hypothesis {
         }
     }
 
-    /// The area in which one junction is to be expected, m²: as far around as fragments reach.
+    /// Returns the area in which one junction is to be expected, m²: as far around as fragments
+    /// reach.
     fn area(&self) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);
         for (_, fragment) in self.mapper.map.fragments() {
@@ -236,8 +236,8 @@ impl Hypothesis {
         if count > 0.0 { sum / count } else { 1.0 }
     }
 
-    /// Two hypotheses that say the same look the same: all that can be reached from the robot's
-    /// place, in order.
+    /// Returns two hypotheses that say the same look the same: all that can be reached from the
+    /// robot's place, in order.
     pub(super) fn signature(&self) -> Vec<u32> {
         let Mapper { map, at } = &self.mapper;
         // Junctions by rank, with the port by which each is entered first; and the place of each in
@@ -275,7 +275,8 @@ impl Hypothesis {
 }
 
 impl Comparison<'_> {
-    /// What the observations say for two walks being along one fragment, a logarithm of odds.
+    /// Returns what the observations say for two walks being along one fragment, a logarithm of
+    /// odds.
     fn evidence(&self, known: &Fragment, patterns: &[PatternId], sense: Sense) -> f64 {
         let score = self.score(patterns, &known.patterns, sense);
         let length = known.patterns.len().min(patterns.len()).max(1) as f64;
@@ -284,15 +285,15 @@ impl Comparison<'_> {
     }
 }
 
-/// What it costs to believe that ways which a robot has seen, having come by a port, are those of a
-/// place.
+/// Returns what it costs to believe that ways which a robot has seen, having come by a port, are
+/// those of a place.
 fn bearings_cost(place: &Junction, port: u32, walk: &Traversal) -> f64 {
     let off = place.apart(port, walk.bearings.as_ref()) / SHARP;
     (0.5 * off * off).min(MOST_EVIDENCE)
 }
 
-/// How much more likely two places are to be within a box of each other if they are one than if
-/// they are any two: the area in which one is expected, over that of the box.
+/// Returns how much more likely two places are to be within a box of each other if they are one
+/// than if they are any two: the area in which one is expected, over that of the box.
 fn coincidence(apart: PointBox, area: f64) -> f64 {
     let side = |side: Interval| side.width().max(1e-3);
     libm::log(area / (side(apart.x) * side(apart.y))).clamp(-MOST_EVIDENCE, MOST_EVIDENCE)

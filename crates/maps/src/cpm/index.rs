@@ -44,8 +44,9 @@ impl FragmentIndex {
         self.bags.remove(id);
     }
 
-    /// At most so many fragments that have the most in common with a sequence or its inverse, best
-    /// first, ties by id. All if there are no more than that. O(fragments · patterns of each).
+    /// Returns at most this many fragments: those that have the most in common with a sequence or
+    /// its inverse, best first, ties by id. All if there are no more than that. O(fragments ·
+    /// patterns of each).
     pub(super) fn candidates(
         &self,
         dictionary: &Dictionary,

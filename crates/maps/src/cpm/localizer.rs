@@ -86,7 +86,7 @@ pub struct Location {
     pub probability: f64,
 }
 
-/// Why a robot cannot be localized, or an event not be taken in.
+/// Reason why a robot cannot be localized, or an event not be taken in.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LocalizeError {
@@ -98,7 +98,7 @@ pub enum LocalizeError {
     OutOfRange {
         /// The field of the configuration.
         field: &'static str,
-        /// What it is.
+        /// The value given.
         value: f64,
         /// What it may be, in words.
         range: &'static str,
@@ -121,22 +121,21 @@ struct Track {
     place: Sighting,
     bearings: Option<Bearings>,
     patterns: Vec<PatternId>,
-    /// How likely the robot has passed so many of them: one more than there are, as it may have
-    /// passed none.
+    /// Probability of each number of them that the robot may have passed, from none to all.
     passed: Vec<f64>,
 }
 
 impl Track {
-    /// How likely a robot sees these ways in the middle of the place ahead. Where as many are not
-    /// seen, that has been weighed by the sighting.
+    /// Returns how likely a robot sees these ways in the middle of the place ahead. Where as many
+    /// are not seen, that has been weighed by the sighting.
     fn seen(&self, seen: &Bearings) -> f64 {
         let expected = self.bearings.as_ref();
         let apart = expected.and_then(|expected| expected.apart(seen));
         apart.map_or(1.0, |apart| near(apart, SHARP).max(UNSEEN))
     }
 
-    /// How likely it glimpses these ways before the place ahead. What it glimpses may be no way,
-    /// and ways may be hidden.
+    /// Returns how likely it glimpses these ways before the place ahead. What it glimpses may be no
+    /// way, and ways may be hidden.
     fn glimpsed(&self, glimpse: &Bearings) -> f64 {
         let dead_end = [];
         let expected = match &self.bearings {
@@ -156,12 +155,12 @@ impl Track {
     }
 }
 
-/// How likely what is there is seen as what is seen.
+/// Returns how likely what is there is seen as what is seen.
 const fn seen_as(is_the_same: bool) -> f64 {
     if is_the_same { 1.0 } else { UNSEEN }
 }
 
-/// How likely directions are so far apart that are one, against no distance at all.
+/// Returns how likely directions are so far apart that are one, against no distance at all.
 fn near(apart: f64, deviation: f64) -> f64 {
     libm::exp(-0.5 * (apart / deviation) * (apart / deviation))
 }
@@ -256,7 +255,8 @@ impl Localizer {
         Ok(localizer)
     }
 
-    /// One observation on the way. O(all sequences' lengths and the distances of prototypes).
+    /// Returns one observation on the way. O(all sequences' lengths and the distances of
+    /// prototypes).
     ///
     /// # Errors
     /// [`LocalizeError::Dictionary`] if the dictionary does not have the pattern.
@@ -364,8 +364,8 @@ impl Localizer {
         self.normalize();
     }
 
-    /// How likely the maps have a fragment where a turn leads, so that the robot would not go where
-    /// it knows nothing. O(tracks).
+    /// Returns how likely the maps have a fragment where a turn leads, so that the robot would not
+    /// go where it knows nothing. O(tracks).
     #[must_use]
     pub fn knows(&self, turn: Turn) -> f64 {
         self.entered(turn)
@@ -389,7 +389,7 @@ impl Localizer {
         Ok(())
     }
 
-    /// The fragment and the way along it that are most likely, the first of equals.
+    /// Returns the fragment and the way along it that are most likely, the first of equals.
     #[must_use]
     pub fn location(&self) -> Location {
         let likelihood = |track: &Track| track.passed.iter().sum();
@@ -410,7 +410,7 @@ impl Localizer {
         }
     }
 
-    /// How likely the robot is on each map: "which environment the robot is in".
+    /// Returns how likely the robot is on each map: "which environment the robot is in".
     #[must_use]
     pub fn maps(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.maps.len()];
@@ -420,7 +420,7 @@ impl Localizer {
         sums
     }
 
-    /// How likely a turn leads into each track.
+    /// Returns how likely a turn leads into each track.
     fn entered(&self, turn: Turn) -> Result<Vec<f64>, NoSuchTurn> {
         let mut entered = vec![0.0; self.tracks.len()];
         let mut refused = None;
@@ -480,8 +480,8 @@ impl Localizer {
     }
 }
 
-/// How likely it is to be at any one place of each map: each map that has observations is as likely
-/// as the others, and each place of it.
+/// Returns how likely it is to be at any one place of each map: each map that has observations is
+/// as likely as the others, and each place of it.
 fn anywhere(maps: usize, tracks: &[Track]) -> Vec<f64> {
     let mut places = vec![0_usize; maps];
     for track in tracks {

@@ -16,7 +16,7 @@ use tolman_robot::Landmark;
 pub struct FragmentId(pub u32);
 
 impl FragmentId {
-    /// One of its ends.
+    /// Returns one of its ends.
     #[must_use]
     pub const fn end(self, sign: Sign) -> End {
         let fragment = self;
@@ -31,7 +31,7 @@ impl FragmentId {
 pub struct JunctionId(pub u32);
 
 impl JunctionId {
-    /// The port with this number.
+    /// Returns the port with this number.
     #[must_use]
     pub const fn port(self, number: u32) -> Port {
         let junction = self;
@@ -53,7 +53,7 @@ impl Sign {
     /// Both, − first.
     pub const BOTH: [Self; 2] = [Self::Minus, Self::Plus];
 
-    /// The sign of the other end.
+    /// Returns the sign of the other end.
     #[must_use]
     pub const fn opposite(self) -> Self {
         match self {
@@ -83,7 +83,7 @@ pub struct End {
 }
 
 impl End {
-    /// The fragment's other end.
+    /// Returns the fragment's other end.
     #[must_use]
     pub const fn opposite(self) -> Self {
         self.fragment.end(self.sign.opposite())
@@ -122,7 +122,7 @@ impl From<Port> for (JunctionId, u32) {
 pub enum PortState {
     /// Nobody has been there, or not to its end.
     Open {
-        /// So many observations were made in it before the robot turned round.
+        /// Number of observations made in it before the robot turned round.
         at_least: u32,
     },
     /// A fragment begins or ends here.
@@ -137,18 +137,18 @@ pub struct Junction {
     pub ports: Vec<PortState>,
     /// What stands there.
     pub landmark: Option<Landmark>,
-    /// Where the ports lead, from port 0 on; none if no robot has looked.
+    /// Where the ports lead, from port 0 on, or `None` if no robot has looked.
     pub bearings: Option<Bearings>,
 }
 
 impl Junction {
-    /// How many ports it has; 1 makes it a dead end.
+    /// Returns how many ports it has; 1 makes it a dead end.
     #[must_use]
     pub const fn degree(&self) -> u32 {
         self.ports.len() as u32
     }
 
-    /// How the robot saw it.
+    /// Returns how the robot saw it.
     #[must_use]
     pub const fn sighting(&self) -> Sighting {
         Sighting {
@@ -157,7 +157,7 @@ impl Junction {
         }
     }
 
-    /// Where its ways lead, for one who enters by a port; none if no robot has looked.
+    /// Returns where its ways lead, for one who enters by a port, or `None` if no robot has looked.
     #[must_use]
     pub fn bearings_from(&self, port: u32) -> Option<Bearings> {
         Some(self.bearings.as_ref()?.counted_from(port))
@@ -179,7 +179,7 @@ impl Junction {
         }
     }
 
-    /// The numbers of the ports nobody has been through, ascending.
+    /// Returns the numbers of the unexplored ports, ascending.
     pub fn open_ports(&self) -> impl Iterator<Item = u32> {
         let open = |port: &&PortState| matches!(port, PortState::Open { .. });
         let numbered = (0..).zip(&self.ports);
@@ -213,7 +213,7 @@ impl Fragment {
         if length == 0 { 1 } else { length }
     }
 
-    /// Where an end is.
+    /// Returns where an end is.
     #[must_use]
     pub const fn port(&self, sign: Sign) -> Port {
         match sign {
@@ -238,12 +238,12 @@ pub struct CpMap {
 }
 
 impl CpMap {
-    /// The fragments by id.
+    /// Returns the fragments by id.
     pub fn fragments(&self) -> impl ExactSizeIterator<Item = (FragmentId, &Fragment)> {
         self.fragments.iter()
     }
 
-    /// The junctions by id.
+    /// Returns the junctions by id.
     pub fn junctions(&self) -> impl ExactSizeIterator<Item = (JunctionId, &Junction)> {
         self.junctions.iter()
     }
@@ -265,25 +265,26 @@ impl CpMap {
         fragments.sum::<usize>() + junctions.sum::<usize>()
     }
 
-    /// A fragment; none where it was merged into another.
+    /// Returns a fragment, or `None` where it was merged into another.
     #[must_use]
     pub fn fragment(&self, id: FragmentId) -> Option<&Fragment> {
         self.fragments.get(id)
     }
 
-    /// A junction; none where it was unified with another.
+    /// Returns a junction, or `None` where it was unified with another.
     #[must_use]
     pub fn junction(&self, id: JunctionId) -> Option<&Junction> {
         self.junctions.get(id)
     }
 
-    /// How many ports a junction has; 0 if it is not there.
+    /// Returns how many ports a junction has; 0 if it is not there.
     #[must_use]
     pub fn degree(&self, junction: JunctionId) -> u32 {
         self.junctions.get(junction).map_or(0, Junction::degree)
     }
 
-    /// The newest version of the dictionary that its sequences need; none of an empty map.
+    /// Returns the newest version of the dictionary that its sequences need, or `None` of an empty
+    /// map.
     #[must_use]
     pub const fn version(&self) -> Option<Version> {
         self.version
@@ -298,14 +299,14 @@ impl CpMap {
             .map_or(Ok(()), |version| dictionary.check_version(version))
     }
 
-    /// What is known of a port; none if it is not there.
+    /// Returns what is known of a port, or `None` if it is not there.
     #[must_use]
     pub fn port(&self, port: Port) -> Option<PortState> {
         let junction = self.junctions.get(port.junction)?;
         junction.ports.get(port.number as usize).copied()
     }
 
-    /// The end of a fragment at a port; none if nobody has been there.
+    /// Returns the end of a fragment at a port, or `None` if nobody has been there.
     #[must_use]
     pub fn end_at(&self, port: Port) -> Option<End> {
         match self.port(port)? {
@@ -314,21 +315,21 @@ impl CpMap {
         }
     }
 
-    /// Where one arrives who leaves by a port; none if that is not known.
+    /// Returns where one arrives who leaves by a port, or `None` if that is not known.
     #[must_use]
     pub fn beyond(&self, port: Port) -> Option<Port> {
         let end = self.end_at(port)?.opposite();
         Some(self.fragment(end.fragment)?.port(end.sign))
     }
 
-    /// The ports of a junction by its rank.
+    /// Returns the ports of a junction by its rank.
     pub(super) fn ports_at(&self, rank: usize) -> &[PortState] {
         let junction = self.junctions.at(rank);
         junction.map_or(&[][..], |junction| &junction.ports)
     }
 
-    /// Where one arrives who leaves by such a port: the junction's rank, and the number of its
-    /// port.
+    /// Returns where one arrives who leaves by such a port: the junction's rank, and the number of
+    /// its port.
     pub(super) fn led_to(&self, port: PortState) -> Option<(usize, u32)> {
         let PortState::Filled(end) = port else {
             return None;
@@ -338,7 +339,8 @@ impl CpMap {
     }
 
     /// Λ2(X, Y) = Δ_{X→Y}, equation (6): the turn of a robot that comes out of a fragment at one
-    /// end and shall enter another at another end; none if the two ends are not at one junction.
+    /// end and shall enter another at another end, or `None` if the two ends are not at one
+    /// junction.
     ///
     /// As ports are kept, not transitions, all that (7) to (10) derive is there at once.
     #[must_use]
@@ -350,14 +352,14 @@ impl CpMap {
         turn.ok().filter(|_| from.junction == to.junction)
     }
 
-    /// Whether a landmark stands at a junction.
+    /// Returns whether a landmark stands at a junction.
     #[must_use]
     pub fn has(&self, junction: JunctionId, landmark: Landmark) -> bool {
         let place = self.junction(junction);
         place.is_some_and(|place| place.landmark == Some(landmark))
     }
 
-    /// The junctions with a landmark, by id.
+    /// Returns the junctions with a landmark, by id.
     pub fn landmarks(&self, landmark: Landmark) -> impl Iterator<Item = JunctionId> {
         let marked = self
             .junctions()
@@ -365,14 +367,14 @@ impl CpMap {
         marked.map(|(id, _)| id)
     }
 
-    /// Where a robot stands that has just begun the map at the first start on it; none if that is
-    /// not on it.
+    /// Returns where a robot stands that has just begun the map at the first start on it, or `None`
+    /// if that is not on it.
     #[must_use]
     pub fn start(&self) -> Option<Port> {
         Some(self.landmarks(Landmark::Start).next()?.port(0))
     }
 
-    /// The ports nobody has been through, by id.
+    /// Returns the unexplored ports, by id.
     pub fn open_ports(&self) -> impl Iterator<Item = Port> {
         self.junctions()
             .flat_map(|(id, place)| place.open_ports().map(move |number| id.port(number)))

@@ -53,7 +53,7 @@ struct SavedDictionary {
 
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 struct SavedMap {
-    /// How many patterns the dictionary had when it was last written to; none of an empty map.
+    /// How many patterns the dictionary had when it was last written to, or `None` of an empty map.
     patterns: Option<u32>,
     next_fragment: u32,
     next_junction: u32,
@@ -73,7 +73,7 @@ struct SavedJunction {
     id: u32,
     landmark: Option<Landmark>,
     ports: Vec<SavedPort>,
-    /// Directions the ports lead to, rad, from port 0 on; none if no robot has looked.
+    /// Directions the ports lead to, rad, from port 0 on, or `None` if no robot has looked.
     #[serde(skip_serializing_if = "Option::is_none")]
     bearings: Option<Vec<f64>>,
 }
@@ -81,7 +81,7 @@ struct SavedJunction {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum SavedPort {
-    /// Looked into for so many observations.
+    /// Explored for this many observations, without reaching the end.
     Open(u32),
     /// 𝔸⁻ of this fragment.
     Minus(u32),
@@ -89,7 +89,7 @@ enum SavedPort {
     Plus(u32),
 }
 
-/// Why a file holds no map.
+/// Reason why a file holds no map.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
@@ -114,7 +114,7 @@ pub enum MapFileError {
         /// What they have.
         found: String,
     },
-    /// The patterns are none, or the map is that of another robot.
+    /// The patterns are invalid, or the map is another robot's.
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
     /// More branches than any junction has.
@@ -126,7 +126,7 @@ pub enum MapFileError {
         ports: usize,
     },
     /// The ways of a junction lead nowhere, or not to its ports.
-    #[error("the bearings of junction {junction} are none: {source}")]
+    #[error("the bearings of junction {junction} are invalid: {source}")]
     Bearings {
         /// Its number.
         junction: u32,
@@ -168,7 +168,7 @@ fn hexadecimal(fingerprint: u64) -> String {
 }
 
 impl MapFile {
-    /// What is to be written of a map.
+    /// Returns what is to be written of a map.
     ///
     /// # Errors
     /// [`MapFileError::Dictionary`] if the map was written with another dictionary.
@@ -200,7 +200,7 @@ impl MapFile {
         })
     }
 
-    /// The dictionary as it was.
+    /// Returns the dictionary as it was.
     ///
     /// # Errors
     /// [`MapFileError`] if it was cut off or changed.
@@ -222,8 +222,8 @@ impl MapFile {
         }
     }
 
-    /// The map as it was, for a robot with this dictionary: that of the file, or one that has grown
-    /// out of it.
+    /// Returns the map as it was, for a robot with this dictionary: that of the file, or one that
+    /// has grown out of it.
     ///
     /// # Errors
     /// [`MapFileError`] as of [`dictionary`](Self::dictionary), if the robot's is another one, or

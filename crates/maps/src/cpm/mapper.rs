@@ -62,8 +62,8 @@ impl Mapper {
         self.append(adrift.port(turn.0), walk)
     }
 
-    /// What is new is joined to the last junction, "together with the performed transition"; the
-    /// junction it led to is new as well, until unified with another.
+    /// Returns what is new is joined to the last junction, "together with the performed
+    /// transition"; the junction it led to is new as well, until unified with another.
     pub(super) fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let junction = self.map.add_junction(walk.sighting, walk.bearings.clone());
         self.at = junction.port(0);
@@ -94,7 +94,8 @@ impl Mapper {
         }
     }
 
-    /// The robot has turned round in a fragment and is back, after so many observations in it.
+    /// Notes that the robot has turned round in a fragment and is back, after `observations`
+    /// observations in it.
     pub(super) fn came_back(&mut self, exit: Port, observations: u32) {
         if let Some(PortState::Open { at_least }) = self.map.port_state_mut(exit) {
             *at_least = observations.max(*at_least);
@@ -102,15 +103,15 @@ impl Mapper {
         self.at = exit;
     }
 
-    /// The port that a turn leads to.
+    /// Returns the port that a turn leads to.
     pub(super) fn exit(&self, turn: Turn) -> Result<Port, NoSuchTurn> {
         let Port { junction, number } = self.at;
         let degree = self.map.degree(junction);
         Ok(junction.port(turn.exit(number, degree)?))
     }
 
-    /// The fragment that another one is a duplicate of: the most similar one with which it can be
-    /// unified, which it then is.
+    /// Returns the fragment that another one is a duplicate of: the most similar one with which it
+    /// can be unified, which it then is.
     pub(super) fn unify_with_similar(
         &mut self,
         new: FragmentId,
@@ -163,13 +164,13 @@ pub(super) struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// How similar two sequences are, the second walked as the sense says.
+    /// Returns how similar two sequences are, the second walked as the sense says.
     pub(super) fn score(&self, one: &[PatternId], other: &[PatternId], sense: Sense) -> f64 {
         let compute = || self.matching.score_as(self.dictionary, one, other, sense);
         self.scores.of(one, other, sense, compute)
     }
 
-    /// The fragments to compare one of the map with.
+    /// Returns the fragments to compare one of the map with.
     pub(super) fn others<'m>(
         &self,
         map: &'m CpMap,
@@ -199,8 +200,8 @@ impl Comparison<'_> {
         others
     }
 
-    /// How an online robot judges a fragment that it knows, entered at an end: it trusts the map
-    /// unless another fragment fits what it has observed, and this one does not.
+    /// Returns how an online robot judges a fragment that it knows, entered at an end: it trusts
+    /// the map unless another fragment fits what it has observed, and this one does not.
     fn trusts(&self, map: &CpMap, walk: &Traversal, end: End) -> bool {
         let Self {
             matching,

@@ -28,18 +28,18 @@ impl<I: Copy + Ord, T: Clone> Nodes<I, T> {
         Arc::make_mut(&mut self.0).iter_mut().map(|(_, node)| node)
     }
 
-    /// How many nodes have lower ids; none if it is not there. O(log nodes).
+    /// Returns how many nodes have lower ids, or `None` if it is not there. O(log nodes).
     pub(super) fn rank(&self, id: I) -> Option<usize> {
         self.search(id).ok()
     }
 
-    /// The node with so many before it.
+    /// Returns the node at position `rank`, from 0.
     pub(super) fn at(&self, rank: usize) -> Option<&T> {
         let (_, node) = self.0.get(rank)?;
         Some(node)
     }
 
-    /// The id of the node with so many before it.
+    /// Returns the id of the node at position `rank`, from 0.
     pub(super) fn id(&self, rank: usize) -> Option<I> {
         self.0.get(rank).map(|(id, _)| *id)
     }

@@ -17,16 +17,13 @@ pub struct PatternId(pub u32);
 /// ```
 /// use tolman_maps::cpm::{Dictionary, PatternId};
 ///
-/// let mut dictionary = Dictionary::new(2);
-/// // A wall to the right, which seen the other way is a wall to the left; and none, which is none either way.
-/// let right = dictionary.learn(&[1.0, 0.0], &[0.0, 1.0], 0.1)?;
-/// let open = dictionary.learn(&[0.0, 0.0], &[0.0, 0.0], 0.1)?;
-/// assert_eq!((right, open, dictionary.len()), (PatternId(0), PatternId(2), 3));
-/// // Walking right, right, open is, walked back, open, left, left.
-/// let left = PatternId(1);
-/// assert_eq!(dictionary.inverse(&[right, right, open])?, [open, left, left]);
-/// // What is near enough is nothing new.
-/// assert_eq!(dictionary.learn(&[0.95, 0.0], &[0.0, 0.95], 0.1)?, right);
+/// let mut dictionary = Dictionary::new(2); // A wall to the right, which seen the other way is a
+/// wall to the left; and no wall, which stays no wall. let right = dictionary.learn(&[1.0, 0.0],
+/// &[0.0, 1.0], 0.1)?; let open = dictionary.learn(&[0.0, 0.0], &[0.0, 0.0], 0.1)?;
+/// assert_eq!((right, open, dictionary.len()), (PatternId(0), PatternId(2), 3)); // Walking right,
+/// right, open is, walked back, open, left, left. let left = PatternId(1);
+/// assert_eq!(dictionary.inverse(&[right, right, open])?, [open, left, left]); // What is near
+/// enough is nothing new. assert_eq!(dictionary.learn(&[0.95, 0.0], &[0.0, 0.95], 0.1)?, right);
 /// # Ok::<(), tolman_maps::cpm::DictionaryError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +51,7 @@ pub struct Version {
     pub fingerprint: u64,
 }
 
-/// Why a dictionary refuses what it is given.
+/// Reason why a dictionary refuses what it is given.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DictionaryError {
@@ -71,13 +68,13 @@ pub enum DictionaryError {
     BadFeature {
         /// Its number, from 0.
         feature: usize,
-        /// What it is.
+        /// The value given.
         value: f64,
     },
-    /// A tolerance that is none.
+    /// A tolerance that is invalid.
     #[error("the tolerance is {value}: it has to be 0 or more")]
     BadTolerance {
-        /// What it is.
+        /// The value given.
         value: f64,
     },
     /// A pattern that the dictionary does not have.
@@ -105,7 +102,7 @@ pub enum DictionaryError {
 }
 
 impl Dictionary {
-    /// An empty dictionary of patterns with so many features; the paper has 11.
+    /// Returns an empty dictionary of patterns with `dimension` features; the paper has 11.
     #[must_use]
     pub fn new(dimension: usize) -> Self {
         Self {
@@ -116,8 +113,8 @@ impl Dictionary {
         }
     }
 
-    /// A finished dictionary: the prototypes, and for each which of them is its vector turned half
-    /// round, for patterns that are seen walking the other way. O(patterns²).
+    /// Returns a finished dictionary: the prototypes, and for each which of them is its vector
+    /// turned half round, for patterns that are seen walking the other way. O(patterns²).
     ///
     /// # Errors
     /// [`DictionaryError`] if a prototype is invalid, or `half_turned` does not lead back and
@@ -141,10 +138,10 @@ impl Dictionary {
         Ok(dictionary)
     }
 
-    /// The pattern that stands for an observation: the nearest if it lies within `tolerance`, else
-    /// a new one, made of the observation, together with a new one for `half_turned`, the same seen
-    /// the other way, unless that is known or nearly the same. The paper's own wish: "the CPs must
-    /// be learned incrementally". O(patterns · features).
+    /// Returns the pattern that stands for an observation: the nearest if it lies within
+    /// `tolerance`, else a new one, made of the observation, together with a new one for
+    /// `half_turned`, the same seen the other way, unless that is known or nearly the same. The
+    /// paper's own wish: "the CPs must be learned incrementally". O(patterns · features).
     ///
     /// # Errors
     /// [`DictionaryError`] if one of the observations or the tolerance is invalid. Nothing is
@@ -174,8 +171,8 @@ impl Dictionary {
         Ok(new)
     }
 
-    /// The nearest pattern and its distance, the first of equals; none if there are none.
-    /// O(patterns · features).
+    /// Returns the nearest pattern and its distance, the first of equals, or `None` if there are
+    /// none. O(patterns · features).
     ///
     /// # Errors
     /// [`DictionaryError`] if the observation has another size, or a feature that is not finite.
@@ -194,39 +191,39 @@ impl Dictionary {
             .min_by(|(_, a), (_, b)| a.total_cmp(b)))
     }
 
-    /// How many features a pattern has.
+    /// Returns how many features a pattern has.
     #[must_use]
     pub const fn dimension(&self) -> usize {
         self.dimension
     }
 
-    /// How many patterns there are.
+    /// Returns how many patterns there are.
     #[must_use]
     pub const fn len(&self) -> usize {
         self.patterns.len()
     }
 
-    /// Whether there are none.
+    /// Returns whether there are none.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.patterns.is_empty()
     }
 
-    /// The features of a pattern; none of one that is not there.
+    /// Returns the features of a pattern, or `None` of one that is not there.
     #[must_use]
     pub fn prototype(&self, pattern: PatternId) -> Option<&[f64]> {
         let pattern = self.patterns.get(pattern.0 as usize)?;
         Some(&pattern.prototype)
     }
 
-    /// The pattern seen the other way; of one that is not there, itself.
+    /// Returns the pattern seen the other way; of one that is not there, itself.
     #[must_use]
     pub fn half_turned(&self, pattern: PatternId) -> PatternId {
         let known = self.patterns.get(pattern.0 as usize);
         known.map_or(pattern, |known| known.half_turned)
     }
 
-    /// The distance of two prototypes, infinite if one is not there. O(features).
+    /// Returns the distance of two prototypes, infinite if one is not there. O(features).
     #[must_use]
     pub fn distance(&self, a: PatternId, b: PatternId) -> f64 {
         if a == b {
@@ -267,7 +264,7 @@ impl Dictionary {
         }
     }
 
-    /// The version as it is now.
+    /// Returns the version as it is now.
     #[must_use]
     pub fn version(&self) -> Version {
         Version {
@@ -276,7 +273,7 @@ impl Dictionary {
         }
     }
 
-    /// The version as it was with so many patterns; none if there were never so many.
+    /// Returns the version that had `patterns` patterns, or `None` if no version had.
     #[cfg(feature = "serde")]
     pub(super) fn earlier(&self, patterns: u32) -> Option<Version> {
         let fingerprint = *self.fingerprints.get(patterns as usize)?;

@@ -31,9 +31,9 @@ pub struct PlanLeg {
 }
 
 impl CpMap {
-    /// The shortest known way, in observations, from a robot's place to the nearest junction that
-    /// is wanted; none if none is known. Ties go to the older junctions and fragments. O(fragments
-    /// · log fragments).
+    /// Returns the shortest known way, in observations, from a robot's place to the nearest
+    /// junction that is wanted, or `None` if none is known. Ties go to the older junctions and
+    /// fragments. O(fragments · log fragments).
     #[must_use]
     pub fn plan(&self, from: Port, wanted: impl Fn(JunctionId) -> bool) -> Option<Plan> {
         let source = self.junctions.rank(from.junction)? as u32;
@@ -61,8 +61,8 @@ impl CpMap {
         Some(Plan { legs, length })
     }
 
-    /// The shortest of the fragments that lead from one junction to another, by the end to enter it
-    /// at.
+    /// Returns the shortest of the fragments that lead from one junction to another, by the end to
+    /// enter it at.
     fn shortest_to(&self, from: JunctionId, to: JunctionId) -> Option<End> {
         let ports = 0..self.junction(from)?.degree();
         let ends = ports.filter_map(|number| {

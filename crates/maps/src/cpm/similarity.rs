@@ -27,12 +27,12 @@ pub enum Sense {
 }
 
 impl Sense {
-    /// How a fragment is walked that is entered at an end.
+    /// Returns how a fragment is walked that is entered at an end.
     pub(super) fn entered_at(sign: Sign) -> Self {
         Self::between(Sign::Minus, sign)
     }
 
-    /// Which way round two fragments are one whose ends of these signs are.
+    /// Returns which way round two fragments are one whose ends of these signs are.
     pub(super) fn between(one: Sign, other: Sign) -> Self {
         match one == other {
             true => Self::Same,
@@ -40,7 +40,7 @@ impl Sense {
         }
     }
 
-    /// The sign of the other fragment's end that an end belongs to.
+    /// Returns the sign of the other fragment's end that an end belongs to.
     #[must_use]
     pub const fn of(self, sign: Sign) -> Sign {
         match self {
@@ -49,7 +49,7 @@ impl Sense {
         }
     }
 
-    /// What is observed along a fragment that is walked so: 𝔸 or 𝔸⁻¹.
+    /// Returns what is observed along a fragment that is walked so: 𝔸 or 𝔸⁻¹.
     ///
     /// # Errors
     /// If a pattern of an inverted sequence is not the dictionary's.
@@ -64,7 +64,7 @@ impl Sense {
         }
     }
 
-    /// A walk along one fragment as a walk along the other.
+    /// Returns a walk along one fragment as a walk along the other.
     pub(super) fn of_motion(self, motion: DeadReckoning) -> DeadReckoning {
         match self {
             Self::Same => motion,
@@ -83,7 +83,7 @@ pub struct Match {
 }
 
 impl FragmentMatching {
-    /// How similar two sequences are as they stand, at most 1; equal ones have 1.
+    /// Returns how similar two sequences are as they stand, at most 1; equal ones have 1.
     /// Patterns that the dictionary does not have are similar to none.
     #[must_use]
     pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
@@ -112,7 +112,7 @@ impl FragmentMatching {
         }
     }
 
-    /// How similar two sequences are, the second walked as the sense says.
+    /// Returns how similar two sequences are, the second walked as the sense says.
     #[must_use]
     pub fn score_as(
         &self,
@@ -127,7 +127,7 @@ impl FragmentMatching {
             .map_or(f64::NEG_INFINITY, |b| self.score(dictionary, a, &b))
     }
 
-    /// Whether 𝔸₁ ≅ 𝔸₂, the second walked as the sense says.
+    /// Returns whether 𝔸₁ ≅ 𝔸₂, the second walked as the sense says.
     #[must_use]
     pub fn agrees(
         &self,
@@ -139,7 +139,7 @@ impl FragmentMatching {
         self.score_as(dictionary, a, b, sense) > self.threshold()
     }
 
-    /// Whether 𝔸₁ ≅ 𝔸₂ or 𝔸₁ ≅ 𝔸₂⁻¹: "The inverse of 𝔸₂ must also be compared with 𝔸₁."
+    /// Returns whether 𝔸₁ ≅ 𝔸₂ or 𝔸₁ ≅ 𝔸₂⁻¹: "The inverse of 𝔸₂ must also be compared with 𝔸₁."
     #[must_use]
     pub fn matches(
         &self,
@@ -222,8 +222,8 @@ pub enum Sum {
     /// Their mean over the positions, which is what the sum and the division of (3) make, so that
     /// long fragments and short ones are measured alike.
     Mean,
-    /// The root of the sum of their squares, (4); the sum of (3) over so many times the same E,
-    /// divided by as many, is E.
+    /// The root of the sum of their squares, (4); the sum of (3) over n times the same E, divided
+    /// by n, is E.
     Euclidean,
 }
 
@@ -241,8 +241,8 @@ impl Similarity {
         }
     }
 
-    /// The equations to the letter: differences of numbers, up to the shorter one's length, E as
-    /// (4) has it, μ = 0.9.
+    /// Returns the equations to the letter: differences of numbers, up to the shorter one's length,
+    /// E as (4) has it, μ = 0.9.
     #[must_use]
     pub const fn literal() -> Self {
         Self {

@@ -20,7 +20,7 @@ pub struct Sighting {
 }
 
 impl Sighting {
-    /// A place of so many ports without a landmark.
+    /// Returns a place of `degree` ports without a landmark.
     #[must_use]
     pub const fn plain(degree: u32) -> Self {
         Self {
@@ -54,12 +54,12 @@ pub struct Traversal {
     /// 𝔸 of Definition 1: the common patterns observed on the way, without those of the places at
     /// its ends.
     pub patterns: Vec<PatternId>,
-    /// What dead reckoning says; none if the robot has none, as the paper's.
+    /// What dead reckoning says, or `None` if the robot has none, as the paper's.
     pub motion: Option<DeadReckoning>,
     /// The place it led to.
     pub sighting: Sighting,
-    /// Where the ways out of that place lead, counted from the one by which the robot came; none if
-    /// it did not look, as the paper's.
+    /// Where the ways out of that place lead, counted from the one by which the robot came, or
+    /// `None` if it did not look, as the paper's.
     pub bearings: Option<Bearings>,
 }
 
@@ -78,7 +78,7 @@ pub struct DeadReckoning {
 }
 
 impl DeadReckoning {
-    /// The same walked the other way.
+    /// Returns the same walked the other way.
     #[must_use]
     pub fn reversed(self) -> Self {
         Self {
@@ -88,8 +88,8 @@ impl DeadReckoning {
         }
     }
 
-    /// What both allow of walks along one fragment; none if they contradict each other, headings up
-    /// to full circles.
+    /// Returns what both allow of walks along one fragment, or `None` if they contradict each
+    /// other, headings up to full circles.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         let pose = |motion: Self, heading| PoseBox::new(motion.displacement, heading);

@@ -24,10 +24,10 @@ impl Turn {
     /// Out by the port of entry.
     pub const BACK: Self = Self(0);
 
-    /// The turn that leads from port `entry` to port `exit`.
+    /// Returns the turn that leads from port `entry` to port `exit`.
     ///
     /// # Errors
-    /// If the junction has not so many ports.
+    /// If `entry` or `exit` is not below `degree`.
     pub const fn between(entry: u32, exit: u32, degree: u32) -> Result<Self, NoSuchTurn> {
         if entry >= degree || exit >= degree {
             let turn = Self(if entry > exit { entry } else { exit });
@@ -36,7 +36,7 @@ impl Turn {
         Ok(Self(sum(exit, degree - entry, degree)))
     }
 
-    /// The port that the turn leads to from port `entry`.
+    /// Returns the port that the turn leads to from port `entry`.
     ///
     /// # Errors
     /// If the junction has no such turn.

@@ -17,7 +17,7 @@ pub(super) struct Merges {
 }
 
 impl Merges {
-    /// What has become of an end.
+    /// Returns what has become of an end.
     #[must_use]
     pub(super) fn end(&self, mut end: End) -> End {
         while let Some((fragment, sense)) = self.fragments.get(&end.fragment) {
@@ -26,12 +26,12 @@ impl Merges {
         end
     }
 
-    /// Whether a fragment has become another.
+    /// Returns whether a fragment has become another.
     fn is_gone(&self, fragment: FragmentId) -> bool {
         self.fragments.contains_key(&fragment)
     }
 
-    /// What has become of a port.
+    /// Returns what has become of a port.
     #[must_use]
     pub(super) fn port(&self, mut port: Port) -> Port {
         while let Some((junction, offset, degree)) = self.junctions.get(&port.junction) {
@@ -45,7 +45,7 @@ impl Merges {
 pub(super) type Agree<'a> = &'a dyn Fn(&Fragment, &Fragment, Sense) -> bool;
 
 impl CpMap {
-    /// The map in which two fragments are one, and what follows from it: "given that 𝔸₁ is
+    /// Returns the map in which two fragments are one, and what follows from it: "given that 𝔸₁ is
     /// approximately identical to 𝔸₂, then junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", or +
     /// to − if they are similar inverted. "Those similar junctions must be *unified*": laid over
     /// each other, turned so that the fragment's ports meet. Where both have a fragment at a port

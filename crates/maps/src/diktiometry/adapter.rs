@@ -14,7 +14,7 @@ use super::{
 const SPAN: usize = 4;
 
 impl Observer {
-    /// The updater: the best track's best match changes the map.
+    /// Returns the updater: the best track's best match changes the map.
     pub(super) fn write(
         &mut self,
         track: &Track,
@@ -100,7 +100,8 @@ impl Observer {
         }
     }
 
-    /// A place where the track is projected to be, in the frame it came from or in one of its own.
+    /// Returns a place where the track is projected to be, in the frame it came from or in one of
+    /// its own.
     fn make_place(&mut self, projection: &Projection) -> (PlaceId, PointBox) {
         let position = projection.position;
         if position.width() <= 2.0 * self.config.frame_half_width {

@@ -98,7 +98,7 @@ pub enum Apart {
 }
 
 impl Apart {
-    /// The most by which two places may be apart whose displacement is in a box, m.
+    /// Returns the most by which two places may be apart whose displacement is in a box, m.
     pub(super) fn most(self, offset: PointBox) -> f64 {
         match self {
             Self::Distance => offset.norm().high(),
@@ -180,7 +180,7 @@ pub struct SearchLimits {
     pub width: f64,
     /// Frames reached at most, ≥ 1.
     pub frames: usize,
-    /// Relations followed at most, one after the other.
+    /// Relations followed at most, one by one.
     pub depth: u32,
 }
 
@@ -224,7 +224,7 @@ pub enum PerceptualIndexing {
 pub enum GeometricIndexing {
     /// None.
     Off,
-    /// Depth-limited search from the track's frame, anew each time.
+    /// Depth-limited search from the track's frame, again each time.
     Search,
     /// The set of active frames is carried along from move to move.
     ActiveFrames,
@@ -357,7 +357,7 @@ pub enum GeometricMerge {
 }
 
 impl GeometricMerge {
-    /// Whether path constraints alone are a ground for a merge.
+    /// Returns whether path constraints alone are a ground for a merge.
     pub(super) const fn trusts_paths(self) -> bool {
         !matches!(self, Self::Narrow)
     }
@@ -392,8 +392,8 @@ pub enum JournalLength {
 }
 
 impl Config {
-    /// The values proposed here, for places at least `separation` metres apart, that all look the
-    /// same.
+    /// Returns the values proposed here, for places at least `separation` metres apart, that all
+    /// look the same.
     #[must_use]
     pub fn new(actions: Vec<ActionKind>, separation: f64) -> Self {
         Self {
@@ -482,7 +482,8 @@ impl Config {
         reverses.map(kind).into()
     }
 
-    /// The same actions where each follows a straight corridor along an axis of the compass.
+    /// Returns the same actions where each follows a straight corridor along an axis of the
+    /// compass.
     #[must_use]
     pub fn corridor_actions() -> Vec<ActionKind> {
         let axes = [CompassAxis::NorthSouth, CompassAxis::EastWest];
@@ -493,12 +494,12 @@ impl Config {
         actions
     }
 
-    /// The axis along which an action leads straight, if it does.
+    /// Returns the axis along which an action leads straight, if it does.
     pub(super) fn leads(&self, action: Action) -> Option<CompassAxis> {
         self.actions.get(action.0 as usize)?.leads
     }
 
-    /// The action that usually leads back, if one does.
+    /// Returns the action that usually leads back, if one does.
     pub(super) fn reverse(&self, action: Action) -> Option<Action> {
         self.actions.get(action.0 as usize)?.reverse
     }
@@ -513,7 +514,7 @@ impl Config {
         self.alike_separation * (1.0 - self.shared_scale)
     }
 
-    /// Whether the fields are in their ranges.
+    /// Returns whether the fields are in their ranges.
     ///
     /// # Errors
     /// [`DiktiometryConfigError`] names the first field that is not.
@@ -559,7 +560,7 @@ impl Config {
 }
 
 impl SignatureKind {
-    /// How many columns have to agree, ≥ 1: of 8 at a share of 0.6, 5.
+    /// Returns how many columns have to agree, ≥ 1: of 8 at a share of 0.6, 5.
     pub(super) fn enough(&self) -> usize {
         let enough = libm::ceil(self.share * self.columns as f64 - 1e-9) as usize;
         enough.max(1)
@@ -600,7 +601,7 @@ const fn not_zero(field: &'static str, count: usize) -> Result<(), DiktiometryCo
     }
 }
 
-/// Why a configuration is none.
+/// Reason why a configuration is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DiktiometryConfigError {

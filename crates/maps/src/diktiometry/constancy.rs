@@ -18,7 +18,7 @@ struct Seen {
 }
 
 impl Constancy {
-    /// The chance that it is there now: 1 for what was never looked for.
+    /// Returns the chance that it is there now: 1 for what was never looked for.
     ///
     /// As a chain of two states that changes as often per move as was seen, v: t moves after it was
     /// seen, it is as it was seen with chance (1 + exp(−2vt)) / 2.

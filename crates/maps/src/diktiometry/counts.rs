@@ -48,8 +48,8 @@ impl Counts {
         self.met += other.met;
     }
 
-    /// The share of expectations that are met, at most: the upper end of Wilson's score interval at
-    /// 99 %. 1 for something never expected.
+    /// Returns the share of expectations that are met, at most: the upper end of Wilson's score
+    /// interval at 99 %. 1 for something never expected.
     ///
     /// Expectations that fade are as good as n_eff = (Σw)² / Σw² that do not (Kish); from the sum
     /// alone, E = Σw, n_eff = E (1 + f) / (2 − (1 − f) E), which is E without fading and at last (1
@@ -65,7 +65,7 @@ impl Counts {
     }
 }
 
-/// The upper end of Wilson's score interval at 99 % for a rate seen in so many trials.
+/// Returns the upper end of Wilson's score interval at 99 % for a `rate` seen in `trials` trials.
 pub(super) fn wilson_upper(rate: f64, trials: f64) -> f64 {
     /// The 99.5th percentile of the standard normal.
     const Z: f64 = 2.575_829_303_548_901;
@@ -90,7 +90,8 @@ mod tests {
         counts.rate_at_most(transients().fading) < transients().rate
     }
 
-    /// How often something that was met `met` times is expected in vain before it is a transient.
+    /// Returns how often something that was met `met` times is expected in vain before it is a
+    /// transient.
     fn vain_after(met: u32) -> u32 {
         let mut counts = Counts::default();
         for _ in 0..met {

@@ -3,7 +3,7 @@ use tolman_geom::PoseBox;
 
 use super::{Action, DiktiometryConfigError};
 
-/// Why a move is none. The observer is as it was before.
+/// Reason why a move is refused. The observer is unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ObservedMoveError {
@@ -50,11 +50,11 @@ pub enum ObservedMoveError {
     PerceptMissing,
 }
 
-/// Why there is no observer.
+/// Reason why there is no observer.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StartError {
-    /// The configuration is none.
+    /// The configuration is invalid.
     #[error("the configuration is out of its bounds")]
     Config(#[from] DiktiometryConfigError),
     /// What the robot sees at first does not fit the configuration.

@@ -78,14 +78,14 @@ impl Observer {
         }
     }
 
-    /// What is expected most of an action.
+    /// Returns what is expected most of an action.
     fn likeliest(&self, from: PlaceId, action: Action) -> Option<Predicted> {
         let best = self.map.paths.likeliest(from, action)?;
         let mut all = self.predict(from, action).into_iter();
         all.find(|one| one.place == self.map.link(best).to)
     }
 
-    /// What a track expected and did not meet.
+    /// Returns what a track expected and did not meet.
     fn contradictions(
         &self,
         track: TrackId,
@@ -151,7 +151,7 @@ impl Observer {
         }
     }
 
-    /// The indexer and the matching engine for one track.
+    /// Returns the indexer and the matching engine for one track.
     fn matches(&self, track: &Track, step: &ObservedMove, projection: &Projection) -> Choice {
         let situation = Situation {
             map: &self.map,
@@ -183,7 +183,7 @@ impl Observer {
         plies(&self.map, &reached, projection)
     }
 
-    /// How often the way just gone was gone before.
+    /// Returns how often the way just gone was gone before.
     fn traversals(&self, projection: &Projection) -> u32 {
         let [from, to] = self.ends(projection);
         let grid = &self.map.frame(projection.frame).grid;
@@ -198,8 +198,8 @@ impl Observer {
         }
     }
 
-    /// The tracks that live on: of those at one place the most trusted, none that is trusted too
-    /// little, at most as many as allowed; the best first.
+    /// Returns the tracks that live on: of those at one place the most trusted, none that is
+    /// trusted too little, at most as many as allowed; the best first.
     pub(super) fn select(&mut self, mut tracks: Vec<Track>) -> Vec<Track> {
         // The best track stays the best until it has lost confidence and another has won it.
         let tracking = self.config.tracks;
@@ -268,7 +268,8 @@ impl Observer {
     }
 }
 
-/// The odometry of a move, if nothing says that it is wrong or that the robot was carried off.
+/// Returns the odometry of a move, if nothing says that it is wrong or that the robot was carried
+/// off.
 pub(super) fn trusted_odometry(step: &ObservedMove, choice: &Choice, matcher: Matcher) -> PointBox {
     let plain = matches!(
         matcher,
@@ -284,9 +285,9 @@ pub(super) fn trusted_odometry(step: &ObservedMove, choice: &Choice, matcher: Ma
 /// The confidence of a track that begins because a place looks like what the robot sees.
 const SUPPOSED: f64 = 0.5;
 
-/// How far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an error
-/// or looks strange loses it. A new place posits one where another place was expected, or where
-/// another track needs none.
+/// Returns how far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an
+/// error or looks strange loses it. A new place posits one where another place was expected, or
+/// where another track needs none.
 fn confidence_after(confidence: f64, matcher: Matcher, choice: &Choice, rivals: bool) -> f64 {
     match matcher {
         _ if choice.look == Similarity::Unlike => 0.7 * confidence,

@@ -35,7 +35,7 @@ pub(super) enum Expectation {
 }
 
 impl Candidate {
-    /// A place, with the robot projected to be at `robot` in its frame, m.
+    /// Returns a place, with the robot projected to be at `robot` in its frame, m.
     fn new(map: &Diktiometry, place: PlaceId, robot: PointBox, expectation: Expectation) -> Self {
         Self {
             place,
@@ -45,13 +45,13 @@ impl Candidate {
         }
     }
 
-    /// Whether the robot may be at the place.
+    /// Returns whether the robot may be at the place.
     pub(super) fn is_possible(&self) -> bool {
         self.offset.contains(Point::origin())
     }
 
-    /// Whether the robot can be at no other place than this, if all others are `least_distance`
-    /// `apart` from it.
+    /// Returns whether the robot can be at no other place than this, if all others are
+    /// `least_distance` `apart` from it.
     pub(super) fn is_certain(&self, apart: Apart, least_distance: f64) -> bool {
         self.is_possible() && apart.most(self.offset) < least_distance
     }

@@ -33,7 +33,7 @@ pub struct Distinction {
     pub other: PlaceId,
 }
 
-/// Why nothing was undone. The observer is as it was before.
+/// Reason why nothing was undone. The observer is as it was before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum UndoError {
@@ -53,31 +53,31 @@ pub enum UndoError {
     NoSuchPlace(PlaceId),
 }
 
-/// Why a journal cannot be replayed.
+/// Reason why a journal cannot be replayed.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum JournalError {
     /// There is no observer to begin with.
     #[error("the journal's beginning fits no observer")]
     Start(#[from] StartError),
-    /// A move is none.
-    #[error("move {number} of the journal is none")]
+    /// A move is invalid.
+    #[error("move {number} of the journal is refused")]
     Move {
         /// Which, from 1.
         number: usize,
-        /// Why.
+        /// The underlying error.
         source: ObservedMoveError,
     },
 }
 
 impl Observer {
-    /// What the observer was told so far; none if no journal is kept.
+    /// Returns what the observer was told so far, or `None` if no journal is kept.
     #[must_use]
     pub fn journal(&self) -> Option<&Journal> {
         (self.config.journal == JournalLength::All).then_some(&self.journal)
     }
 
-    /// An observer that was told all that a journal holds. O(moves).
+    /// Returns an observer that was told all that a journal holds. O(moves).
     ///
     /// # Errors
     /// [`JournalError`] if the journal does not fit the configuration.

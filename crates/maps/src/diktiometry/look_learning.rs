@@ -13,7 +13,7 @@ impl Observer {
     /// like it.
     ///
     /// O(a search) a place if looks are used, amortized; where looks have begun to tell more, what
-    /// is noted is weighed anew.
+    /// is noted is weighed again.
     pub(super) fn learn_looks(&mut self, place: PlaceId, view: &Signature, hints: &mut Hints) {
         if self.config.restructuring.look_merge == Use::Off {
             return;
@@ -74,7 +74,7 @@ impl Observer {
     }
 }
 
-/// The places around a place that are different from it for certain, by id.
+/// Returns the places around a place that are different from it for certain, by id.
 fn apart(map: &Diktiometry, place: PlaceId, config: &Config) -> Vec<PlaceId> {
     let here = map.place(place);
     let reached = search(&map.reference, here.frame, &config.search);

@@ -23,8 +23,8 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// How many kinds of looks have to agree before the chance that all of them do by chance is
-    /// below `error`; `None` if there are not as many kinds. O(kinds²).
+    /// Returns how many kinds of looks have to agree before the chance that all of them do by
+    /// chance is below `error`; `None` if there are not as many kinds. O(kinds²).
     ///
     /// For places whose looks have nothing to do with their neighbours', how often two look alike,
     /// p, has a beta distribution by the pairs that were seen (Jeffreys' prior), and the chance of
@@ -37,8 +37,8 @@ impl Looks {
         (1..=self.kinds as usize).find(|agreeing| self.chance(*agreeing) < error)
     }
 
-    /// The chance that so many kinds of looks agree at two places; 1 where nothing is known of
-    /// looks. O(agreeing).
+    /// Returns the probability that `agreeing` kinds of looks agree at two places; 1 where nothing
+    /// is known of looks. O(agreeing).
     pub(super) fn chance(&self, agreeing: usize) -> f64 {
         let kinds = f64::from(self.kinds);
         let pairs = f64::from(self.different).min(0.5 * kinds * (kinds - 1.0));
@@ -57,7 +57,7 @@ impl Looks {
         by_chance.max(by_rule)
     }
 
-    /// All that was counted.
+    /// Returns all that was counted.
     pub(super) fn counts(&self) -> [u64; 5] {
         let Self {
             kinds,

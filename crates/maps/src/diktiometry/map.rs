@@ -51,8 +51,8 @@ pub enum Flaw {
 }
 
 impl Diktiometry {
-    /// Where `to` lies as seen from `from`, from the relations within `limits`; none where they do
-    /// not reach. m.
+    /// Returns where `to` lies as seen from `from`, from the relations within `limits`, or `None`
+    /// where they do not reach. m.
     #[must_use]
     pub fn displacement(
         &self,
@@ -70,16 +70,16 @@ impl Diktiometry {
         Some(there.position + to - from)
     }
 
-    /// Where `to` lies as seen from `from` by the relation between their frames alone, m; none if
-    /// they are not related.
+    /// Returns where `to` lies as seen from `from` by the relation between their frames alone, m,
+    /// or `None` if they are not related.
     pub(super) fn related(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
         let [(start, from), (end, to)] = [from, to].map(|place| self.site(place));
         Some(self.reference.known(start, end)? + to - from)
     }
 
-    /// All places that can be reached from `origin` in the reference graph, where they are for the
-    /// eye: as seen from `origin`, which is at (0, 0). By id. O(frames · degree · log frames +
-    /// places · log places).
+    /// Returns all places that can be reached from `origin` in the reference graph, where they are
+    /// for the eye: as seen from `origin`, which is at (0, 0). By id. O(frames · degree · log
+    /// frames + places · log places).
     #[must_use]
     pub fn layout(&self, origin: PlaceId) -> Vec<DrawnPlace> {
         let Some(origin) = self.paths.resolve(origin) else {
@@ -99,7 +99,7 @@ impl Diktiometry {
         drawn
     }
 
-    /// A place of the map, whether it still stands or not.
+    /// Returns a place of the map, whether it still stands or not.
     pub(super) fn place(&self, id: PlaceId) -> &Place {
         &self.paths.places[id.index()]
     }
@@ -108,7 +108,7 @@ impl Diktiometry {
         &mut self.paths.places[id.index()]
     }
 
-    /// A link of the map, whether it still stands or not.
+    /// Returns a link of the map, whether it still stands or not.
     pub(super) fn link(&self, id: LinkId) -> &Link {
         &self.paths.links[id.index()]
     }
@@ -125,7 +125,7 @@ impl Diktiometry {
         &mut self.reference.frames[id.index()]
     }
 
-    /// The reference link of a place: its frame, and where it is there, m.
+    /// Returns the reference link of a place: its frame, and where it is there, m.
     pub(super) fn site(&self, place: PlaceId) -> (FrameId, PointBox) {
         let place = self.place(place);
         (place.frame, place.position)
@@ -144,8 +144,8 @@ impl Diktiometry {
         self.add_place(frame, PointBox::ORIGIN)
     }
 
-    /// What the two graphs promise and do not keep; none if all is well. O(places + links · degree
-    /// + relations · log degree).
+    /// Returns what the two graphs promise and do not keep, or `None` if all is well. O(places +
+    /// links · degree + relations · log degree).
     #[must_use]
     pub fn check(&self, actions: usize) -> Option<Flaw> {
         self.flawed_link(actions)

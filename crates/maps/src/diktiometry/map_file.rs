@@ -12,7 +12,7 @@ pub struct MapFile {
     journal: Journal,
 }
 
-/// Why a file holds no diktiometry.
+/// Reason why a file holds no diktiometry.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
@@ -33,7 +33,7 @@ pub enum MapFileError {
 }
 
 impl MapFile {
-    /// What is to be written of an observer.
+    /// Returns what is to be written of an observer.
     ///
     /// # Errors
     /// [`MapFileError::NoJournal`] if it kept none.
@@ -46,7 +46,7 @@ impl MapFile {
         })
     }
 
-    /// The observer, as it was. O(moves).
+    /// Returns the observer, as it was. O(moves).
     ///
     /// # Errors
     /// [`MapFileError`] if the journal was cut off, or does not fit the configuration.

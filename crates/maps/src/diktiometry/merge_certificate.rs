@@ -57,7 +57,7 @@ pub struct MergeCertificate {
     pub seal: u64,
 }
 
-/// Why two visits were to one place.
+/// Reason why two visits were to one place.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum MergeProof {

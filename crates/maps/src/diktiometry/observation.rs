@@ -50,7 +50,7 @@ pub enum Exits {
 }
 
 impl Exits {
-    /// Whether an action may be worth a try.
+    /// Returns whether an action may be worth a try.
     #[must_use]
     pub fn allow(&self, action: Action) -> bool {
         match self {

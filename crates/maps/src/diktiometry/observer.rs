@@ -33,7 +33,7 @@ pub struct Observer {
 }
 
 impl Observer {
-    /// An observer of a robot that stands at a place: the map is that place.
+    /// Returns an observer of a robot that stands at a place: the map is that place.
     ///
     /// # Errors
     /// [`StartError`] if the configuration is out of its bounds or the first percept does not fit
@@ -69,13 +69,13 @@ impl Observer {
         })
     }
 
-    /// The map as it is.
+    /// Returns the map as it is.
     #[must_use]
     pub const fn map(&self) -> &Diktiometry {
         &self.map
     }
 
-    /// What it was told at first.
+    /// Returns what it was told at first.
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config
@@ -87,20 +87,20 @@ impl Observer {
         self.map.paths.now
     }
 
-    /// The estimate: all tracks, the best first; never none.
+    /// Returns the estimate: all tracks, the best first; never none.
     #[must_use]
     pub fn tracks(&self) -> &[Track] {
         &self.tracks
     }
 
-    /// The place of the best track.
+    /// Returns the place of the best track.
     #[must_use]
     pub fn place(&self) -> PlaceId {
         self.tracks[0].place
     }
 
-    /// Where an action leads from a place, as far as is known, by the link's id. Empty if it was
-    /// never done there or the place is not known.
+    /// Returns where an action leads from a place, as far as is known, by the link's id. Empty if
+    /// it was never done there or the place is not known.
     #[must_use]
     pub fn predict(&self, place: PlaceId, action: Action) -> Vec<Predicted> {
         let Some(place) = self.map.paths.resolve(place) else {
@@ -119,10 +119,10 @@ impl Observer {
             .collect()
     }
 
-    /// The actions from one place to another that are the likeliest to lead there and few, along
-    /// links that probably work now ([`PathGraph::likely`](super::PathGraph::likely)); the fewest
-    /// where the world never changed. Empty if both are one, none if no way is known. O(places +
-    /// links · (degree + log links)).
+    /// Returns the actions from one place to another that are the likeliest to lead there and few,
+    /// along links that probably work now ([`PathGraph::likely`](super::PathGraph::likely)); the
+    /// fewest where the world never changed. Empty if both are one, or `None` if no way is known.
+    /// O(places + links · (degree + log links)).
     #[must_use]
     pub fn plan(&self, from: PlaceId, to: PlaceId) -> Option<Vec<PlanStep>> {
         let from = self.map.paths.resolve(from)?;
@@ -135,7 +135,7 @@ impl Observer {
     /// Takes in a move that has ended.
     ///
     /// # Errors
-    /// [`ObservedMoveError`] if it is none; everything then is as it was.
+    /// [`ObservedMoveError`] if the move is invalid; nothing has changed then.
     pub fn step(&mut self, step: &ObservedMove) -> Result<StepReport, ObservedMoveError> {
         self.admit(step)?;
         self.map.paths.now += 1;
@@ -215,8 +215,8 @@ impl Observer {
         report.tracks = lines.collect();
     }
 
-    /// Where one place lies as seen from another by what is known of their two frames, m; by a
-    /// search only if they are not related.
+    /// Returns where one place lies as seen from another by what is known of their two frames, m;
+    /// by a search only if they are not related.
     pub(super) fn motion(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
         self.map
             .related(from, to)

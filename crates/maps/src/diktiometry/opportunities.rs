@@ -45,7 +45,7 @@ pub enum OpportunityKind {
 }
 
 impl Opportunity {
-    /// What is won per move: the scripts are offered in this order.
+    /// Returns what is won per move: the scripts are offered in this order.
     #[must_use]
     pub fn worth(&self) -> f64 {
         self.gain / self.cost
@@ -65,8 +65,8 @@ impl OpportunityKind {
 }
 
 impl Observer {
-    /// What would help the map, the most worthwhile first: scripts from where the best track is.
-    /// Nothing depends on whether they are done. O(places + links · degree).
+    /// Returns what would help the map, the most worthwhile first: scripts from where the best
+    /// track is. Nothing depends on whether they are done. O(places + links · degree).
     ///
     /// The opportunity checker "examines the current mapper state to determine if any scripts are
     /// applicable".
@@ -166,8 +166,8 @@ impl Observer {
         OpportunityKind::CloseLoop.offer(other, script, gain)
     }
 
-    /// How many walks along a script there would be: the first tells most, and what did not help
-    /// often will not help, so that no script is preferred for ever.
+    /// Returns how many walks along a script there would be: the first tells most, and what did not
+    /// help often will not help, so that no script is preferred forever.
     fn walks(&self, script: &[Action]) -> f64 {
         let paths = &self.map.paths;
         let links = script.iter().scan(self.place(), |at, action| {
@@ -178,7 +178,7 @@ impl Observer {
         1.0 + links.sum::<f64>() / script.len().max(1) as f64
     }
 
-    /// The actions from here to the nearest place that is a goal, and that place.
+    /// Returns the actions from here to the nearest place that is a goal, and that place.
     fn script_to(&self, is_goal: impl Fn(PlaceId) -> bool) -> Option<(Vec<Action>, PlaceId)> {
         let walkable = Walkable(self);
         let way = path_to(&walkable, self.place().0, |place| is_goal(PlaceId(place)))?;
@@ -187,9 +187,9 @@ impl Observer {
         Some((steps.into_iter().map(|step| step.action).collect(), end))
     }
 
-    /// Whether a robot that goes along a link and back is recognized where it began, by geometry
-    /// alone: after a longer way it might be at a place of its own, and going back would make one
-    /// more place that nobody can tell.
+    /// Returns whether a robot that goes along a link and back is recognized where it began, by
+    /// geometry alone: after a longer way it might be at a place of its own, and going back would
+    /// make one more place that nobody can tell.
     fn is_proved_by_return(&self, link: &Link) -> bool {
         self.map.related(link.from, link.to).is_some_and(|there| {
             // Another measurement within the same bounds: there and back are off by the box's width
@@ -199,7 +199,8 @@ impl Observer {
         })
     }
 
-    /// How well the displacement between two linked places is known: the box's longer side, m.
+    /// Returns how well the displacement between two linked places is known: the box's longer side,
+    /// m.
     fn width(&self, from: PlaceId, to: PlaceId) -> Option<f64> {
         self.map.related(from, to).map(PointBox::width)
     }
@@ -237,7 +238,7 @@ impl Graph for Walkable<'_> {
     }
 }
 
-/// What leads from each place of a way to the next, by the ways there are from each.
+/// Returns what leads from each place of a way to the next, by the ways there are from each.
 pub(super) fn steps_along<I: Iterator<Item = PlanStep>>(
     way: &[u32],
     ways: impl Fn(PlaceId) -> I,

@@ -66,14 +66,14 @@ impl Place {
         }
     }
 
-    /// Whether an action could be tried here when the robot last was here, by what it saw and what
-    /// came of it.
+    /// Returns whether an action could be tried here when the robot last was here, by what it saw
+    /// and what came of it.
     #[must_use]
     pub fn is_open(&self, action: Action) -> bool {
         self.exits.allow(action) && !self.blocked.contains(&action)
     }
 
-    /// The links that lead to it, then those that leave it.
+    /// Returns the links that lead to it, then those that leave it.
     pub(super) fn links(&self) -> Vec<LinkId> {
         [self.incoming.as_slice(), &self.outgoing].concat()
     }
@@ -100,7 +100,7 @@ pub struct Estim {
 }
 
 impl Estim {
-    /// The same in a frame whose origin lies at `-shift`, m.
+    /// Returns the same in a frame whose origin lies at `-shift`, m.
     pub(super) fn shifted(self, shift: Point) -> Self {
         Self {
             position: self.position + shift.coords,
@@ -115,11 +115,11 @@ impl Estim {
 pub struct MergeNote {
     /// The place that may be the same as the one the note is left at.
     pub other: PlaceId,
-    /// Why it may be.
+    /// Reason why it may be.
     pub ground: Ground,
 }
 
-/// Why two places may be one.
+/// Reason why two places may be one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ground {
     /// Their boxes meet.
@@ -197,31 +197,32 @@ pub struct PathGraph {
 }
 
 impl PathGraph {
-    /// The place of an id, whether it still stands or not; none for ids never given.
+    /// Returns the place of an id, whether it still stands or not, or `None` for ids never given.
     #[must_use]
     pub fn place(&self, id: PlaceId) -> Option<&Place> {
         self.places.get(id.index())
     }
 
-    /// The link of an id, whether it still stands or not; none for ids never given.
+    /// Returns the link of an id, whether it still stands or not, or `None` for ids never given.
     #[must_use]
     pub fn link(&self, id: LinkId) -> Option<&Link> {
         self.links.get(id.index())
     }
 
-    /// The places that stand, by id.
+    /// Returns the places that stand, by id.
     pub fn places(&self) -> impl Iterator<Item = (PlaceId, &Place)> {
         let all = (0..).map(PlaceId).zip(&self.places);
         all.filter(|(_, place)| place.fate == Fate::Standing)
     }
 
-    /// The links that stand, by id.
+    /// Returns the links that stand, by id.
     pub fn links(&self) -> impl Iterator<Item = (LinkId, &Link)> {
         let all = (0..).map(LinkId).zip(&self.links);
         all.filter(|(_, link)| link.standing == LinkStatus::Standing)
     }
 
-    /// What a place is called now, after all merges; none if it was elided or never was.
+    /// Returns what a place is called now, after all merges, or `None` if it was elided or never
+    /// was.
     #[must_use]
     pub fn resolve(&self, mut id: PlaceId) -> Option<PlaceId> {
         loop {
@@ -245,14 +246,14 @@ impl PathGraph {
         ids.iter().map(|&id| (id, &self.links[id.index()]))
     }
 
-    /// Where an action has led from a place so far, by id of the link.
+    /// Returns where an action has led from a place so far, by id of the link.
     pub fn along(&self, place: PlaceId, action: Action) -> impl Iterator<Item = (LinkId, &Link)> {
         self.outgoing(place)
             .filter(move |(_, link)| link.action == action)
     }
 
-    /// The link that an action took most often from a place, lately more than long ago; of equals
-    /// the older.
+    /// Returns the link that an action took most often from a place, lately more than long ago; of
+    /// equals the older.
     #[must_use]
     pub fn likeliest(&self, place: PlaceId, action: Action) -> Option<LinkId> {
         let best = self.along(place, action).max_by(|(a, one), (b, other)| {
@@ -262,15 +263,15 @@ impl PathGraph {
         best.map(|(id, _)| id)
     }
 
-    /// The link of an action between two places, if there is one.
+    /// Returns the link of an action between two places, if there is one.
     #[must_use]
     pub fn between(&self, from: PlaceId, action: Action, to: PlaceId) -> Option<LinkId> {
         let mut along = self.along(from, action);
         along.find(|(_, link)| link.to == to).map(|(id, _)| id)
     }
 
-    /// The links that a plan may follow from a place: of each action that is open there, the
-    /// likeliest.
+    /// Returns the links that a plan may follow from a place: of each action that is open there,
+    /// the likeliest.
     pub fn ways(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
         self.outgoing(place).filter(move |(id, link)| {
             let here = &self.places[place.index()];
@@ -278,8 +279,8 @@ impl PathGraph {
         })
     }
 
-    /// The chance that a link leads now where it led: as long as it and the place at its end are
-    /// constant, by the less likely of both. 0 for ids never given.
+    /// Returns the chance that a link leads now where it led: as long as it and the place at its
+    /// end are constant, by the less likely of both. 0 for ids never given.
     #[must_use]
     pub fn chance(&self, id: LinkId) -> f64 {
         let Some(link) = self.link(id) else {
@@ -289,8 +290,8 @@ impl PathGraph {
         link.constancy.chance(self.now).min(there)
     }
 
-    /// The links that are most likely to work now, of each action at a place the one; of equals the
-    /// one that was met more often lately, then the older.
+    /// Returns the links that are most likely to work now, of each action at a place the one; of
+    /// equals the one that was met more often lately, then the older.
     pub fn likely(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
         self.outgoing(place).filter(move |(id, link)| {
             let along = self.along(place, link.action);
@@ -335,12 +336,12 @@ impl PathGraph {
         }
     }
 
-    /// How many places stand.
+    /// Returns how many places stand.
     pub(super) const fn standing(&self) -> usize {
         self.standing
     }
 
-    /// The link for an action between two places, made where there is none.
+    /// Returns the link for an action between two places, made where there is none.
     pub(super) fn link_to(&mut self, from: PlaceId, action: Action, to: PlaceId) -> LinkId {
         if let Some(known) = self.between(from, action, to) {
             return known;
@@ -394,7 +395,7 @@ impl Graph for PathGraph {
 /// The cost of a move.
 const MOVE: u32 = 100;
 
-/// A plan that fails is found out half-way and made anew: some dozen moves in worlds of dozens of
+/// A plan that fails is found out half-way and made again: some dozen moves in worlds of dozens of
 /// places.
 const FAILURE: u32 = 20;
 

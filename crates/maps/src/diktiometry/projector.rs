@@ -33,7 +33,7 @@ impl Observer {
         }
     }
 
-    /// The points between which the robot went, in the frame of the place that was left.
+    /// Returns the points between which the robot went, in the frame of the place that was left.
     pub(super) fn ends(&self, projection: &Projection) -> [Point; 2] {
         let (_, start) = self.map.site(projection.from);
         [start, projection.position].map(PointBox::middle)
@@ -41,9 +41,9 @@ impl Observer {
 }
 
 impl Config {
-    /// The displacement between the points of the places at a move's ends: what odometry says, and
-    /// that a straight corridor leads straight. A robot that seems to have left it was carried, and
-    /// odometry alone counts.
+    /// Returns the displacement between the points of the places at a move's ends: what odometry
+    /// says, and that a straight corridor leads straight. A robot that seems to have left it was
+    /// carried, and odometry alone counts.
     pub(super) fn way(&self, step: &ObservedMove) -> PointBox {
         let way = self.between_places(step.odometry.position);
         let (Some(axis), Ok(line)) = (self.leads(step.action), Interval::about(0.0, self.across))

@@ -23,7 +23,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The number of the relation to a frame, or the one that it would have.
+    /// Returns the number of the relation to a frame, or the one that it would have.
     fn find(&self, to: FrameId) -> Result<usize, usize> {
         self.relations
             .binary_search_by_key(&to, |relation| relation.to)
@@ -60,21 +60,21 @@ pub struct ReferenceGraph {
 }
 
 impl ReferenceGraph {
-    /// All frames, by id. Those that no place is left in have no relations either.
+    /// Returns all frames, by id. Those that no place is left in have no relations either.
     #[must_use]
     pub fn frames(&self) -> &[Frame] {
         &self.frames
     }
 
-    /// What is known of `to` from `from`.
+    /// Returns what is known of `to` from `from`.
     #[must_use]
     pub fn relation(&self, from: FrameId, to: FrameId) -> Option<&Relation> {
         let frame = self.frames.get(from.index())?;
         frame.find(to).ok().map(|at| &frame.relations[at])
     }
 
-    /// Where the origin of `to` lies in `from` by the relation between the two, m; none if they are
-    /// not related.
+    /// Returns where the origin of `to` lies in `from` by the relation between the two, m, or
+    /// `None` if they are not related.
     pub(super) fn known(&self, from: FrameId, to: FrameId) -> Option<PointBox> {
         if from == to {
             return Some(PointBox::ORIGIN);
@@ -88,7 +88,7 @@ impl ReferenceGraph {
         id
     }
 
-    /// Whether an estimate of where `to` lies in `from` agrees with what is known.
+    /// Returns whether an estimate of where `to` lies in `from` agrees with what is known.
     pub(super) fn allows(
         &self,
         from: FrameId,

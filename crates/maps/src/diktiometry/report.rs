@@ -26,7 +26,7 @@ pub struct TrackReport {
     pub track: TrackId,
     /// Where it was.
     pub from: PlaceId,
-    /// How it came to its place; none if the move was blocked.
+    /// How it came to its place, or `None` if the move was blocked.
     pub matcher: Option<Matcher>,
     /// Where it is.
     pub place: PlaceId,
@@ -34,8 +34,8 @@ pub struct TrackReport {
     pub confidence: f64,
     /// What the map predicted before the move.
     pub predicted: Option<Predicted>,
-    /// How the map has the move now that it is updated: from the place it was to the one it is, m;
-    /// none if it knows no way in the reference graph.
+    /// How the map has the move now that it is updated: from the place it was to the one it is, m,
+    /// or `None` if it knows no way in the reference graph.
     pub motion: Option<PointBox>,
 }
 
@@ -46,7 +46,7 @@ pub struct Predicted {
     pub place: PlaceId,
     /// How probable that is, by the counts of the links; those of an action at a place sum to 1.
     pub probability: f64,
-    /// The displacement there, m; none if the reference graph does not relate the two.
+    /// The displacement there, m, or `None` if the reference graph does not relate the two.
     pub displacement: Option<PointBox>,
 }
 

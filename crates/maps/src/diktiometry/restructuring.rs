@@ -57,8 +57,8 @@ enum Diagnosis {
     },
 }
 
-/// Whether a diagnosis is accepted: proposed by one, rejected by none. Nobody is asked after the
-/// first rejection.
+/// Returns whether a diagnosis is accepted: proposed by one, rejected by none. Nobody is asked
+/// after the first rejection.
 fn accepted(verdicts: impl IntoIterator<Item = Verdict>) -> bool {
     let mut proposed = false;
     for verdict in verdicts {
@@ -81,7 +81,7 @@ pub(super) struct Hints {
 }
 
 impl Hints {
-    /// The next place, and whether it changed itself; those that did come first.
+    /// Returns the next place, and whether it changed itself; those that did come first.
     fn next(&mut self) -> Option<(PlaceId, bool)> {
         let changed = self.changed.pop().map(|place| (place, true));
         changed.or_else(|| Some((self.near.pop()?, false)))
@@ -149,7 +149,7 @@ pub(super) fn restructure(
     done
 }
 
-/// Whether the two places of a pair are those that are known to be different.
+/// Returns whether the two places of a pair are those that are known to be different.
 fn separates(map: &Diktiometry, distinction: &Distinction, pair: &geometric::Pair) -> bool {
     let ends = [distinction.one, distinction.other].map(|end| map.paths.resolve(end));
     ends == [Some(pair.a), Some(pair.b)] || ends == [Some(pair.b), Some(pair.a)]
@@ -158,7 +158,7 @@ fn separates(map: &Diktiometry, distinction: &Distinction, pair: &geometric::Pai
 /// What a restructurer says of two places being one.
 type Restructurer = fn(&Diktiometry, &geometric::Pair, &Config) -> Verdict;
 
-/// They are asked one after the other, as far as need be.
+/// They are asked one by one, as far as need be.
 const RESTRUCTURERS: [Restructurer; 6] = [
     geometric::merge,
     views_differ,
@@ -183,9 +183,9 @@ fn views_differ(map: &Diktiometry, pair: &geometric::Pair, config: &Config) -> V
     }
 }
 
-/// What is proposed for a place that is two. Neither restructurer has grounds to reject what the
-/// other sees: places at one point may behave differently, and places that behave alike may be
-/// apart.
+/// Returns what is proposed for a place that is two. Neither restructurer has grounds to reject
+/// what the other sees: places at one point may behave differently, and places that behave alike
+/// may be apart.
 fn split_diagnosis(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     geometric::split(map, place, config).or_else(|| local_path::split(map, place, config))
 }

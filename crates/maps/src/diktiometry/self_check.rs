@@ -118,7 +118,7 @@ impl Observer {
         near.any(|(other, _)| self.may_be_one(place, other))
     }
 
-    /// Whether nothing along the same actions speaks against it that two places are one.
+    /// Returns whether nothing along the same actions speaks against it that two places are one.
     fn may_be_one(&self, one: PlaceId, other: PlaceId) -> bool {
         let mut pairs = Vec::from([(one, other)]);
         let mut next = 0;
@@ -141,7 +141,7 @@ impl Observer {
         true
     }
 
-    /// Whether two places look as one, and lie so by what is known of their frames.
+    /// Returns whether two places look as one, and lie so by what is known of their frames.
     fn seem_one(&self, a: PlaceId, b: PlaceId) -> bool {
         let map: &Diktiometry = &self.map;
         let [one, other] = [a, b].map(|place| map.place(place));

@@ -33,7 +33,7 @@ impl TryFrom<Unchecked> for Signature {
     }
 }
 
-/// Why values are no signature.
+/// Reason why values are no signature.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SignatureError {
@@ -66,7 +66,7 @@ pub enum SignatureError {
 }
 
 impl Signature {
-    /// A signature of columns of `rows` values each, one column after the other.
+    /// Returns a signature of columns of `rows` values each, one column after the other.
     ///
     /// # Errors
     /// [`SignatureError`] if there are no values, the last column is not full, or a value is not
@@ -101,21 +101,21 @@ impl Signature {
         self.rows
     }
 
-    /// How many columns there are.
+    /// Returns how many columns there are.
     #[must_use]
     pub const fn columns(&self) -> usize {
         self.values.len() / self.rows
     }
 
-    /// The values of a column, from the first row on; empty beyond the last column.
+    /// Returns the values of a column, from the first row on; empty beyond the last column.
     #[must_use]
     pub fn column(&self, number: usize) -> &[f64] {
         let from = number * self.rows;
         self.values.get(from..from + self.rows).unwrap_or_default()
     }
 
-    /// How many columns differ nowhere by more than `tolerance` from those of `other`, which is
-    /// turned by `offset` columns: column c is compared with column c + offset there.
+    /// Returns how many columns differ nowhere by more than `tolerance` from those of `other`,
+    /// which is turned by `offset` columns: column c is compared with column c + offset there.
     pub(super) fn agreement(&self, other: &Self, offset: usize, tolerance: f64) -> usize {
         let columns = self.columns();
         (0..columns)

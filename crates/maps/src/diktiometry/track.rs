@@ -17,7 +17,7 @@ pub struct Track {
     pub place: PlaceId,
     /// How far it is trusted, 0 … 1; by its recent matches.
     pub confidence: f64,
-    /// The link it came along; none where it began or came along none.
+    /// The link it came along, or `None` where it began or came along none.
     pub link: Option<LinkId>,
     /// Distance gone since the last CONTINUE, m.
     pub astray: f64,
@@ -32,7 +32,7 @@ pub struct Track {
 pub struct TrackEntry {
     /// The place that was matched.
     pub place: PlaceId,
-    /// The action that led there; none where the track began.
+    /// The action that led there, or `None` where the track began.
     pub action: Option<Action>,
     /// Places that "were considered as matches but rejected" and could be the same still.
     pub doubts: Vec<PlaceId>,
@@ -42,7 +42,7 @@ pub struct TrackEntry {
 }
 
 impl Track {
-    /// A track that begins at a place of a map.
+    /// Returns a track that begins at a place of a map.
     pub(super) fn begun(map: &Diktiometry, id: TrackId, place: PlaceId, confidence: f64) -> Self {
         Self {
             id,
@@ -60,7 +60,7 @@ impl Track {
         }
     }
 
-    /// What became of it as far as it knows: not how the map has the move.
+    /// Returns what became of it as far as it knows: not how the map has the move.
     pub(super) const fn report(
         &self,
         from: PlaceId,

@@ -11,7 +11,7 @@ use super::{
 };
 
 impl Observer {
-    /// The track went from one place to another: the link between them is counted.
+    /// Returns the track went from one place to another: the link between them is counted.
     ///
     /// `robot` is where the robot was projected to be in the frame of the place arrived at.
     pub(super) fn arrive(
@@ -118,9 +118,9 @@ impl Observer {
         }
     }
 
-    /// Whether a way from a place ends before another place: two places are δ_sep apart, so that it
-    /// ends before it, and not there, if it is shorter by more than half of that. By the middles of
-    /// the boxes, along ways that do not turn.
+    /// Returns whether a way from a place ends before another place: two places are δ_sep apart, so
+    /// that it ends before it, and not there, if it is shorter by more than half of that. By the
+    /// middles of the boxes, along ways that do not turn.
     fn ends_before(&self, from: PlaceId, place: PlaceId, way: PointBox) -> bool {
         let length = |displacement: PointBox| displacement.middle().coords.norm();
         let there = self.map.related(from, place);

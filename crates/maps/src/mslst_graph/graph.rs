@@ -41,7 +41,7 @@ pub struct ActionEdge {
     pub head: Option<u32>,
 }
 
-/// Why a list of nodes is no graph of MSLST.
+/// Reason why a list of nodes is no graph of MSLST.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum GraphError {
@@ -127,10 +127,10 @@ impl TryFrom<Saved> for MslstGraph {
 }
 
 impl MslstGraph {
-    /// A graph of nodes that were learned before. O(nodes · degree²).
+    /// Returns a graph of nodes that were learned before. O(nodes · degree²).
     ///
     /// # Errors
-    /// [`GraphError`] if they are none, or not as [`MslstGraph`] promises.
+    /// [`GraphError`] if there are no nodes, or they are not as [`MslstGraph`] promises.
     pub fn from_nodes(nodes: Vec<Node>) -> Result<Self, GraphError> {
         check(&nodes)?;
         Ok(Self::finished(nodes))
@@ -149,13 +149,13 @@ impl MslstGraph {
         graph
     }
 
-    /// All nodes, by id.
+    /// Returns all nodes, by id.
     #[must_use]
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
     }
 
-    /// The ids of all nodes.
+    /// Returns the ids of all nodes.
     pub fn ids(&self) -> impl Iterator<Item = u32> + use<> {
         0..self.nodes.len() as u32
     }
@@ -167,39 +167,39 @@ impl MslstGraph {
         size_of_val(self.nodes.as_slice()) + self.nodes.iter().map(edges).sum::<usize>()
     }
 
-    /// How many nodes there are. The dummy node is none of them.
+    /// Returns the number of nodes, without the dummy node.
     #[must_use]
     pub const fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Whether there are none; never of a graph that was learned.
+    /// Returns whether there are none; never of a graph that was learned.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// The node of an id; none for ids the graph does not have.
+    /// Returns the node of an id, or `None` for ids the graph does not have.
     #[must_use]
     pub fn node(&self, id: u32) -> Option<&Node> {
         self.nodes.get(id as usize)
     }
 
-    /// Whether the node was made in the destination zone.
+    /// Returns whether the node was made in the destination zone.
     #[must_use]
     pub fn is_destination(&self, id: u32) -> bool {
         self.node(id)
             .is_some_and(|node| node.zone == NodeZone::Destination)
     }
 
-    /// Actions from a node to the nearest destination node; none where the graph has no
+    /// Actions from a node to the nearest destination node, or `None` where the graph has no
     /// destination.
     #[must_use]
     pub fn distance(&self, id: u32) -> Option<u32> {
         self.distances.get(id as usize).copied().flatten()
     }
 
-    /// The node that `action` leads to from `id` if the robot then finds itself in `state`.
+    /// Returns the node that `action` leads to from `id` if the robot then finds itself in `state`.
     #[must_use]
     pub fn follow(&self, id: u32, action: Direction, state: u32) -> Option<u32> {
         follow(&self.nodes, id, action, state)
@@ -211,8 +211,8 @@ impl MslstGraph {
     /// earlier.
     ///
     /// The path begins with none of the actions that just `failed` ("not allowing the first action
-    /// to be equal to the one that failed (this results in a longer path)"); none if there is no
-    /// such path. O(nodes + edges).
+    /// to be equal to the one that failed (this results in a longer path)"), or `None` if there is
+    /// no such path. O(nodes + edges).
     #[must_use]
     pub fn path_to_destination(&self, id: u32, failed: &[Direction]) -> Option<Vec<Direction>> {
         let view = Without {

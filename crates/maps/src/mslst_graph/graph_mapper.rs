@@ -27,7 +27,7 @@ impl GraphMapper {
         }
     }
 
-    /// An action succeeded and led to `state`. Returns the node the robot is at now.
+    /// Returns an action succeeded and led to `state`. Returns the node the robot is at now.
     ///
     /// "If the last high-level action succeeded, then normally it adds a node to the graph with the
     /// current state, and connects it to the previous one with the action that it just completed …
@@ -75,19 +75,20 @@ impl GraphMapper {
         self.nodes[self.at as usize].edges.push(edge);
     }
 
-    /// The node the robot is at.
+    /// Returns the node the robot is at.
     #[must_use]
     pub const fn at(&self) -> u32 {
         self.at
     }
 
-    /// The graph as far as it has grown, by id.
+    /// Returns the graph as far as it has grown, by id.
     #[must_use]
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
     }
 
-    /// The graph, with every node's distance to the nearest destination node. O(nodes + edges).
+    /// Returns the graph, with every node's distance to the nearest destination node. O(nodes +
+    /// edges).
     #[must_use]
     pub fn finish(self) -> MslstGraph {
         MslstGraph::finished(self.nodes)

@@ -6,7 +6,7 @@ use super::memory::Memory;
 /// Where on the graph the robot may be.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Localization {
-    /// The best match; none if no node has the robot's state.
+    /// The best match, or `None` if no node has the robot's state.
     pub node: Option<u32>,
     /// All nodes that were left when the search ended, by id.
     pub candidates: Vec<u32>,

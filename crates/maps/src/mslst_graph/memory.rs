@@ -5,7 +5,7 @@ use tolman_maze::Direction;
 /// "It stores its current state and the action that got it there into a list."
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Experience {
-    /// The action that led to the state; none for the state the robot began in.
+    /// The action that led to the state, or `None` for the state the robot began in.
     pub action: Option<Direction>,
     /// The number of the quantizer's state.
     pub state: u32,
@@ -19,8 +19,8 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// A memory of the last `length` pairs of state and action, at least one. The paper uses eight
-    /// in the Large maze and six in the J maze.
+    /// Returns a memory of the last `length` pairs of state and action, at least one. The paper
+    /// uses eight in the Large maze and six in the J maze.
     #[must_use]
     pub fn new(length: usize) -> Self {
         let length = length.max(1);
@@ -50,7 +50,7 @@ impl Memory {
         }
     }
 
-    /// The newest first; at most as many as the memory is long.
+    /// Returns the newest first; at most as many as the memory is long.
     pub fn newest_first(&self) -> impl Iterator<Item = Experience> {
         self.experiences.iter().rev().copied()
     }

@@ -15,7 +15,7 @@ pub struct PlaceGraphConfig {
     /// The share of an outline's points that have to lie on surfaces of the map for a fit to be
     /// believed.
     pub least_share: f64,
-    /// The robot is lost when so many of its last looks, or so much of them, contradict the map.
+    /// The robot is lost when more than this share of its last looks contradicts the map.
     pub most_doubt: f64,
     /// Most hypotheses of where a lost robot is.
     pub most_hypotheses: usize,

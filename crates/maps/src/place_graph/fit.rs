@@ -48,7 +48,7 @@ const COLOUR_GATE: f64 = 0.12;
 /// Nor are those whose normals have a smaller scalar product.
 const NORMAL_GATE: f64 = 0.88;
 
-/// A residual of so many standard deviations counts a quarter.
+/// Residual, in standard deviations, at which a point counts a quarter.
 const DOUBT: f64 = 2.5;
 
 /// A residual of more standard deviations is as good as none found.
@@ -83,7 +83,7 @@ struct Reach {
 }
 
 impl Reach {
-    /// Where surfaces are looked for within `gate` of a point, or of where an arc ends.
+    /// Returns where surfaces are looked for within `gate` of a point, or of where an arc ends.
     fn of(outline: &Outline, gate: f64) -> Self {
         let points = outline.points.iter();
         let points = points.map(|point| point.position.coords.norm() + gate_of(point, gate));
@@ -96,17 +96,17 @@ impl Reach {
     }
 }
 
-/// A point's surface is looked for within this distance, m: what is far is seen vaguely.
+/// Returns a point's surface is looked for within this distance, m: what is far is seen vaguely.
 fn gate_of(point: &OutlinePoint, gate: f64) -> f64 {
     gate + 2.0 * point.deviation
 }
 
-/// An arc's within this, m.
+/// Returns an arc's within this, m.
 const fn arc_gate(gate: f64) -> f64 {
     gate.max(0.15)
 }
 
-/// Those of `surfaces` that lie within `radius` of where the robot is, in their order.
+/// Returns those of `surfaces` that lie within `radius` of where the robot is, in their order.
 fn near<'a>(surfaces: &[&'a Surface], pose: Pose, radius: f64) -> Vec<&'a Surface> {
     let within = (radius + SLACK) * (radius + SLACK);
     let x = pose.position.x;
@@ -115,8 +115,8 @@ fn near<'a>(surfaces: &[&'a Surface], pose: Pose, radius: f64) -> Vec<&'a Surfac
     surfaces.filter(is_near).collect()
 }
 
-/// The run of `surfaces` in which are all whose x is within these bounds, m, and some beside. O(log
-/// surfaces).
+/// Returns the run of `surfaces` in which are all whose x is within these bounds, m, and some
+/// beside. O(log surfaces).
 ///
 /// They come by column of their grid, and within a column in any order: so the bounds are a column
 /// wider.
@@ -130,7 +130,7 @@ fn between<'a, 'b>(surfaces: &'b [&'a Surface], low: f64, high: f64) -> &'b [&'a
 }
 
 /// Returns where a robot is that was predicted at `predicted`, with this covariance, and sees
-/// `outline`; `None` if the covariance is none. `surfaces` come as
+/// `outline`; `None` if the covariance is singular. `surfaces` come as
 /// [`Surfaces::all`](super::surfaces::Surfaces::all) has them. O(rounds · outline · surfaces near
 /// each of its points).
 pub(super) fn fit(
@@ -183,8 +183,8 @@ fn residuals(outline: &Outline, surfaces: &[&Surface], pose: Pose, gate: f64) ->
     points.chain(arcs).collect()
 }
 
-/// How far a point lies off the nearest surface of its colour and direction, along the surface's
-/// normal.
+/// Returns how far a point lies off the nearest surface of its colour and direction, along the
+/// surface's normal.
 fn of_point(
     point: &OutlinePoint,
     surfaces: &[&Surface],
@@ -220,7 +220,7 @@ fn of_point(
     })
 }
 
-/// The share of an outline's points that lie where the map has surfaces, but none alike.
+/// Returns the share of an outline's points that lie where the map has surfaces, but none alike.
 fn contradicted(outline: &Outline, surfaces: &[&Surface], pose: Pose) -> f64 {
     let gate = FIRST_GATE * 0.5;
     let surfaces = near(surfaces, pose, Reach::of(outline, gate).points);
@@ -251,7 +251,7 @@ fn is_alike(surface: &Surface, point: &OutlinePoint, normal: Option<Vector>) -> 
     }
 }
 
-/// How much farther a sonar heard than the nearest surface in its cone.
+/// Returns how much farther a sonar heard than the nearest surface in its cone.
 fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Option<Residual> {
     let ear = pose.compose(arc.mount);
     let axis = ear.heading.unit();
@@ -298,8 +298,8 @@ fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Optio
     })
 }
 
-/// The least and the greatest x of a sector that opens so far, rad, to either side of `ear` and
-/// reaches so far, m.
+/// Returns the least and the greatest x of a sector that opens so far, rad, to either side of `ear`
+/// and reaches so far, m.
 fn extent(ear: Pose, half_width: f64, reach: f64) -> (f64, f64) {
     let axis = ear.heading.radians();
     let [one, other] = [axis - half_width, axis + half_width].map(libm::cos);
@@ -342,7 +342,7 @@ fn normal_equations(residuals: &[Residual]) -> (Matrix3<f64>, Vector3<f64>) {
     (information, pull)
 }
 
-/// What was found counts by how far it is off; what was not, as far off.
+/// Returns what was found counts by how far it is off; what was not, as far off.
 fn likelihood(outline: &Outline, residuals: &[Residual]) -> f64 {
     let worst = MOST_OFF * MOST_OFF;
     let of = outline.points.len() as f64 + ARC_SHARE * outline.arcs.len() as f64;

@@ -99,7 +99,7 @@ fn mean(picture: &Picture, column: u32, rows: core::ops::Range<u32>) -> Option<[
     Some(sum)
 }
 
-/// The largest difference of a part, as a share of the brightness.
+/// Returns the largest difference of a part, as a share of the brightness.
 fn unlikeness(a: [f64; 3], b: [f64; 3]) -> f64 {
     let brightness = (a.iter().sum::<f64>() + b.iter().sum::<f64>()) / 6.0 + 10.0;
     let parts = a.iter().zip(b).map(|(a, b)| (a - b).abs());

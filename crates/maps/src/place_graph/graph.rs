@@ -51,7 +51,7 @@ pub struct PlaceGraph {
     unsettled: u32,
     /// Whether new places are still added.
     grows: bool,
-    /// At so many places they are fitted to each other next.
+    /// Number of places at which they are next fitted to each other.
     relaxes_at: usize,
 }
 
@@ -79,11 +79,11 @@ struct Here {
     doubt: f64,
 }
 
-/// Why a map cannot take in what was seen.
+/// Reason why a map cannot take in what was seen.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlaceGraphError {
-    /// A number of the odometry is none.
+    /// A number of the odometry is not finite.
     #[error("step {step} of the odometry is not finite: leave it out")]
     Odometry {
         /// Which, counted from 0.
@@ -94,7 +94,8 @@ pub enum PlaceGraphError {
     Edge(#[from] PoseGraphError),
 }
 
-/// A hypothesis that is believed this much, after so many looks, is where the robot is.
+/// Belief, 0 to 1, above which a hypothesis is taken for the robot's pose, once it has had enough
+/// looks.
 const SURE: f64 = 0.98;
 const LEAST_LOOKS: u32 = 20;
 
@@ -109,10 +110,10 @@ const RELAX_WITHIN: (f64, f64) = (0.1, 0.05);
 /// The first number of places that are fitted to each other.
 const FIRST_RELAXED: usize = 20;
 
-/// Places farther apart than so many times the distance between places have others between them.
+/// Places farther apart than this, in distances between places, have others between them.
 const LONGEST_LINK: f64 = 2.0;
 
-/// So many places at most are joined by a fit, those that brought most of it.
+/// Maximum number of places joined by a fit: those that brought most of it.
 const MOST_JOINED: usize = 4;
 
 impl PlaceGraph {
@@ -272,8 +273,8 @@ impl PlaceGraph {
         Ok(Whereabouts::Known(here))
     }
 
-    /// Whether a fit is where the robot is: the map shows most of what it sees, and its wheels
-    /// could have led it there.
+    /// Returns whether a fit is where the robot is: the map shows most of what it sees, and its
+    /// wheels could have led it there.
     fn believes(&self, outline: &Outline, fit: &Fit) -> bool {
         let tells_little = outline.points.len() < LEAST_POINTS;
         fit.surprise < MOST_SURPRISE && (tells_little || fit.share >= self.config.least_share)
@@ -455,15 +456,15 @@ const fn beside_a_place() -> Vector3<f64> {
 /// So much of each look contradicts a map that is right, since light changes and edges are vague.
 const USUAL_CONTRADICTION: f64 = 0.08;
 
-/// A fit that is farther from where the wheels had the robot, in squared standard deviations, is
-/// none.
+/// Squared distance, in standard deviations, from the pose by the wheels beyond which a fit is
+/// rejected.
 const MOST_SURPRISE: f64 = 16.0;
 
 /// An outline of fewer points says nothing by itself.
 const LEAST_POINTS: usize = 8;
 
-/// The places that saw the surfaces of a fit first, each with its share of the information, the
-/// largest first.
+/// Returns the places that saw the surfaces of a fit first, each with its share of the information,
+/// the largest first.
 fn seen_by(fit: &Fit) -> Vec<(u32, f64)> {
     let total: f64 = fit.by_place.values().sum();
     let mut places: Vec<(u32, f64)> = (fit.by_place.iter())

@@ -27,7 +27,7 @@ pub(super) struct Hypothesis {
 /// How uncertain a hypothesis is at first: it stands where another place was seen from. m and rad.
 const SPREAD: (f64, f64) = (0.25, 0.25);
 
-/// Hypotheses look into so many directions, wherever a place lies.
+/// Number of directions that hypotheses look into, wherever a place lies.
 const DIRECTIONS: u32 = 14;
 
 /// Places that are nearer to each other make hypotheses but once, m.
@@ -45,8 +45,7 @@ const FORGETS: f64 = 0.95;
 /// What is seen counts this much of what a right map would make of it.
 const BELIEVES: f64 = 0.3;
 
-/// A look that the map contradicts altogether counts so many natural logarithms against a
-/// hypothesis.
+/// Log-likelihood (natural) that a hypothesis loses by a look that the map contradicts altogether.
 const REFUTES: f64 = 6.0;
 
 /// How much likelier the pose that was held is than any other, as a logarithm.
@@ -115,8 +114,8 @@ pub(super) fn weights(hypotheses: &[Hypothesis]) -> Vec<f64> {
 }
 
 impl Hypothesis {
-    /// Where a robot was held to be until it was doubted: likelier than anywhere else to begin
-    /// with.
+    /// Returns where a robot was held to be until it was doubted: likelier than anywhere else to
+    /// begin with.
     pub(super) const fn held(pose: Pose, covariance: Matrix3<f64>) -> Self {
         Self {
             pose,
@@ -152,7 +151,7 @@ impl Hypothesis {
     }
 }
 
-/// The covariance of a pose after a known motion, from that before.
+/// Returns the covariance of a pose after a known motion, from that before.
 pub(super) fn turned_into(motion: Pose, before: &Matrix3<f64>) -> Matrix3<f64> {
     let back = motion.inverse();
     let column = |unit: Pose| difference(Pose::IDENTITY, back.compose(unit).compose(motion));

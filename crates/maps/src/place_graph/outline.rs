@@ -77,7 +77,7 @@ const FACED_WITHIN: f64 = 3.0;
 /// Standard deviation of how far away a faced surface is: m, and by range.
 const FACED_DEVIATION: (f64, f64) = (0.02, 0.01);
 
-/// The surfaces that face a sonar: those that it hears nearer than both its neighbours do.
+/// Returns the surfaces that face a sonar: those that it hears nearer than both its neighbours do.
 fn faced(soundings: &[Sounding]) -> Vec<OutlinePoint> {
     let mut sonars: Vec<&Sounding> = (soundings.iter())
         .filter(|sounding| sounding.half_width > 0.0)
@@ -133,8 +133,8 @@ fn find_normals(points: &mut [OutlinePoint]) {
     }
 }
 
-/// The normal of the line through a point and as many neighbours on either side as belong to it;
-/// `None` if they lie on none.
+/// Returns the normal of the line through a point and as many neighbours on either side as belong
+/// to it; `None` if they lie on none.
 fn normal(points: &[OutlinePoint], index: usize, beside: usize) -> Option<Vector> {
     let around = neighbours(points, index, beside)?;
     let line = Line::through(around)?;
@@ -145,7 +145,7 @@ fn normal(points: &[OutlinePoint], index: usize, beside: usize) -> Option<Vector
     line.is_straight(around).then(|| towards_robot(line.normal))
 }
 
-/// The points about one of them without a gap between any two.
+/// Returns the points about one of them without a gap between any two.
 fn neighbours(points: &[OutlinePoint], index: usize, beside: usize) -> Option<&[OutlinePoint]> {
     let joined = |a: &OutlinePoint, b: &OutlinePoint| {
         (a.position - b.position).norm() < GAP.max(0.2 * a.position.coords.norm())
@@ -165,8 +165,8 @@ struct Line {
 }
 
 impl Line {
-    /// The line from which the points are the least off, each as much as it is known; `None` of
-    /// fewer than four.
+    /// Returns the line from which the points are the least off, each as much as it is known;
+    /// `None` of fewer than four.
     fn through(points: &[OutlinePoint]) -> Option<Self> {
         if points.len() < 4 {
             return None;
@@ -188,8 +188,8 @@ impl Line {
         Some(Self { middle, normal })
     }
 
-    /// Whether the points are off the line by no more than they err: each errs along the line of
-    /// sight.
+    /// Returns whether the points are off the line by no more than they err: each errs along the
+    /// line of sight.
     fn is_straight(&self, points: &[OutlinePoint]) -> bool {
         let off = |point: &OutlinePoint| {
             let sight = point.position.coords.normalize();

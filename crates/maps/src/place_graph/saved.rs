@@ -34,13 +34,13 @@ struct SavedPlace {
     outline: Outline,
 }
 
-/// Why a file holds no place graph.
+/// Reason why a file holds no place graph.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SavedPlaceGraphError {
     /// It is of another format or version.
     #[error(
-        "the format is {format:?}, version {version}; expected {FORMAT:?}, version {VERSION}: learn the map anew"
+        "the format is {format:?}, version {version}; expected {FORMAT:?}, version {VERSION}: learn the map again"
     )]
     WrongFormat {
         /// Format that it names.
@@ -56,16 +56,16 @@ pub enum SavedPlaceGraphError {
         /// What it says.
         value: f64,
     },
-    /// A number of a place is none.
+    /// A number of a place is invalid.
     #[error(
-        "place {place} has a number that is not finite, or a deviation that is not positive: learn the map anew"
+        "place {place} has a number that is not finite, or a deviation that is not positive: learn the map again"
     )]
     NotFinite {
         /// Its id.
         place: usize,
     },
     /// A link joins a place that is not there.
-    #[error("places {from} and {to} are linked, and there are {places}: learn the map anew")]
+    #[error("places {from} and {to} are linked, and there are {places}: learn the map again")]
     Link {
         /// One end.
         from: u32,
@@ -74,7 +74,7 @@ pub enum SavedPlaceGraphError {
         /// The number of places.
         places: usize,
     },
-    /// An edge is none.
+    /// An edge is invalid.
     #[error(transparent)]
     Edge(#[from] PoseGraphError),
 }

@@ -11,8 +11,8 @@ pub struct PlaceMapConfig {
     pub gng: GngConfig,
     /// What each group of features counts for.
     pub weights: FeatureWeights,
-    /// How often all records are learned, one after the other in their order (default 3: "which was
-    /// done three times each run").
+    /// How often all records are learned, one by one in their order (default 3: "which was done
+    /// three times each run").
     pub passes: u32,
 }
 

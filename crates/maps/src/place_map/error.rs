@@ -1,7 +1,7 @@
 use thiserror::Error;
 use tolman_quantizers::{InputError, QuantizerConfigError, SnapshotError};
 
-/// Why records have no features of the kind that was chosen.
+/// Reason why records have no features of the kind that was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum FeatureError {
@@ -63,7 +63,7 @@ pub enum FeatureError {
     },
 }
 
-/// Why a place map cannot be learned, asked or read.
+/// Reason why a place map cannot be learned, asked or read.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlaceMapError {

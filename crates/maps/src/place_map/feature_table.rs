@@ -140,7 +140,7 @@ fn refuse_twice(choice: &FeatureChoice) -> Result<(), FeatureError> {
     })
 }
 
-/// The values of a group of each record, unscaled and equally many.
+/// Returns the values of a group of each record, unscaled and equally many.
 fn of_all(records: &[PlaceRecord], group: FeatureGroup) -> Result<Vec<Vec<f32>>, FeatureError> {
     let values = records.iter().enumerate();
     let values = values.map(|(number, record)| group.values(record, number));
@@ -156,8 +156,8 @@ fn of_all(records: &[PlaceRecord], group: FeatureGroup) -> Result<Vec<Vec<f32>>,
     }
 }
 
-/// What the values of a group are multiplied by. A group that does not vary says nothing and stays
-/// as it is.
+/// Returns what the values of a group are multiplied by. A group that does not vary says nothing
+/// and stays as it is.
 fn scale(values: &[Vec<f32>], scaling: FeatureScaling) -> f32 {
     let len = values.first().map_or(0, Vec::len);
     let variance: f64 = (0..len).map(|index| variance(values, index)).sum();
@@ -173,7 +173,7 @@ fn scale(values: &[Vec<f32>], scaling: FeatureScaling) -> f32 {
     }
 }
 
-/// The variance of one value over all records.
+/// Returns the variance of one value over all records.
 fn variance(values: &[Vec<f32>], index: usize) -> f64 {
     let count = values.len() as f64;
     let column = || values.iter().map(|values| f64::from(values[index]));

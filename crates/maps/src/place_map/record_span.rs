@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RecordSpan {
     mean: Vec<f32>,
-    /// The chosen vectors less the mean, one after the other.
+    /// The chosen vectors less the mean, one by one.
     chosen: Vec<f32>,
     /// Lower triangle: row i has the coordinates of the i-th chosen vector. Rows follow each other,
     /// each one longer.

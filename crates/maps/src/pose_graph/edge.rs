@@ -75,7 +75,7 @@ fn rotation(heading: Heading) -> Matrix2<f64> {
     Matrix2::new(unit.x, -unit.y, unit.y, unit.x)
 }
 
-/// A change of position by position and by heading, and of heading by heading.
+/// Returns a change of position by position and by heading, and of heading by heading.
 fn block(position: Matrix2<f64>, by_heading: Vector2<f64>, heading: f64) -> Matrix3<f64> {
     let mut all = Matrix3::zeros();
     all.fixed_view_mut::<2, 2>(0, 0).copy_from(&position);

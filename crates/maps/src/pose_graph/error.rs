@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-/// Why an edge cannot be added to a graph of poses.
+/// Reason why an edge cannot be added to a graph of poses.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PoseGraphError {
@@ -20,7 +20,7 @@ pub enum PoseGraphError {
         /// The pose.
         pose: u32,
     },
-    /// A number of the measurement or of the information is none.
+    /// A number of the measurement or of the information is not finite.
     #[error("the edge from {from} to {to} has a number that is not finite")]
     NotFinite {
         /// The pose it leaves.

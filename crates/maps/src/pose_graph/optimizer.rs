@@ -42,7 +42,7 @@ impl OptimizerConfig {
         }
     }
 
-    /// What an edge of squared error χ² adds to the whole (Geman and McClure).
+    /// Returns what an edge of squared error χ² adds to the whole (Geman and McClure).
     fn cost(&self, edge: &PoseEdge, squared: f64) -> f64 {
         match (self.doubt, edge.kind) {
             (Some(doubt), PoseEdgeKind::Closure) => doubt * squared / (doubt + squared),
@@ -50,7 +50,7 @@ impl OptimizerConfig {
         }
     }
 
-    /// How much an edge of squared error χ² counts: the derivative of its cost.
+    /// Returns how much an edge of squared error χ² counts: the derivative of its cost.
     fn weight(&self, edge: &PoseEdge, squared: f64) -> f64 {
         match (self.doubt, edge.kind) {
             (Some(doubt), PoseEdgeKind::Closure) => {
@@ -109,7 +109,7 @@ impl PoseGraph {
         optimized
     }
 
-    /// One step down, as long as the damping allows; `None` if there is none.
+    /// Returns one step down, as long as the damping allows; `None` if there is none.
     fn step(&mut self, config: &OptimizerConfig, before: f64, damping: &mut f64) -> Option<f64> {
         let weight = |edge: &PoseEdge, squared| config.weight(edge, squared);
         let system = LinearSystem::about(&self.poses, &self.edges, weight);
@@ -162,7 +162,8 @@ mod tests {
 
     type Errors = Vec<(f64, f64, f64)>;
 
-    /// A way round a circle, whose odometry and closures err by `errors`; some of the closures lie.
+    /// Returns a way round a circle, whose odometry and closures err by `errors`; some of the
+    /// closures lie.
     fn way(errors: &Errors, lies: usize, first: Pose) -> (Vec<Pose>, PoseGraph) {
         let count = errors.len() as u32;
         let along = |index: u32| 0.4 * f64::from(index);

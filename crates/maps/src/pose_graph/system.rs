@@ -93,7 +93,7 @@ impl<'a> LinearSystem<'a> {
         solution
     }
 
-    /// The damped matrix times a vector.
+    /// Returns the damped matrix times a vector.
     fn times(&self, vector: &[Vector3<f64>], damping: f64) -> Vec<Vector3<f64>> {
         let pairs = self.diagonal.iter().zip(vector);
         let mut product: Vec<Vector3<f64>> = pairs

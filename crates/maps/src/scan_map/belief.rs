@@ -32,7 +32,7 @@ const SURE: f64 = 0.9;
 const SURE_WITHIN: f64 = 0.5;
 /// How likely the landmark of the goal is not sensed where the map has it: near its border.
 const UNSENSED: f32 = 0.05;
-/// It begins anew after so many such scans in a row.
+/// Number of such scans in a row after which it starts again.
 const MOST_SURPRISES: u32 = 3;
 
 impl StandpointBelief {
@@ -183,6 +183,20 @@ impl StandpointBelief {
         self.normalize(on);
     }
 
+    /// Weighs what it believes by the landmark of the goal, which the robot senses. O(standpoints).
+    pub fn sensed_the_goal(&mut self, on: &Standpoints) {
+        let senses = |number: &u32| {
+            on.goals().binary_search(number).is_ok()
+                || on.sensing_goal().binary_search(number).is_ok()
+        };
+        for (number, mass) in (0..).zip(&mut self.mass) {
+            if !senses(&number) {
+                *mass *= UNSENSED;
+            }
+        }
+        self.normalize(on);
+    }
+
     fn normalize(&mut self, on: &Standpoints) {
         let sum: f64 = self.mass.iter().copied().map(f64::from).sum();
         if sum > 0.0 && self.surprises < MOST_SURPRISES {
@@ -195,7 +209,8 @@ impl StandpointBelief {
     }
 }
 
-/// Where a way that is sure to `sd` may have ended, from where it should have, each with its share.
+/// Returns where a way that is sure to `sd` may have ended, from where it should have, each with
+/// its share.
 fn spread(sd: Vector) -> impl Iterator<Item = (Vector, f64)> {
     let fine = 0.5 * Standpoints::SPACING;
     let offsets = move |sd: f64| {

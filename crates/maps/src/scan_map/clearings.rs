@@ -25,7 +25,7 @@ pub struct WayToGap<'a> {
 
 const UNREACHED: u32 = u32::MAX;
 
-/// So many cells beside a point the robot may stand in fact, on either side.
+/// Cells on either side of a point that a robot can stand at.
 const BY: i32 = 5;
 /// How many cells farther than the robot the way is worked out: as far as an action may lead it
 /// astray.
@@ -131,8 +131,8 @@ impl<'a> Clearings<'a> {
         (None, cells)
     }
 
-    /// The cells round a point in which the robot can stand, as far as no wall is between: where it
-    /// is, it stands, whatever the map says.
+    /// Returns the cells round a point in which the robot can stand, as far as no wall is between:
+    /// where it is, it stands, whatever the map says.
     fn stands_by(&self, at: Point) -> Vec<GridIndex> {
         let centre = index_of(at);
         let cells = (-BY..=BY)

@@ -25,18 +25,20 @@ pub(super) struct Evidence {
 /// deviations of a range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Misfit {
-    /// Of all beams; none where the map does not say what is seen there.
+    /// Of all beams, or `None` where the map does not say what is seen there.
     all: Option<f64>,
-    /// Of the beams that do not end on new walls; none where no new wall is in sight.
+    /// Of the beams that do not end on new walls, or `None` where no new wall is in sight.
     but_for_new_walls: Option<f64>,
 }
 
 /// By how much a range may differ from what is seen at the nearest standpoint, m (standard
 /// deviation).
 const RANGE_SD: f64 = 0.075;
-/// Beyond so many standard deviations a beam met something else; how far off says no more.
+/// A beam more than this many standard deviations off has met something else; how far off says no
+/// more.
 const OUTLIER: f64 = 3.0;
-/// Beams see the same walls, so that all of them together say no more than so many.
+/// Weight of all beams together, in independent beams: beams that see the same walls are
+/// correlated.
 const INDEPENDENT_BEAMS: f64 = 8.0;
 /// A better fit than that tells no more: the map's own errors are as large, and are met at every
 /// look.
@@ -66,7 +68,7 @@ impl Evidence {
         self.least = self.least.min(misfit.all.unwrap_or(f64::INFINITY));
     }
 
-    /// Whether there is a standpoint where the map shows what could be the scan.
+    /// Returns whether there is a standpoint where the map shows what could be the scan.
     pub(super) fn fits_somewhere(&self) -> bool {
         self.least <= SURPRISE
     }
@@ -82,7 +84,7 @@ impl Evidence {
     }
 }
 
-/// Whether a beam ends long before the wall that the map shows.
+/// Returns whether a beam ends long before the wall that the map shows.
 pub(super) fn ends_before(seen: f64, shown: u8) -> bool {
     shown != UNKNOWN && seen < f64::from(shown) * RANGE_UNIT - OUTLIER * RANGE_SD
 }
@@ -113,17 +115,18 @@ impl Misfit {
         }
     }
 
-    /// Whether all of a scan fits that does not end on new walls, of which some are in sight.
+    /// Returns whether all of a scan fits that does not end on new walls, of which some are in
+    /// sight.
     pub(super) fn fits_but_for_new_walls(self) -> bool {
         self.but_for_new_walls.is_some_and(|misfit| misfit < WELL)
     }
 
-    /// How likely the scan is.
+    /// Returns how likely the scan is.
     pub(super) fn likelihood(self) -> f64 {
         likelihood(self.all.unwrap_or(UNSHOWN))
     }
 
-    /// How likely it is if what ends before its time ends on new walls.
+    /// Returns how likely it is if what ends before its time ends on new walls.
     pub(super) fn likelihood_with_new_walls(self) -> f64 {
         self.but_for_new_walls.map_or(0.0, likelihood)
     }

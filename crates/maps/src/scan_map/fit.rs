@@ -77,7 +77,7 @@ pub(super) fn fit(
     }
 }
 
-/// The best of the shifts within `window` of `centre`, on a mesh of this width.
+/// Returns the best of the shifts within `window` of `centre`, on a mesh of this width.
 fn best_of(centre: Vector, window: Vector, mesh: f64, total: impl Fn(Vector) -> f64) -> Vector {
     let [columns, rows] = [window.x, window.y].map(|window| libm::ceil(window / mesh) as i32);
     let mut best = (f64::NEG_INFINITY, centre);
@@ -93,8 +93,8 @@ fn best_of(centre: Vector, window: Vector, mesh: f64, total: impl Fn(Vector) -> 
     best.1
 }
 
-/// The shift along one axis and its variance, the other shift given: the mean of the posterior, or
-/// the prior where the walls tell nothing.
+/// Returns the shift along one axis and its variance, the other shift given: the mean of the
+/// posterior, or the prior where the walls tell nothing.
 fn along(
     score: impl Fn(Vector) -> f64,
     best: Vector,
@@ -146,7 +146,7 @@ impl Moments {
     }
 }
 
-/// The ends of the beams that can be compared with the walls.
+/// Returns the ends of the beams that can be compared with the walls.
 fn comparable(grid: &WallGrid, expected: Point, heading: Heading, scan: &Scan) -> Vec<Point> {
     let ends = (0..).zip(&scan.ranges).filter_map(|(index, range)| {
         let bearing = heading.turned(scan.ring.bearing(index));
@@ -167,7 +167,7 @@ const PASSED: f64 = 0.15;
 /// corner.
 const RAY_STEP: f64 = 0.06;
 
-/// Where every other beam passes, beam by beam.
+/// Returns where every other beam passes, beam by beam.
 fn rays(expected: Point, heading: Heading, scan: &Scan) -> Vec<Vec<Point>> {
     let ray = |(index, range): (u32, &f64)| {
         let unit = heading.turned(scan.ring.bearing(index)).unit();
@@ -179,7 +179,7 @@ fn rays(expected: Point, heading: Heading, scan: &Scan) -> Vec<Vec<Point>> {
     (0..).zip(&scan.ranges).step_by(2).map(ray).collect()
 }
 
-/// How many beams pass through walls.
+/// Returns how many beams pass through walls.
 fn crossings(grid: &WallGrid, rays: &[Vec<Point>], shift: Vector) -> f64 {
     let crosses = |ray: &&Vec<Point>| ray.iter().any(|at| grid.is_wall(*at + shift));
     2.0 * rays.iter().filter(crosses).count() as f64

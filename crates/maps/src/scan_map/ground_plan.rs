@@ -38,7 +38,7 @@ const FARTHEST: i32 = 1_000_000;
 impl GroundKind {
     const ALL: [Self; 3] = [Self::Unknown, Self::Floor, Self::Wall];
 
-    /// How it is written.
+    /// Returns how it is written.
     const fn letter(self) -> char {
         match self {
             Self::Unknown => ' ',
@@ -120,7 +120,7 @@ impl GroundPlan {
         Ok(plan)
     }
 
-    /// The same with walls at these points, too, as far as they lie within its bounds.
+    /// Returns the same with walls at these points, too, as far as they lie within its bounds.
     pub(super) fn with_walls(&self, at: &[Point]) -> Self {
         let mut plan = self.clone();
         for slot in at.iter().filter_map(|at| self.slot(index_of(*at))) {
@@ -158,7 +158,7 @@ impl GroundPlan {
         sees(from, to, |at| self.at(index_of(at)) == GroundKind::Wall)
     }
 
-    /// What a cell holds.
+    /// Returns what a cell holds.
     pub(super) fn at(&self, index: GridIndex) -> GroundKind {
         let Some(slot) = self.slot(index) else {
             return GroundKind::Unknown;
@@ -172,7 +172,7 @@ impl GroundPlan {
         }
     }
 
-    /// The first cell, and the one past the last.
+    /// Returns the first cell, and the one past the last.
     pub(super) fn bounds(&self) -> [GridIndex; 2] {
         let [column, row] = self.first;
         [self.first, [column + self.columns, row + self.rows]]

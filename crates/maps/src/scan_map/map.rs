@@ -28,7 +28,14 @@ pub struct ScanMap {
     variance: Vector,
     at: Option<u32>,
     agreement: f64,
+    /// Share of the beams of the last scan that contradicted the walls.
+    contradiction: f64,
+    /// The largest share in which two scans in a row did so.
+    surprise: f64,
 }
+
+/// Fewest beams that can contradict walls.
+const FEWEST: u32 = 20;
 
 /// Points where the landmark of the goal was sensed are kept so far apart at least, m.
 const SPACING_OF_GOAL: f64 = 0.02;
@@ -73,6 +80,8 @@ impl ScanMap {
             variance: Vector::zeros(),
             at: None,
             agreement: 1.0,
+            contradiction: 0.0,
+            surprise: 0.0,
         }
     }
 
@@ -93,6 +102,7 @@ impl ScanMap {
         self.agreement = fitted.agreement;
         // Once a scan is drawn, errors before it are the map's, not the robot's.
         self.variance = fitted.variance;
+        self.weigh(seen);
         self.draw(seen);
         self.enter(seen.landmark);
         if seen.landmark == Some(Landmark::Goal) {
@@ -125,6 +135,13 @@ impl ScanMap {
     #[must_use]
     pub const fn agreement(&self) -> f64 {
         self.agreement
+    }
+
+    /// Returns by how much it has been surprised, 0 … 1: the largest share of the beams of two
+    /// scans in a row that contradicted the walls which were known.
+    #[must_use]
+    pub const fn surprise(&self) -> f64 {
+        self.surprise
     }
 
     /// Returns the places, by id.
@@ -173,7 +190,7 @@ impl ScanMap {
         ScanChart::of(self)
     }
 
-    /// The links, each once, the lower id first, in order.
+    /// Returns the links, each once, the lower id first, in order.
     pub(super) fn links(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
         self.links.iter().copied()
     }
@@ -188,6 +205,15 @@ impl ScanMap {
         let is_new = |known: &Point| (at - known).norm() >= SPACING_OF_GOAL;
         if self.goal.iter().all(is_new) {
             self.goal.push(at);
+        }
+    }
+
+    /// Compares a scan with the walls that are known.
+    fn weigh(&mut self, seen: &Advance<'_>) {
+        let scan = (self.position, seen.heading, seen.scan);
+        if let Some(now) = self.grid.contradiction(scan.0, scan.1, scan.2, FEWEST) {
+            self.surprise = self.surprise.max(now.min(self.contradiction));
+            self.contradiction = now;
         }
     }
 
@@ -224,7 +250,7 @@ impl ScanMap {
         self.at = Some(here);
     }
 
-    /// The nearest place within a place's reach and in sight.
+    /// Returns the nearest place within a place's reach and in sight.
     fn nearest(&self) -> Option<u32> {
         let places = (0..).zip(&self.places).filter_map(|(id, place)| {
             let way = (place.position - self.position).norm();

@@ -34,19 +34,19 @@ impl RankedBits {
         Self { words, before, len }
     }
 
-    /// How many are in it.
+    /// Returns how many are in it.
     pub(super) const fn len(&self) -> usize {
         self.len as usize
     }
 
-    /// The number of a slot; `None` if it is not in it. O(1).
+    /// Returns the number of a slot; `None` if it is not in it. O(1).
     pub(super) fn number(&self, slot: usize) -> Option<u32> {
         let word = *self.words.get(slot / WORD)?;
         let bit = 1_u64 << (slot % WORD);
         (word & bit != 0).then(|| self.before[slot / WORD] + (word & (bit - 1)).count_ones())
     }
 
-    /// The slot of a number; `None` if so many are not in it. O(log slots).
+    /// Returns the slot of element `number`, or `None` if there are not that many. O(log slots).
     pub(super) fn slot(&self, number: u32) -> Option<usize> {
         if number >= self.len {
             return None;
@@ -58,14 +58,14 @@ impl RankedBits {
         Some(index * WORD + bit)
     }
 
-    /// The slots, by number.
+    /// Returns the slots, by number.
     pub(super) fn slots(&self) -> impl Iterator<Item = usize> + '_ {
         let words = self.words.iter().enumerate();
         words.flat_map(|(index, word)| set_bits(*word).map(move |bit| index * WORD + bit))
     }
 }
 
-/// The bits that are set, the lowest first.
+/// Returns the bits that are set, the lowest first.
 fn set_bits(mut word: u64) -> impl Iterator<Item = usize> {
     core::iter::from_fn(move || {
         let bit = word.trailing_zeros();

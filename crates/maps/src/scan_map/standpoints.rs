@@ -100,7 +100,8 @@ impl Standpoints {
         self.stands.slots().map(|slot| middle(self.index(slot)))
     }
 
-    /// Returns where one lies; `None` if there are not so many. O(log cells).
+    /// Returns the position of standpoint `number`, or `None` if there are not that many. O(log
+    /// cells).
     #[must_use]
     pub fn position(&self, number: u32) -> Option<Point> {
         let slot = self.stands.slot(number)?;
@@ -221,7 +222,7 @@ impl Standpoints {
         self.stands.number(slot)
     }
 
-    /// The cell of the grid in which the standpoint of a slot lies.
+    /// Returns the cell of the grid in which the standpoint of a slot lies.
     fn index(&self, slot: usize) -> GridIndex {
         let columns = self.columns as usize;
         let [column, row] = [slot % columns, slot / columns];
@@ -271,7 +272,7 @@ impl Lattice {
     }
 }
 
-/// Which cells of the lattice the robot can come to from where it has been.
+/// Returns which cells of the lattice the robot can come to from where it has been.
 fn stands(chart: &ScanChart, clearings: &Clearings<'_>, lattice: &Lattice) -> RankedBits {
     let reached = clearings.reached(chart.places().iter().map(|place| place.position));
     let columns = lattice.columns as usize;
@@ -288,12 +289,12 @@ fn stands(chart: &ScanChart, clearings: &Clearings<'_>, lattice: &Lattice) -> Ra
     })
 }
 
-/// The cell of the lattice in which a cell of the grid lies.
+/// Returns the cell of the lattice in which a cell of the grid lies.
 fn lattice_of(index: GridIndex) -> [i32; 2] {
     index.map(|along| along.div_euclid(EVERY))
 }
 
-/// The box round where the goal was sensed, low and high corner.
+/// Returns the box round where the goal was sensed, low and high corner.
 fn bounds(points: &[Point]) -> Option<[Point; 2]> {
     let first = *points.first()?;
     let margin = tolman_geom::Vector::new(GOAL_MARGIN, GOAL_MARGIN);

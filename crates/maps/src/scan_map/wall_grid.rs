@@ -40,7 +40,9 @@ const DISTANCE_UNIT: f64 = 0.005;
 const FAR: u8 = u8::MAX;
 /// Cells added at once on a side that the grid outgrows.
 const MARGIN: i32 = 48;
-/// A wall stands while at least one beam in so many that reached its cell ended there.
+/// A beam whose end is off by more than that ended elsewhere than on the wall that is known, m.
+const ELSEWHERE: f64 = 0.2;
+/// A wall stands while at least one of this many beams that reached its cell ended there.
 const PASSES_A_HIT: u32 = 3;
 
 impl WallGrid {
@@ -110,6 +112,40 @@ impl WallGrid {
         sees(from, to, |at| self.is_wall(at))
     }
 
+    /// Returns which share of the beams, of those that the grid knows the ends of, end elsewhere;
+    /// `None` where it knows less than `fewest`. O(beams · range).
+    pub(super) fn contradiction(
+        &self,
+        from: Point,
+        heading: Heading,
+        scan: &Scan,
+        fewest: u32,
+    ) -> Option<f64> {
+        let (mut known, mut elsewhere) = (0, 0);
+        for (index, range) in (0..).zip(&scan.ranges) {
+            let unit = heading.turned(scan.ring.bearing(index)).unit();
+            if let Some(expected) = self.range(from, unit, scan.ring.max_range) {
+                known += 1;
+                elsewhere += u32::from((range - expected).abs() > ELSEWHERE);
+            }
+        }
+        (known >= fewest).then(|| f64::from(elsewhere) / f64::from(known))
+    }
+
+    /// How far it is to the first wall, up to `most` m; `None` where unknown ground lies before it.
+    fn range(&self, from: Point, unit: Vector, most: f64) -> Option<f64> {
+        let steps = (most / (0.5 * Self::CELL)) as u32;
+        for step in 1..=steps {
+            let range = f64::from(step) * 0.5 * Self::CELL;
+            match self.ground(index_of(from + unit * range)) {
+                GroundKind::Floor => {}
+                GroundKind::Wall => return Some(range),
+                GroundKind::Unknown => return None,
+            }
+        }
+        Some(most)
+    }
+
     /// Returns a grid of cells between these bounds that hold what `ground` says, each wall as seen
     /// once. O(cells).
     pub(super) fn of(bounds: [GridIndex; 2], ground: impl Fn(GridIndex) -> GroundKind) -> Self {
@@ -138,14 +174,14 @@ impl WallGrid {
         grid
     }
 
-    /// All cells, in rows.
+    /// Returns all cells, in rows.
     pub(super) fn indices(&self) -> impl Iterator<Item = GridIndex> + use<> {
         let [first, end] = self.bounds();
         let row = move |row| (first[0]..end[0]).map(move |column| [column, row]);
         (first[1]..end[1]).flat_map(row)
     }
 
-    /// What a cell holds.
+    /// Returns what a cell holds.
     pub(super) fn ground(&self, index: GridIndex) -> GroundKind {
         match self.cell(index) {
             Some(cell) if cell.is_wall() => GroundKind::Wall,
@@ -172,32 +208,32 @@ impl WallGrid {
         }
     }
 
-    /// Whether the robot has been at a cell: see [`Self::visit`].
+    /// Returns whether the robot has been at a cell: see [`Self::visit`].
     pub(super) fn was_visited(&self, slot: usize) -> bool {
         self.cells[slot].been
     }
 
-    /// Whether a body of this radius can stand with its middle in a cell that a beam has passed, as
-    /// far as walls are known.
+    /// Returns whether a body of this radius can stand with its middle in a cell that a beam has
+    /// passed, as far as walls are known.
     pub(super) fn stands(&self, index: GridIndex, radius: f64) -> bool {
         self.cell(index)
             .is_some_and(|cell| cell.passes > 0 && f64::from(cell.wall) * DISTANCE_UNIT >= radius)
     }
 
-    /// The first cell, and the one past the last.
+    /// Returns the first cell, and the one past the last.
     pub(super) fn bounds(&self) -> [GridIndex; 2] {
         let [column, row] = self.first;
         [self.first, [column + self.columns, row + self.rows]]
     }
 
-    /// The place of a cell among all, in rows; `None` outside.
+    /// Returns the place of a cell among all, in rows; `None` outside.
     pub(super) fn slot(&self, [column, row]: GridIndex) -> Option<usize> {
         let [column, row] = [column - self.first[0], row - self.first[1]];
         let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
         inside.then(|| (row * self.columns + column) as usize)
     }
 
-    /// How many cells there are.
+    /// Returns how many cells there are.
     pub(super) fn len(&self) -> usize {
         self.cells.len()
     }
@@ -255,7 +291,7 @@ impl WallGrid {
         }
     }
 
-    /// Measures the distances round a cell anew that is no wall any longer.
+    /// Measures the distances round a cell again that is no wall any longer.
     fn measure_again(&mut self, gone: GridIndex) {
         let reach = (Self::REACH / Self::CELL) as i32;
         let around = |index: GridIndex, reach: i32| {
@@ -323,7 +359,7 @@ impl GridCell {
     }
 }
 
-/// The cells round a wall, and how far they are from it.
+/// Returns the cells round a wall, and how far they are from it.
 fn reach_of_wall() -> Vec<([i32; 2], u8)> {
     let reach = (WallGrid::REACH / WallGrid::CELL) as i32;
     let row = |row: i32| (-reach..=reach).map(move |column| [column, row]);
@@ -335,20 +371,21 @@ fn reach_of_wall() -> Vec<([i32; 2], u8)> {
     near.collect()
 }
 
-/// Whether no wall stands on the straight line between two points, two of which are tried a cell.
+/// Returns whether no wall stands on the straight line between two points, two of which are tried a
+/// cell.
 pub(super) fn sees(from: Point, to: Point, is_wall: impl Fn(Point) -> bool) -> bool {
     let way = to - from;
     let steps = libm::ceil(way.norm() / (0.5 * WallGrid::CELL)).max(1.0);
     (0..=steps as u32).all(|step| !is_wall(from + way * (f64::from(step) / steps)))
 }
 
-/// The cell in which a point lies.
+/// Returns the cell in which a point lies.
 pub(super) fn index_of(at: Point) -> GridIndex {
     let index = |value: f64| libm::floor(value / WallGrid::CELL) as i32;
     [index(at.x), index(at.y)]
 }
 
-/// The middle of a cell.
+/// Returns the middle of a cell.
 pub(super) fn middle([column, row]: GridIndex) -> Point {
     let at = |index: i32| (f64::from(index) + 0.5) * WallGrid::CELL;
     Point::new(at(column), at(row))

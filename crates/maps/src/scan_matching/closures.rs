@@ -103,7 +103,7 @@ impl ScanMatching {
         known.map_or(0.0, |config| self.reach(config, keyframe).window)
     }
 
-    /// How far off places are looked for from a keyframe.
+    /// Returns how far off places are looked for from a keyframe.
     fn reach(&self, config: &ClosureConfig, keyframe: usize) -> Reach {
         let since = self.keyframes[keyframe].way - self.closing.closed_at;
         let since = since.max(0.0);
@@ -164,7 +164,7 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// The pairs of keyframes that are one place.
+    /// Returns the pairs of keyframes that are one place.
     fn closed(&self) -> Vec<[u32; 2]> {
         let closures = self.graph.closures();
         closures.map(|edge| [edge.from, edge.to]).collect()
@@ -233,7 +233,7 @@ impl ScanMatching {
         Ok(is_accepted)
     }
 
-    /// The matches of the keyframes up to `last` to old ones.
+    /// Returns the matches of the keyframes up to `last` to old ones.
     fn candidates(&self, config: &ClosureConfig, last: usize, reach: Reach) -> Vec<PoseEdge> {
         let stretches = self.stretches(config, last, reach);
         if stretches.is_empty() {
@@ -357,7 +357,7 @@ impl ScanMatching {
     }
 }
 
-/// The information of a match, which is never surer than closures are.
+/// Returns the information of a match, which is never surer than closures are.
 fn bounded(information: Matrix3<f64>, config: &ClosureConfig) -> Option<Matrix3<f64>> {
     let (sd, turn_sd) = (config.sd, config.turn_sd);
     let least = Vector3::new(sd * sd, sd * sd, turn_sd * turn_sd);

@@ -27,12 +27,12 @@ pub(super) struct Stamp {
 
 /// Places within a cell that are told apart along each axis.
 const PLACES: usize = 5;
-/// A bell ends after so many standard deviations.
+/// Standard deviations at which a bell is cut off.
 const BELL: f64 = 3.0;
 /// No grid has more cells than that along an axis.
 const MOST_CELLS: i32 = 6000;
 
-/// Points of one surface are joined by others that are so many cells apart.
+/// Distance, in cells, up to which points of one surface are joined.
 const JOINED: f64 = 1.5;
 
 /// The points of an outline, and those between points of one surface.
@@ -141,18 +141,18 @@ impl LikelihoodGrid {
         }
     }
 
-    /// The cell in which a point lies.
+    /// Returns the cell in which a point lies.
     fn index(&self, point: Point) -> [i32; 2] {
         [point.x, point.y].map(|value| libm::floor(value / self.cell) as i32)
     }
 
-    /// The place of a point among the cells of [`Self::value`].
+    /// Returns the place of a point among the cells of [`Self::value`].
     pub(super) fn slot_of(&self, point: Point) -> [i32; 2] {
         let [column, row] = self.index(point);
         [column - self.first[0], row - self.first[1]]
     }
 
-    /// The likelihood in a cell, in 1 / 255; none outside.
+    /// Returns the likelihood in a cell, in 1 / 255; none outside.
     pub(super) fn value(&self, [column, row]: [i32; 2]) -> u8 {
         let inside = (column as u32 as usize) < self.columns && (row as u32 as usize) < self.rows;
         if inside {

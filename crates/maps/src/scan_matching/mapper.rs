@@ -25,11 +25,11 @@ pub struct ScanStep {
     pub robot_from_laser: Pose,
 }
 
-/// Why a step is refused.
+/// Reason why a step is refused.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ScanMatchingError {
-    /// The odometry is no number.
+    /// The odometry is not a number.
     #[error("the odometry of scan {scan} is not finite; leave the scan out")]
     NotFinite {
         /// The number of the scan, from 0.
@@ -240,7 +240,7 @@ impl ScanMatching {
 /// Points of a scan with which poses are searched.
 const SEARCHED_POINTS: usize = 180;
 
-/// What the wheels alone say of a pose: ahead, left, heading.
+/// Returns what the wheels alone say of a pose: ahead, left, heading.
 fn odometry_information(config: &ScanMatchingConfig) -> Matrix3<f64> {
     let [sd, turn_sd] = [config.odometry_sd, config.odometry_turn_sd];
     let sure = Vector3::new(sd * sd, sd * sd, turn_sd * turn_sd);

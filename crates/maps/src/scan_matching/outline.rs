@@ -25,7 +25,7 @@ const SLANT: f64 = 6.0;
 /// Nearer than that no beam ends but on the robot itself, m.
 const NEAREST: f64 = 0.1;
 
-/// Every so many points tell of the axis.
+/// Interval, in points, at which the axis is estimated.
 const AXIS_POINTS: usize = 5;
 
 impl ScanOutline {
@@ -58,8 +58,8 @@ impl ScanOutline {
         }
     }
 
-    /// Which way its surfaces run: the sum of unit vectors at four times the heading of each, since
-    /// quarter turns are the same.
+    /// Returns which way its surfaces run: the sum of unit vectors at four times the heading of
+    /// each, since quarter turns are the same.
     pub(super) fn axis(&self) -> Vector {
         let told = self.points.iter().step_by(AXIS_POINTS);
         let told = told.filter(|point| point.normal != Vector::zeros());
@@ -87,7 +87,7 @@ impl ScanOutline {
     }
 }
 
-/// The end of the beam `other`, if it met the same surface as the beam `place`.
+/// Returns the end of the beam `other`, if it met the same surface as the beam `place`.
 fn beside(ends: &[(u32, f64, Point)], place: usize, other: usize, spacing: f64) -> Option<Point> {
     let (index, range, at) = ends[place];
     let (other, _, end) = ends.get(other)?;

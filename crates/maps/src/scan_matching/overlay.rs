@@ -25,7 +25,7 @@ pub struct MapOverlay {
     pub rival: f64,
 }
 
-/// Stretches of the other map that are looked for, one after the other.
+/// Stretches of the other map that are looked for, one by one.
 const STRETCHES: usize = 8;
 /// Keyframes to either side of a stretch's middle.
 const HALF: usize = 15;
@@ -97,7 +97,7 @@ impl ScanMatching {
         }
     }
 
-    /// All that the map has seen.
+    /// Returns all that the map has seen.
     fn whole_grid(&self) -> LikelihoodGrid {
         let mut grid = LikelihoodGrid::default();
         let outlines = self.keyframes.iter().map(|keyframe| &keyframe.outline);
@@ -106,7 +106,7 @@ impl ScanMatching {
         grid
     }
 
-    /// The middle of the robot's way, and how far it reaches from there along an axis, m.
+    /// Returns the middle of the robot's way, and how far it reaches from there along an axis, m.
     fn extent(&self) -> Option<(Point, f64)> {
         let mut points = self.graph.poses().iter().map(|pose| pose.position);
         let first = points.next()?;
@@ -117,7 +117,7 @@ impl ScanMatching {
         Some((low + half, half.max()))
     }
 
-    /// The middles of stretches, evenly along the way.
+    /// Returns the middles of stretches, evenly along the way.
     fn middles(&self) -> impl Iterator<Item = usize> {
         let count = self.keyframes.len();
         let every = count.div_ceil(STRETCHES).max(1);

@@ -119,8 +119,8 @@ fn local(grid: &LikelihoodGrid, outline: &ScanOutline, pose: Pose, kernel: f64) 
     local
 }
 
-/// How a point moves along a direction of the robot's frame as the robot moves ahead, left and
-/// turns.
+/// Returns how a point moves along a direction of the robot's frame as the robot moves ahead, left
+/// and turns.
 fn by_pose(point: &SurfacePoint, direction: Vector) -> Vector3<f64> {
     let turning = Vector::new(-point.at.y, point.at.x);
     Vector3::new(direction.x, direction.y, direction.dot(&turning))

@@ -86,7 +86,7 @@ impl ScanMatching {
     }
 }
 
-/// An angle from 0 to a full turn.
+/// Returns an angle from 0 to a full turn.
 fn positive(angle: f64) -> f64 {
     angle - TAU * libm::floor(angle / TAU)
 }

@@ -54,7 +54,7 @@ struct Particle {
 }
 
 impl PoseFilter {
-    /// All particles at `pose`.
+    /// Returns all particles at `pose`.
     ///
     /// # Errors
     /// If a number of the configuration is out of its range.
@@ -156,7 +156,7 @@ impl PoseFilter {
         self.particles = drawn;
     }
 
-    /// The mean of the particles.
+    /// Returns the mean of the particles.
     #[must_use]
     pub fn estimate(&self) -> Pose {
         let (mut position, mut direction) = (Vector::zeros(), Vector::zeros());
@@ -168,8 +168,8 @@ impl PoseFilter {
     }
 }
 
-/// How likely a reading is for a mouse at `pose`, up to a factor; `nothing` is its density where no
-/// wall is met.
+/// Returns how likely a reading is for a mouse at `pose`, up to a factor; `nothing` is its density
+/// where no wall is met.
 fn likelihood<const N: usize>(
     sensor: &RangeModel,
     walls: &WallBelief<N>,
@@ -196,7 +196,7 @@ fn likelihood<const N: usize>(
     sensor.mixed(reading, hit + left * nothing)
 }
 
-/// Two independent normal numbers (Box and Muller 1958).
+/// Returns two independent normal numbers (Box and Muller 1958).
 fn gaussians(rng: &mut impl Rng) -> [f64; 2] {
     let radius = libm::sqrt(-2.0 * libm::log(1.0 - uniform(rng)));
     let angle = TAU * uniform(rng);

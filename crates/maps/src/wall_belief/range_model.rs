@@ -15,7 +15,7 @@ pub struct RangeModel {
 }
 
 impl RangeModel {
-    /// The density of a reading whose expectation is `range`.
+    /// Returns the density of a reading whose expectation is `range`.
     pub(super) fn density(&self, reading: f64, range: f64) -> f64 {
         let relative = self.relative * range;
         let sd = libm::sqrt(self.absolute * self.absolute + relative * relative);
@@ -23,7 +23,8 @@ impl RangeModel {
         libm::exp(-0.5 * off * off) / (sd * libm::sqrt(TAU))
     }
 
-    /// The density of a reading that has the density `met` by the walls, or may be an outlier.
+    /// Returns the density of a reading that has the density `met` by the walls, or may be an
+    /// outlier.
     pub(super) fn mixed(&self, reading: RangeReading, met: f64) -> f64 {
         self.outliers / reading.max_range + (1.0 - self.outliers) * met
     }

@@ -96,14 +96,14 @@ impl<const N: usize> WallBelief<N> {
         self.pitch
     }
 
-    /// The middle of a cell.
+    /// Returns the middle of a cell.
     #[must_use]
     pub fn middle(&self, cell: Cell) -> Point {
         let along = |index: u16| (f64::from(index) + 0.5) * self.pitch;
         Point::new(along(cell.x), along(cell.y))
     }
 
-    /// The cell a point lies in, none outside the maze.
+    /// Returns the cell a point lies in, or `None` outside the maze.
     #[must_use]
     pub fn cell_at(&self, point: Point) -> Option<Cell> {
         let index = |along: f64| {
@@ -163,7 +163,8 @@ impl<const N: usize> WallBelief<N> {
         }
     }
 
-    /// The walls that a reading may have ended at, while the ray stays in its row or column.
+    /// Returns the walls that a reading may have ended at, while the ray stays in its row or
+    /// column.
     fn chances(
         &self,
         origin: Point,
@@ -193,13 +194,14 @@ impl<const N: usize> WallBelief<N> {
         })
     }
 
-    /// How far the face of a wall on a line is.
+    /// Returns how far the face of a wall on a line is.
     fn face(&self, line: Axis) -> f64 {
         (line.distance - self.thickness / 2.0 / line.slope).max(0.0)
     }
 
-    /// Where a ray from `origin` may end that reaches `max_range`: at the lines of the grid that it
-    /// crosses where a wall may stand, the nearest first, up to the first that is believed in.
+    /// Returns where a ray from `origin` may end that reaches `max_range`: at the lines of the grid
+    /// that it crosses where a wall may stand, the nearest first, up to the first that is believed
+    /// in.
     pub fn meetings(
         &self,
         origin: Point,
@@ -219,8 +221,8 @@ impl<const N: usize> WallBelief<N> {
         meetings.filter(|meeting| meeting.known != Knowledge::Open)
     }
 
-    /// The sides of cells that a ray crosses, the nearest first (Amanatides and Woo, "A fast voxel
-    /// traversal algorithm for ray tracing", 1987).
+    /// Returns the sides of cells that a ray crosses, the nearest first (Amanatides and Woo, "A
+    /// fast voxel traversal algorithm for ray tracing", 1987).
     fn crossings(
         &self,
         origin: Point,
@@ -297,7 +299,7 @@ struct Axis {
 /// A wall that a reading may have ended at.
 #[derive(Clone, Copy)]
 struct Chance {
-    /// Its number; none at the border, of which nothing is to be learned.
+    /// Its number, or `None` at the border, of which nothing is to be learned.
     wall: Option<usize>,
     /// How likely it is to stand.
     stands: f64,
@@ -306,8 +308,8 @@ struct Chance {
 }
 
 impl Chance {
-    /// How likely a reading is that ends at the first wall that stands, and with `nothing` where
-    /// none does.
+    /// Returns how likely a reading is that ends at the first wall that stands, and with `nothing`
+    /// where none does.
     fn met(ray: impl Iterator<Item = Self>, nothing: f64) -> f64 {
         let (density, passes) = ray.fold((0.0, 1.0), |(density, passes), wall| {
             let ends = passes * wall.stands;

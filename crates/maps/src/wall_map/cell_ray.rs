@@ -25,7 +25,7 @@ pub enum RayEnd {
 }
 
 impl CellRay {
-    /// A ray that meets a wall after `open` cells.
+    /// Returns a ray that meets a wall after `open` cells.
     #[must_use]
     pub const fn to_wall(direction: Direction, open: u16) -> Self {
         Self {
@@ -35,7 +35,7 @@ impl CellRay {
         }
     }
 
-    /// A ray that has met no wall after `open` cells.
+    /// Returns a ray that has met no wall after `open` cells.
     #[must_use]
     pub const fn out_of_range(direction: Direction, open: u16) -> Self {
         Self {

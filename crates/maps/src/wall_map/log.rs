@@ -37,7 +37,7 @@ impl<const LOG: usize> Log<LOG> {
         }
     }
 
-    /// Whether the last observation is still there as a whole.
+    /// Returns whether the last observation is still there as a whole.
     pub(super) fn holds_last(&self) -> bool {
         self.last()
             .is_some_and(|last| usize::from(last.place) < self.len)
@@ -51,7 +51,7 @@ impl<const LOG: usize> Log<LOG> {
         Some((Wall(u32::from(last.wall)), last.place == 0))
     }
 
-    /// The observations that are there as a whole, the oldest first.
+    /// Returns the observations that are there as a whole, the oldest first.
     #[cfg(feature = "serde")]
     pub(super) fn observations(&self) -> alloc::vec::Vec<alloc::vec::Vec<Wall>> {
         let mut left = *self;

@@ -20,7 +20,7 @@ use super::{CellRay, RayEnd};
 ///     CellRay::to_wall(Direction::North, 11),
 ///     CellRay::to_wall(Direction::East, 0),
 /// ];
-/// assert_eq!(map.observe(start, &rays)?, 13, "the wall in the west is the border: that was known");
+/// assert_eq!(map.observe(start, &rays)?, 13, "the wall in the west is the border, which was known");
 /// assert_eq!(map.knowledge(Cell::new(0, 10), Direction::North), Knowledge::Open);
 /// assert_eq!(map.knowledge(Cell::new(0, 11), Direction::North), Knowledge::Wall);
 ///
@@ -137,7 +137,7 @@ impl<const N: usize> Plane<N> {
 }
 
 impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
-    /// A map of a maze nobody has seen: nothing is known but the border.
+    /// Returns a map of a maze nobody has seen: nothing is known but the border.
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
@@ -156,7 +156,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         })
     }
 
-    /// What is known of a wall; beyond the grid every wall stands.
+    /// Returns what is known of a wall; beyond the grid every wall stands.
     #[must_use]
     pub fn wall(&self, wall: Wall) -> Knowledge {
         let side = self.grid.side(wall);
@@ -216,7 +216,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         observations
     }
 
-    /// Counts a visit to a cell of the maze; of others there are none.
+    /// Counts a visit to a cell of the maze; visits to other cells do not count.
     pub fn visit(&mut self, cell: Cell) {
         if !self.grid.contains(cell) {
             return;
@@ -227,7 +227,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         }
     }
 
-    /// How many times a cell was visited; 255 stands for all greater numbers.
+    /// Returns how many times a cell was visited; 255 stands for all greater numbers.
     #[must_use]
     pub fn visits(&self, cell: Cell) -> u8 {
         let row = self.visits.get(usize::from(cell.y));
@@ -241,7 +241,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         size_of::<Self>() - size_of::<Log<LOG>>()
     }
 
-    /// How many cells were visited.
+    /// Returns how many cells were visited.
     #[must_use]
     pub fn visited_count(&self) -> usize {
         self.visits
@@ -251,13 +251,13 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
             .count()
     }
 
-    /// How many sides of a cell nobody has looked at, 0 to 4.
+    /// Returns how many sides of a cell nobody has looked at, 0 to 4.
     #[must_use]
     pub fn uncertainty(&self, cell: Cell) -> u8 {
         self.count(cell, Knowledge::Unknown)
     }
 
-    /// How many walls nobody has looked at.
+    /// Returns how many walls nobody has looked at.
     #[must_use]
     pub fn unknown_count(&self) -> u32 {
         let (width, height) = (u32::from(self.grid.width()), u32::from(self.grid.height()));
@@ -268,7 +268,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         inner - self.east.count() - self.north.count()
     }
 
-    /// Whether three sides of a cell are known to be walls: there is no way out but back.
+    /// Returns whether three sides of a cell are known to be walls: there is no way out but back.
     #[must_use]
     pub fn is_dead_end(&self, cell: Cell) -> bool {
         self.count(cell, Knowledge::Wall) >= 3
@@ -281,7 +281,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
             .sum()
     }
 
-    /// Whether the ray can be true.
+    /// Returns whether the ray can be true.
     fn check(&self, cell: Cell, ray: CellRay) -> Result<(), ObserveError> {
         let direction = ray.direction;
         let refuse = |cell, known| {
@@ -340,7 +340,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         self.closed_cells
     }
 
-    /// The walls that can be forgotten again, by observation.
+    /// Returns the walls that can be forgotten again, by observation.
     pub(super) fn remembered(&self) -> alloc::vec::Vec<alloc::vec::Vec<Wall>> {
         self.log.observations()
     }

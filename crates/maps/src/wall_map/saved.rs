@@ -108,13 +108,13 @@ impl<const N: usize, const LOG: usize> TryFrom<SavedWallMap> for WallMap<N, LOG>
     }
 }
 
-/// Whether a cell of the grid lies on both sides of the wall.
+/// Returns whether a cell of the grid lies on both sides of the wall.
 fn is_inner(grid: Grid, wall: Wall) -> bool {
     let side = grid.side(wall);
     side.is_some_and(|(cell, direction)| grid.neighbour(cell, direction).is_some())
 }
 
-/// Why a saved map is none.
+/// Reason why a saved map is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SavedWallMapError {

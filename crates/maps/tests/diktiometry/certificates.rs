@@ -11,7 +11,7 @@ use tolman_sim::abstract_world::AbstractWorld;
 
 use super::walk::{ODOMETRY, Walk, alike, blocks, painted};
 
-/// A walk through corridors where nothing changes, and what is proven of its map.
+/// Returns a walk through corridors where nothing changes, and what is proven of its map.
 fn walked(config: Config, seed: u64) -> (Walk, CertifiedMerges) {
     let maze = blocks(5, 0.25, &mut ChaCha8Rng::seed_from_u64(seed));
     let world = AbstractWorld::from_maze(&maze, 1.0);
@@ -75,7 +75,7 @@ fn a_proof_does_not_hold_under_other_assumptions() {
     assert!(alone.is_err(), "{last:?}");
 }
 
-/// All certificates that differ from one in a number.
+/// Returns all certificates that differ from one in a number.
 fn changed(certificate: &MergeCertificate, by: usize) -> Vec<MergeCertificate> {
     let mut all = Vec::new();
     let mut push = |change: &dyn Fn(&mut MergeCertificate)| {

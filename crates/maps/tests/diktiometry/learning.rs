@@ -194,7 +194,7 @@ fn looks_that_deceive_confuse_no_places() {
     assert!((score.purity - 1.0).abs() < 1e-12, "{score:?}");
 }
 
-/// A wall is painted anew: the place is still where it was, and is known by either look.
+/// A wall is painted again: the place is still where it was, and is known by either look.
 #[test]
 fn the_view_set_of_a_place_that_looks_new_grows() {
     let errors = MoveNoise {
@@ -216,8 +216,7 @@ fn the_view_set_of_a_place_that_looks_new_grows() {
     assert_eq!(views(&walk), 27);
 }
 
-/// Doors shut and open for good, one after the other: the map follows, and plans lead where they
-/// say.
+/// Doors shut and open for good, one by one: the map follows, and plans lead where they say.
 #[test]
 fn doors_that_move_are_followed() {
     let doors = [

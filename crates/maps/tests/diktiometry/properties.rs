@@ -69,7 +69,7 @@ fn config(seed: u32) -> Config {
     config
 }
 
-/// A move of a robot that says what it likes.
+/// Returns a move of a robot that says what it likes.
 fn any_move() -> impl Strategy<Value = ObservedMove> {
     let coordinate = prop_oneof![6 => (-2_i32..=2).prop_map(f64::from), 1 => -3.0..3.0, 1 => Just(1e300), 1 => Just(-1e-300)];
     (
@@ -181,7 +181,7 @@ proptest! {
         prop_assert_eq!(&before, &observer);
     }
 
-    /// A move that is none changes nothing.
+    /// A move that is refused changes nothing.
     #[test]
     fn bad_moves_change_nothing(seed in any::<u32>(), moves in prop::collection::vec(any_move(), 1..30)) {
         let config = config(seed);

@@ -10,7 +10,7 @@ use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld};
 
 use super::walk::{ODOMETRY, Walk, alike, blocks, exits, painted, percept};
 
-/// A world of 5 × 5 places, learned, and another robot in it at place `start`.
+/// Returns a world of 5 × 5 places, learned, and another robot in it at place `start`.
 fn learned(seed: u64, sees: bool) -> (Walk, BTreeMap<PlaceId, u32>, AbstractRobot) {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let world = AbstractWorld::from_maze(&blocks(5, 0.4, rng), 1.0);

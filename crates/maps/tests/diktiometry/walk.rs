@@ -28,7 +28,7 @@ pub(crate) const ROUGH: MoveNoise = MoveNoise {
     ..ODOMETRY
 };
 
-/// A mapper of places a metre apart that all look alike.
+/// Returns a mapper of places a metre apart that all look alike.
 pub(crate) fn alike() -> Config {
     Config::new(Config::compass_actions(), 1.0)
 }
@@ -142,7 +142,7 @@ impl Walk {
         }
     }
 
-    /// The true place that each place of the map was most often met at.
+    /// Returns the true place that each place of the map was most often met at.
     pub(crate) fn truths(&self) -> BTreeMap<PlaceId, u32> {
         let mut counts: BTreeMap<PlaceId, BTreeMap<u32, usize>> = BTreeMap::new();
         for &(truth, place) in &self.log {
@@ -237,7 +237,8 @@ impl Scripted {
         }
     }
 
-    /// Where to go from where the robot is. A script that the world does not allow is given up.
+    /// Returns where to go from where the robot is. A script that the world does not allow is given
+    /// up.
     pub(crate) fn choose(&mut self, walk: &Walk) -> Direction {
         if self.script.is_empty() && self.rng.random_range(0.0..1.0) < self.heed {
             let advice = walk.observer.opportunities().into_iter().next();
@@ -268,8 +269,8 @@ pub(crate) fn exits(robot: &AbstractRobot) -> Exits {
     Exits::Seen(exits.map(|direction| Action(direction as u32)).collect())
 }
 
-/// A walk of 1500 moves, with scripts, in the corridors of a braided maze of 6 × 6 cells, with
-/// walls of so many colours; merges by looks are on.
+/// Returns a walk of 1500 moves, with scripts, in the corridors of a braided maze of 6 × 6 cells,
+/// with walls of `colours` colours; merges by looks are on.
 pub(crate) fn braided_corridors(colours: u32, seed: u64) -> Walk {
     let shape = Braided {
         width: 6,

@@ -12,8 +12,8 @@ use crate::{Cell, CheckError, Direction, Grid, Maze};
 /// Characters from one post to the next.
 const PITCH: usize = 4;
 
-/// Whether a drawing begins with this line, which has no blanks before it. Double borders are no
-/// walls, but meant as a drawing.
+/// Returns whether a drawing begins with this line, which has no blanks before it. Double borders
+/// are no walls, but meant as a drawing.
 pub(super) fn begins(line: &str) -> bool {
     let mut chars = line.chars();
     chars.next().is_some_and(is_post) && chars.next().is_none_or(|c| matches!(c, '-' | ' ' | '='))
@@ -23,12 +23,12 @@ const fn is_post(c: char) -> bool {
     matches!(c, 'o' | '+')
 }
 
-/// Where in a line the post to the west of a column is.
+/// Returns where in a line the post to the west of a column is.
 const fn post(column: u16) -> usize {
     column as usize * PITCH
 }
 
-/// Where in a line the middle of a column is.
+/// Returns where in a line the middle of a column is.
 const fn middle(column: u16) -> usize {
     post(column) + PITCH / 2
 }
@@ -205,7 +205,7 @@ struct Row<'a> {
     indent: usize,
 }
 
-/// The lines that belong to the drawing. All are indented like the first.
+/// Returns the lines that belong to the drawing. All are indented like the first.
 fn rows<'a>(lines: &mut Lines<'a>) -> Result<Vec<Row<'a>>, MazeError> {
     let mut rows: Vec<Row<'a>> = Vec::new();
     loop {
@@ -239,8 +239,8 @@ fn rows<'a>(lines: &mut Lines<'a>) -> Result<Vec<Row<'a>>, MazeError> {
     }
 }
 
-/// How many columns the first line of a drawing has posts for; at least one, so that whatever is
-/// wrong with the first is found where it is.
+/// Returns how many columns the first line of a drawing has posts for; at least one, so that
+/// whatever is wrong with the first is found where it is.
 fn width(first: &Row<'_>) -> usize {
     (1..)
         .take_while(|column| is_post(first.char(column * PITCH)))
@@ -254,7 +254,7 @@ const HORIZONTAL: &str =
     "`---` or three blanks between two posts, since a cell is three characters wide";
 
 impl Row<'_> {
-    /// The character at `offset`; lines go on with blanks after their end.
+    /// Returns the character at `offset`; lines go on with blanks after their end.
     fn char(&self, offset: usize) -> char {
         let bytes = self.line.text.as_bytes();
         match bytes.get(self.indent + offset) {
@@ -301,7 +301,7 @@ impl Row<'_> {
         }
     }
 
-    /// Whether this line of posts has a wall along `column`.
+    /// Returns whether this line of posts has a wall along `column`.
     fn horizontal(&self, column: u16) -> Result<bool, MazeError> {
         let mut offsets = post(column) + 1..post(column + 1);
         let stands = self.char(offsets.start) == '-';
@@ -312,7 +312,7 @@ impl Row<'_> {
         }
     }
 
-    /// Whether this line of cells has a wall to the west of `column`.
+    /// Returns whether this line of cells has a wall to the west of `column`.
     fn vertical(&self, column: u16) -> Result<bool, MazeError> {
         match self.char(post(column)) {
             '|' => Ok(true),

@@ -5,7 +5,7 @@ use core::fmt;
 use super::Format;
 use crate::{Cell, CheckError, Direction, Grid};
 
-/// Why a text is not a maze, and where.
+/// Reason why a text is not a maze, and where.
 ///
 /// The text has no file name; whoever opened the file puts it before the message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -32,7 +32,7 @@ pub enum MazeFault {
     /// Nothing but blanks.
     #[error("the file is empty: expected a maze")]
     Empty,
-    /// The first line is none that a maze file begins with.
+    /// The first line does not begin a maze file.
     #[error(
         "found `{found}`, with which no maze file begins: expected a drawing of posts `o` or `+` and \
          walls `---` and `|`, a `key = value` line before one, a size above rows of numbers, or \
@@ -170,7 +170,7 @@ pub enum MazeFault {
         found: String,
     },
     /// A key that no maze file has.
-    #[error("`{found}` is no key of a maze file: use {}", super::tolman::KEYS.join(", "))]
+    #[error("`{found}` is not a key of a maze file: use {}", super::tolman::KEYS.join(", "))]
     UnknownKey {
         /// The key.
         found: String,
@@ -240,7 +240,7 @@ impl MazeFault {
     }
 }
 
-/// Why a format cannot hold a maze.
+/// Reason why a format cannot hold a maze.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -313,13 +313,13 @@ pub enum WriteError {
 
 /// The name of no [`Format`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{name}` is no maze format: use numbers, mazefiles, num or tolman")]
+#[error("`{name}` is not a maze format: use numbers, mazefiles, num or tolman")]
 pub struct UnknownFormat {
     /// The name as given.
     pub name: String,
 }
 
-/// The side of a grid that is too long to be read or written, if any.
+/// Returns the side of a grid that is too long to be read or written, if any.
 pub(super) fn too_large(grid: Grid) -> Option<u16> {
     Some(grid.width().max(grid.height())).filter(|side| *side > Grid::MAX_SIDE)
 }

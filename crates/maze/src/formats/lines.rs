@@ -18,7 +18,7 @@ impl Place {
         }
     }
 
-    /// The place `columns` further on in the same line.
+    /// Returns the place `columns` further on in the same line.
     pub(super) const fn right(self, columns: usize) -> Self {
         Self {
             line: self.line,
@@ -46,7 +46,7 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// The place of the character at byte `offset` of the line.
+    /// Returns the place of the character at byte `offset` of the line.
     pub(super) fn place(self, offset: usize) -> Place {
         let before = self
             .text
@@ -59,7 +59,7 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// The place of `piece`, which must be a part of this line's text.
+    /// Returns the place of `piece`, which must be a part of this line's text.
     pub(super) fn place_of(self, piece: &'a str) -> Place {
         // Splitting and trimming forget where the pieces were; their addresses do not.
         self.place((piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize))
@@ -91,7 +91,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Leaves out blank lines: the next line, if any, is none.
+    /// Skips blank lines, so that the next line, if any, is not blank.
     pub(super) fn skip_blank(&mut self) {
         let mut ahead = self.clone();
         while ahead.next().is_some_and(Line::is_blank) {
@@ -99,12 +99,12 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// The next line that is not blank.
+    /// Returns the next line that is not blank.
     pub(super) fn next_filled(&mut self) -> Option<Line<'a>> {
         self.find(|line| !line.is_blank())
     }
 
-    /// How many lines were taken so far.
+    /// Returns how many lines were taken so far.
     pub(super) const fn read(&self) -> usize {
         self.read
     }

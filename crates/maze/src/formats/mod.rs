@@ -57,7 +57,7 @@ impl MazeFile {
 }
 
 impl From<Maze> for MazeFile {
-    /// A maze without a name, in corridors of no stated width.
+    /// Returns a maze without a name, in corridors of no stated width.
     fn from(maze: Maze) -> Self {
         Self {
             name: None,
@@ -94,7 +94,7 @@ impl Format {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Numbers, Self::Mazefiles, Self::Num, Self::Tolman];
 
-    /// The name, as a command line takes it.
+    /// Returns the name, as a command line takes it.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -105,8 +105,8 @@ impl Format {
         }
     }
 
-    /// The usual file extension, without the dot. Two formats share `txt`: what a file holds is
-    /// found by its text, see [`Format::detect`].
+    /// Returns the usual file extension, without the dot. Two formats share `txt`: what a file
+    /// holds is found by its text, see [`Format::detect`].
     #[must_use]
     pub const fn extension(self) -> &'static str {
         match self {
@@ -116,9 +116,9 @@ impl Format {
         }
     }
 
-    /// The format that `text` is in, by its first line that is not blank: a `key = value` or a
-    /// comment is [`Format::Tolman`], a post [`Format::Mazefiles`], one number (or numbers parted
-    /// by commas) [`Format::Numbers`], several parted by blanks [`Format::Num`].
+    /// Returns the format that `text` is in, by its first line that is not blank: a `key = value`
+    /// or a comment is [`Format::Tolman`], a post [`Format::Mazefiles`], one number (or numbers
+    /// parted by commas) [`Format::Numbers`], several parted by blanks [`Format::Num`].
     ///
     /// # Errors
     /// [`MazeFault::Empty`], or [`MazeFault::UnknownFormat`] with the line.
@@ -213,8 +213,9 @@ pub fn parse_as(text: &str, format: Format) -> Result<MazeFile, MazeError> {
     parsed(text, format).map(|parsed| parsed.file)
 }
 
-/// The text of `file` in `format`: reading it gives the same maze again. The name and the corridor
-/// width are left out where the format has no room for them, that is in all but [`Format::Tolman`].
+/// Returns the text of `file` in `format`: reading it gives the same maze again. The name and the
+/// corridor width are left out where the format has no room for them, that is in all but
+/// [`Format::Tolman`].
 ///
 /// # Errors
 /// What of the maze the format cannot hold.
@@ -278,8 +279,8 @@ impl Parsed {
     }
 }
 
-/// Whether start and goals are those of classic competitions; formats that leave them unsaid can
-/// hold no others.
+/// Returns whether start and goals are those of classic competitions; formats that leave them
+/// unsaid can hold no others.
 fn expect_classic(maze: &Maze, format: Format) -> Result<(), WriteError> {
     let mut goals: Vec<Cell> = maze.grid().middle().collect();
     goals.sort_unstable();

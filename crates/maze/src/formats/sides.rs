@@ -17,14 +17,14 @@ impl Sides {
     }
 }
 
-/// The bits of [`Sides::open`] of a cell of `maze`.
+/// Returns the bits of [`Sides::open`] of a cell of `maze`.
 pub(super) fn open_sides(maze: &Maze, cell: Cell) -> u8 {
     let bit = |direction: Direction| u8::from(maze.is_open(cell, direction)) << direction.index();
     Direction::ALL.into_iter().map(bit).sum()
 }
 
-/// The maze of which `sides` tells every cell, by [`Grid::index`], with start and goals where
-/// classic competitions have them.
+/// Returns the maze of which `sides` tells every cell, by [`Grid::index`], with start and goals
+/// where classic competitions have them.
 pub(super) fn parsed(grid: Grid, sides: &[Sides]) -> Result<Parsed, MazeError> {
     let mut maze = maze(grid, sides)?;
     maze.set_start(Some(CLASSIC_START));

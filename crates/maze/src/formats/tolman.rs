@@ -239,7 +239,7 @@ fn is_separator(c: char) -> bool {
     c.is_whitespace() || matches!(c, ',' | ';' | '(' | ')')
 }
 
-/// One or more pairs of numbers.
+/// Returns one or more pairs of numbers.
 fn cells(text: &str) -> Option<Vec<Cell>> {
     let numbers = text.split(is_separator).filter(|word| !word.is_empty());
     let numbers: Vec<u16> = numbers

@@ -123,7 +123,8 @@ fn open(
     1 + usize::from(dead_end)
 }
 
-/// Whether an open square of four cells would come about without the wall on that side of `cell`.
+/// Returns whether an open square of four cells would come about without the wall on that side of
+/// `cell`.
 fn opens_room(maze: &Maze, cell: Cell, direction: Direction) -> bool {
     let mut opened = maze.clone();
     opened.set_wall(cell, direction, false);

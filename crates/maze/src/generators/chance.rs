@@ -2,12 +2,12 @@
 
 use rand::{Rng, RngExt};
 
-/// A random position in a list of `len` items, which must not be empty.
+/// Returns a random position in a list of `len` items, which must not be empty.
 pub(super) fn position(len: usize, rng: &mut impl Rng) -> usize {
     rng.random_range(0..len as u32) as usize
 }
 
-/// A random number from `least` to `most`, both included.
+/// Returns a random number from `least` to `most`, both included.
 pub(super) fn between(least: u16, most: u16, rng: &mut impl Rng) -> u16 {
     rng.random_range(u32::from(least)..=u32::from(most)) as u16
 }

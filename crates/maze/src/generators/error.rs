@@ -1,6 +1,6 @@
 use crate::Grid;
 
-/// Why a maze cannot be generated.
+/// Reason why a maze cannot be generated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GenerateError {
@@ -16,7 +16,7 @@ pub enum GenerateError {
         /// Rows asked for.
         height: u16,
     },
-    /// The share of dead ends to open is none.
+    /// The share of dead ends to open is invalid.
     #[error("a share of {share} dead ends cannot be opened: give a number from 0 to 1")]
     Share {
         /// The share asked for.

@@ -20,7 +20,7 @@ use alloc::vec::Vec;
 
 use crate::{Cell, Direction, Grid, Maze};
 
-/// The grid of a size that mazes can be generated in.
+/// Returns the grid of a size that mazes can be generated in.
 fn grid(width: u16, height: u16) -> Result<Grid, GenerateError> {
     let grid = Grid::new(width, height);
     if grid.cell_count() < 2 || width.max(height) > Grid::MAX_SIDE {

@@ -86,8 +86,8 @@ fn lines(side: u16, rng: &mut impl Rng) -> Vec<u16> {
     lines
 }
 
-/// A tree over all crossings of the lines that grows by a random opening at a time, and one opening
-/// more.
+/// Returns a tree over all crossings of the lines that grows by a random opening at a time, and one
+/// opening more.
 fn tree_with_loop(columns: &[u16], rows: &[u16], rng: &mut impl Rng) -> Maze {
     let grid = Grid::new(columns.len() as u16, rows.len() as u16);
     let mut maze = Maze::solid(grid);
@@ -115,7 +115,7 @@ fn tree_with_loop(columns: &[u16], rows: &[u16], rng: &mut impl Rng) -> Maze {
 /// A cell and the direction in which its neighbour lies.
 type End = (Cell, Direction);
 
-/// Every two neighbours once, each with the direction to the other.
+/// Returns every two neighbours once, each with the direction to the other.
 fn between(grid: Grid) -> Vec<[End; 2]> {
     let pair = |cell, direction: Direction| {
         let next = grid.neighbour(cell, direction)?;
@@ -127,7 +127,7 @@ fn between(grid: Grid) -> Vec<[End; 2]> {
         .collect()
 }
 
-/// The same corridors in cells.
+/// Returns the same corridors in cells.
 fn stretched(lattice: &Maze, columns: &[u16], rows: &[u16], grid: Grid) -> Maze {
     let place = |cell: Cell| Cell::new(columns[usize::from(cell.x)], rows[usize::from(cell.y)]);
     let mut maze = Maze::solid(grid);
@@ -142,7 +142,8 @@ fn stretched(lattice: &Maze, columns: &[u16], rows: &[u16], grid: Grid) -> Maze 
     maze
 }
 
-/// The lengths of all straight corridors, cells from a bend, junction or dead end to the next.
+/// Returns the lengths of all straight corridors, cells from a bend, junction or dead end to the
+/// next.
 fn corridors(maze: &Maze) -> Vec<u32> {
     let goes_on = |cell, direction: Direction| {
         maze.degree(cell) == 2

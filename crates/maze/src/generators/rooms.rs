@@ -166,7 +166,7 @@ impl Room {
     }
 }
 
-/// The representative of a region's set, shortening the way to it.
+/// Returns the representative of a region's set, shortening the way to it.
 fn root(parents: &mut [u32], mut region: u32) -> u32 {
     while parents[region as usize] != region {
         let grandparent = parents[parents[region as usize] as usize];

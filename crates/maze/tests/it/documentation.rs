@@ -4,7 +4,7 @@ use tolman_maze::{Cell, Format, read};
 
 const PAGE: &str = include_str!("../../../../docs/maze-format.md");
 
-/// The text of the page's first block marked `maze`.
+/// Returns the text of the page's first block marked `maze`.
 fn example() -> &'static str {
     let (_, block) = PAGE.split_once("```maze\n").unwrap();
     block.split_once("```").unwrap().0
@@ -47,7 +47,7 @@ fn the_keys_of_the_table_are_the_keys_that_are_read() {
     read(&format!("{header}\n{unmarked}")).unwrap();
 }
 
-/// What is drawn inside the walled-off area is none of the maze.
+/// What is drawn inside the walled-off area is not part of the maze.
 #[test]
 fn the_long_j_maze_is_one_corridor_and_the_rest_is_solid() {
     let maze = read(include_str!("../../../../mazes/j-long.maze"))

@@ -296,7 +296,7 @@ fn headers() {
     };
     with(
         "corridor-width = 1",
-        "line 1, column 1: `corridor-width` is no key of a maze file: use format, name, \
+        "line 1, column 1: `corridor-width` is not a key of a maze file: use format, name, \
          corridor_width, start, destination",
     );
     with(

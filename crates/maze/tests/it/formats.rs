@@ -296,7 +296,7 @@ fn formats_have_names() {
     let error = "csv".parse::<Format>().unwrap_err();
     assert_eq!(
         error.to_string(),
-        "`csv` is no maze format: use numbers, mazefiles, num or tolman"
+        "`csv` is not a maze format: use numbers, mazefiles, num or tolman"
     );
     assert_eq!(format!("{:>10}|", Format::Num), "       num|");
 }

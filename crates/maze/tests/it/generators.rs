@@ -9,7 +9,7 @@ fn rng(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
 }
 
-/// What every generator promises.
+/// Returns what every generator promises.
 fn holds_together(maze: &Maze) -> Result<(), TestCaseError> {
     prop_assert_eq!(maze.check(), Ok(()));
     prop_assert!(

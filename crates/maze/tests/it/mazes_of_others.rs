@@ -10,7 +10,7 @@ use tolman_maze::{
     CheckError, Direction, Format, MazeFault, MazeFile, WriteError, parse, read, write,
 };
 
-/// The maze files of a folder and the folders in it, or none with a message.
+/// Returns the maze files of a folder and the folders in it, or none with a message.
 fn files(folder: &str) -> Vec<PathBuf> {
     let data = std::env::var_os("TOLMAN_DATA").map_or_else(
         || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),

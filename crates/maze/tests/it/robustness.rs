@@ -37,7 +37,7 @@ fn survives(text: &str) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// A valid file of any format.
+/// Returns a valid file of any format.
 fn valid() -> impl Strategy<Value = String> {
     // From 4 × 4 on the goals are the classic middle, which every format holds.
     (2_u16..=5, 0_usize..4, any::<u64>()).prop_map(|(half, format, seed)| {

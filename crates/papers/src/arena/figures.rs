@@ -96,7 +96,7 @@ impl End {
     }
 }
 
-/// How the runs of a row ended.
+/// Returns how the runs of a row ended.
 fn ends(runs: &[Run], table: &str, task: ArenaTask, row: &str) -> Result<Vec<End>, BoxError> {
     Ok(match task {
         ArenaTask::Learn => {
@@ -120,7 +120,7 @@ fn ends(runs: &[Run], table: &str, task: ArenaTask, row: &str) -> Result<Vec<End
     })
 }
 
-/// The share of runs that ended so; not a number without runs.
+/// Returns the share of runs that ended so; not a number without runs.
 fn share(ends: &[End], end: End) -> f64 {
     let count = ends.iter().filter(|one| **one == end).count();
     count as f64 / ends.len() as f64

@@ -30,6 +30,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "",
     runs: 3,
     quick_runs: 1,
+    tour: None,
     open,
 };
 
@@ -121,6 +122,16 @@ impl Procedure for Arena {
         })
     }
 
+    fn shares(&self, job: &Job<'_>) -> Option<String> {
+        let mut tables = TABLES.into_iter();
+        let (_, _, robot) = tables.find(|(name, ..)| *name == job.table)?;
+        let row = RowName::read(job.row)?;
+        let (robot, contestant, world, number) = self.contest_of(&row, robot, job.run).ok()?;
+        Some(format!(
+            "{contestant}, {robot:?}, in drawing {number} of world {world}"
+        ))
+    }
+
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         figures::of(&self.worlds, runs)
     }
@@ -154,8 +165,12 @@ impl Procedure for Arena {
                     let film = film.take();
                     replay = film.map(|film| film.replay(outing, title.clone()));
                 }
+                (Moment::PutDown, Some(film)) => film.lifted(outing),
                 (_, Some(film)) => film.see(outing),
-                (_, none) => *none = Some(Film::new(outing)),
+                (_, none) => {
+                    let laid = row.contestant.world_from_map(outing.path()[0]);
+                    *none = Some(Film::laid_at(outing, laid));
+                }
             }
         })?;
         Ok(replay.map(|replay| replay.fact("seed", world.seed.to_string())))
@@ -166,20 +181,20 @@ fn no_row(job: &Job<'_>) -> BoxError {
     format!("there is no row {:?} of {}", job.row, job.table).into()
 }
 
-/// Which contest a row's run is, of `worlds` kinds of worlds: run n of the row of all is of kind n
-/// modulo their number.
+/// Returns which contest a row's run is, of `worlds` kinds of worlds: run n of the row of all is of
+/// kind n modulo their number.
 const fn of_all(run: u32, worlds: u32) -> (u32, u32) {
     (run % worlds, run / worlds)
 }
 
 impl Arena {
-    /// The world of a run.
+    /// Returns the world of a run.
     fn world(&self, row: &RowName<'_>, run: u32) -> Result<DrawnWorld, BoxError> {
         let (world, number) = self.place(row, run)?;
         self.worlds[world].draw(self.seed, number)
     }
 
-    /// Which world a run is in, and which drawing of it.
+    /// Returns which world a run is in, and which drawing of it.
     fn place(&self, row: &RowName<'_>, run: u32) -> Result<(usize, u32), BoxError> {
         if row.world == ALL {
             let (world, number) = of_all(run, self.worlds.len() as u32);

@@ -59,7 +59,7 @@ record! {
         metres_over_shortest: Option<f64> => lower("metres / shortest").decimals(2),
         /// Time steps in which it touched something.
         bumps: Option<u32> => lower("bumps"),
-        /// Why it gave up.
+        /// Reason why it gave up.
         why: String => neither("why not"),
     }
 }
@@ -84,7 +84,7 @@ record! {
         /// the true map, which it learned without errors. None where it learned a wrong one even
         /// so.
         with_true_map: Option<bool> => neither("active ceiling, on right maps"),
-        /// Why it did not say.
+        /// Reason why it did not say.
         why: String => neither("why not"),
     }
 }
@@ -147,7 +147,7 @@ impl ConditionRun {
 pub(super) fn conditions(name: &str) -> Table {
     Table::of::<ConditionRun>(name, "The same where robots and worlds are not as they were made")
         .metrics_from(ConditionRun::abstained)
-        .note("Each system on its paper's robot, in one small world of each family in turns. Wheels: each encoder counts wrongly, or each wheel of the e-puck rolls wrongly, by a constant of up to 1, 2 or 5 %. Compass: off by up to 5°, which no e-puck and no Pioneer 2-DX has. Odometry: off by up to 10 %, constant or drawn anew in each time step. Doors: an opening that no place depends on is shut once the robot has learned. Kidnapping: put elsewhere after half the length of the corridors, and not told. Drop-outs: 2 % of all readings do not come. GNG-SLAM Better has rows where `--runs` asks for them.")
+        .note("Each system on its paper's robot, in one small world of each family in turns. Wheels: each encoder counts wrongly, or each wheel of the e-puck rolls wrongly, by a constant of up to 1, 2 or 5 %. Compass: off by up to 5°, which no e-puck and no Pioneer 2-DX has. Odometry: off by up to 10 %, constant or drawn again in each time step. Doors: an opening that no place depends on is shut once the robot has learned. Kidnapping: put elsewhere after half the length of the corridors, and not told. Drop-outs: 2 % of all readings do not come. GNG-SLAM Better has rows where `--runs` asks for them.")
 }
 
 impl LearnRun {
@@ -316,7 +316,7 @@ pub(super) fn sizes(name: &str) -> Table {
         .note("Rows above 16 × 16 are filled where this table is asked for by name (`--table size`): a system takes minutes there.")
 }
 
-/// What a reader must know.
+/// Returns what a reader must know.
 pub(super) fn note(task: ArenaTask, robot: ContestRobot) -> String {
     let worlds = "Small and middle worlds in turns, the same for all rows; of GNG-SLAM Better, which takes seconds in each, one of each kind and none on the laser Pioneer, unless `--runs` asks for more; who abstained stays in the denominator.";
     let places = "Places are junctions, dead ends, start and goal; of the diktiometry corners in place of start and goal. MSLST and the micromouse do not claim that a map is whole, and count as undecided. A micromouse is told the grid, its start and the goal.";

@@ -53,7 +53,7 @@ pub(super) fn contestants(task: ArenaTask) -> impl Iterator<Item = Contestant> {
     })
 }
 
-/// The rows of a table: each contestant in each world, and in all.
+/// Returns the rows of a table: each contestant in each world, and in all.
 pub(super) fn of(
     task: ArenaTask,
     robot: ContestRobot,
@@ -75,13 +75,32 @@ pub(super) fn of(
     rows
 }
 
-/// Contests that were held, by robot, contestant, world and drawing.
-pub(super) type Held = BTreeMap<(ContestRobot, &'static str, usize, u32), Shared>;
+/// Contests that were held.
+pub(super) type Held = BTreeMap<HeldKey, Shared>;
+
+/// A contest: robot, contestant, world and drawing.
+pub(super) type HeldKey = (ContestRobot, &'static str, usize, u32);
 
 /// A contest that whoever comes first holds, while the others wait.
 type Shared = Arc<Mutex<Option<Arc<ContestRecord>>>>;
 
 impl Arena {
+    /// Returns the contest of a row's run.
+    pub(super) fn contest_of(
+        &self,
+        row: &RowName<'_>,
+        robot: ContestRobot,
+        run: u32,
+    ) -> Result<HeldKey, BoxError> {
+        let (world, number) = self.place(row, run)?;
+        // They drive the laser Pioneer in all tables.
+        let robot = match row.contestant {
+            Contestant::Baseline(_) => ContestRobot::Pioneer,
+            _ => robot,
+        };
+        Ok((robot, row.contestant.name(), world, number))
+    }
+
     /// Returns what came of the contest of a row's run, which is held once.
     pub(super) fn held(
         &self,
@@ -89,13 +108,8 @@ impl Arena {
         robot: ContestRobot,
         run: u32,
     ) -> Result<Arc<ContestRecord>, BoxError> {
-        let (world, number) = self.place(row, run)?;
-        // They drive the laser Pioneer in all tables.
-        let robot = match row.contestant {
-            Contestant::Baseline(_) => ContestRobot::Pioneer,
-            _ => robot,
-        };
-        let key = (robot, row.contestant.name(), world, number);
+        let key = self.contest_of(row, robot, run)?;
+        let (robot, _, world, number) = key;
         let shared = {
             let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
             Arc::clone(held.entry(key).or_default())
@@ -148,7 +162,7 @@ fn runs_of(contestant: Contestant, options: &Options, slow: u32) -> u32 {
     }
 }
 
-/// The rows of the table of conditions: each system under each.
+/// Returns the rows of the table of conditions: each system under each.
 pub(super) fn of_conditions(options: &Options) -> Vec<Row> {
     let mut rows = Vec::new();
     for contestant in contestants(ArenaTask::Learn) {
@@ -172,7 +186,7 @@ pub(super) const SIZES: [u16; 6] = [5, 8, 12, 16, 24, 40];
 /// The largest where the table is not asked for by name: larger worlds take minutes each.
 const QUICK_SIDE: u16 = 16;
 
-/// The rows of the table of sizes.
+/// Returns the rows of the table of sizes.
 pub(super) fn of_sizes(options: &Options) -> Vec<Row> {
     let is_named = options.tables.iter().any(|name| name == SIZE_TABLE);
     let mut rows = Vec::new();
@@ -191,7 +205,7 @@ pub(super) fn of_sizes(options: &Options) -> Vec<Row> {
     rows
 }
 
-/// The condition that a row names.
+/// Returns the condition that a row names.
 pub(super) fn condition_of(row: &RowName<'_>) -> Result<Condition, BoxError> {
     Condition::named(row.world).ok_or_else(|| "there is no such condition".into())
 }
@@ -200,7 +214,7 @@ pub(super) fn size_name(side: u16) -> String {
     format!("{side} × {side}")
 }
 
-/// A braided world of the size that a row names.
+/// Returns a braided world of the size that a row names.
 pub(super) fn sized_world(
     master_seed: u64,
     row: &RowName<'_>,

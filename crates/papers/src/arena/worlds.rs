@@ -31,7 +31,7 @@ pub struct DrawnWorld {
     pub name: String,
     /// The drawing.
     pub maze: Maze,
-    /// The seed of all chance.
+    /// The seed of all random numbers.
     pub seed: u64,
     /// How often a robot is put down in it for each task.
     pub starts: u32,

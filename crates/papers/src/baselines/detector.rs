@@ -53,7 +53,7 @@ pub(super) fn table() -> Table {
         ))
 }
 
-/// One run: the share of random poses in a place that look like a corridor.
+/// Returns one run: the share of random poses in a place that look like a corridor.
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let open = PLACES
         .iter()
@@ -90,7 +90,8 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     .fields()?)
 }
 
-/// A place with straight arms in the directions it is open in; the goal lies at the end of one.
+/// Returns a place with straight arms in the directions it is open in; the goal lies at the end of
+/// one.
 fn place(centre: Cell, open: &[Direction]) -> Maze {
     let grid = Grid::new(2 * ARM + 1, 2 * ARM + 1);
     let mut maze = Maze::solid(grid);

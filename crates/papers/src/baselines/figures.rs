@@ -35,7 +35,7 @@ pub(super) fn of(experiment: &Baselines, runs: &[Run]) -> Result<Vec<Figure>, Bo
     Ok(figures)
 }
 
-/// The run with the median number of steps.
+/// Returns the run with the median number of steps.
 fn middle<'a>(runs: &[&'a Run]) -> Result<Option<&'a Run>, BoxError> {
     let steps = |run: &&'a Run| Ok((run.record::<MazeRun>()?.steps, *run));
     let mut sorted = runs

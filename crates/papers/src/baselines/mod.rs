@@ -16,7 +16,7 @@ use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Run,
-    Table,
+    Table, Tour,
 };
 use tolman_replay::Replay;
 
@@ -35,6 +35,10 @@ pub(super) const ENTRY: Entry = Entry {
     source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 2 and 3",
     runs: 25,
     quick_runs: 10,
+    tour: Some(Tour {
+        tables: &["2 (J)", "3 (Large)"],
+        runs: Some(10),
+    }),
     open,
 };
 
@@ -86,7 +90,7 @@ fn table(venue: &Venue) -> Table {
 }
 
 impl Baselines {
-    /// What a run is made of; `None` for one of the detector.
+    /// Returns what a run is made of; `None` for one of the detector.
     fn cast(&self, job: &Job<'_>) -> Result<Option<(Trial<'_>, Mind)>, EpisodeError> {
         let mut venues = self.venues.iter();
         let venue = venues.find(|venue| venue.table == job.table);

@@ -14,7 +14,7 @@ const COMPETITION: [&str; 2] = [
     "mazes/classic/apec2016.txt",
 ];
 
-/// The worlds for these files, or the default ones, and a remark on what is not there.
+/// Returns the worlds for these files, or the default ones, and a remark on what is not there.
 pub(super) fn venues(files: &[PathBuf]) -> Result<(Vec<Venue>, Option<String>), BoxError> {
     if !files.is_empty() {
         return Ok((venue::from_files(files, &[detector::NAME])?, None));

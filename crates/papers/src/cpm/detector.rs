@@ -99,7 +99,7 @@ impl DetectorRun {
         require(shares, "precision or recall is not that of its counts")
     }
 
-    /// The kinds of places, and how many were told rightly, were told, and are there.
+    /// Returns the kinds of places, and how many were told rightly, were told, and are there.
     const fn kinds(&mut self) -> [(PlaceKind, [&mut u32; 3]); 2] {
         let junctions = [
             &mut self.junctions_right,
@@ -117,7 +117,7 @@ impl DetectorRun {
         ]
     }
 
-    /// A place of so many openings looked as one of that many.
+    /// Counts a place of `truth` openings that looked like one of `openings`.
     fn told(&mut self, openings: usize, truth: usize) {
         self.looks += 1;
         self.counted += u32::from(openings == truth);
@@ -156,7 +156,7 @@ fn share(part: u32, whole: u32) -> Option<f64> {
 /// The row of a robot that walks and looks again from the middle of what it takes for a place.
 const ON_THE_WAY: &str = "Ours, on the way";
 
-/// The rows of single sweeps: each in the mazes as they are drawn, and with wide corridors.
+/// Returns the rows of single sweeps: each in the mazes as they are drawn, and with wide corridors.
 fn settings() -> impl Iterator<Item = (&'static Setting, Option<f64>)> {
     let widths = [None, Some(WIDE)];
     let each = |width| SETTINGS.iter().map(move |setting| (setting, width));
@@ -190,7 +190,7 @@ pub(super) fn table() -> Table {
     ))
 }
 
-/// What the runs depend on.
+/// Returns what the runs depend on.
 pub(super) fn config() -> impl Serialize {
     #[derive(Serialize)]
     struct Config {
@@ -229,7 +229,7 @@ pub(super) fn run(courses: &[Course], job: &Job<'_>) -> Result<Fields, BoxError>
     Ok(tally.finished().fields()?)
 }
 
-/// One sweep in every cell that the robot can come to.
+/// Returns one sweep in every cell that the robot can come to.
 fn sweep_all(
     setting: &Setting,
     course: &Course,
@@ -282,7 +282,7 @@ fn walk(course: &Course, seed: u64, tally: &mut DetectorRun) -> Result<(), BoxEr
     Ok(())
 }
 
-/// What a cell with so many ways out is.
+/// Returns what a cell with `degree` ways out is.
 const fn place_of(degree: usize) -> PlaceKind {
     match degree {
         0 => PlaceKind::Closed,

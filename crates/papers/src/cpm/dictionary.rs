@@ -47,7 +47,7 @@ pub(super) fn table(learning: &Course) -> Table {
         )
 }
 
-/// One walk through the learning maze.
+/// Returns one walk through the learning maze.
 pub(super) fn run(learning: &Course, job: &Job<'_>) -> Result<Fields, BoxError> {
     let patterns = learn(learning, job.seed)?;
     Ok(DictionaryRun::of(&patterns).fields()?)

@@ -23,13 +23,13 @@ const RADIUS: f64 = 4.5;
 /// The colour of junctions, and the first of fragments.
 const JUNCTION: Series = Series(0);
 
-/// The name of a fragment on all pictures.
+/// Returns the name of a fragment on all pictures.
 #[must_use]
 pub fn fragment_name(id: FragmentId) -> String {
     format!("A{}", id.0)
 }
 
-/// What stands at a junction, or its number.
+/// Returns what stands at a junction, or its number.
 #[must_use]
 pub fn junction_name(map: &CpMap, id: JunctionId) -> String {
     match map.junction(id).and_then(|junction| junction.landmark) {
@@ -39,14 +39,14 @@ pub fn junction_name(map: &CpMap, id: JunctionId) -> String {
     }
 }
 
-/// The colour of a fragment: that of its number.
+/// Returns the colour of a fragment: that of its number.
 const fn series(id: FragmentId) -> Series {
     Series(1 + id.0 % (Series::COLOURS - 1))
 }
 
-/// A map over the maze it was learned in: each fragment along the corridor it stands for, in a
-/// colour of its own, with its name and its signs; junctions as squares. Dashed stubs are ports
-/// nobody has been through.
+/// Returns a map over the maze it was learned in: each fragment along the corridor it stands for,
+/// in a colour of its own, with its name and its signs; junctions as squares. Dashed stubs are
+/// unexplored ports.
 #[must_use]
 pub fn over_maze(map: &CpMap, course: &Course) -> Drawing {
     let plan = plan_with(map, course);
@@ -56,7 +56,7 @@ pub fn over_maze(map: &CpMap, course: &Course) -> Drawing {
     ))
 }
 
-/// A drive over the map that it was made by, over the maze.
+/// Returns a drive over the map that it was made by, over the maze.
 #[must_use]
 pub fn drive(map: &CpMap, course: &Course, path: &[Pose]) -> Drawing {
     let mut plan = plan_with(map, course);
@@ -106,7 +106,7 @@ fn plan_with(map: &CpMap, course: &Course) -> FloorPlan {
     plan
 }
 
-/// The plan of a maze; what the robot cannot come to is solid.
+/// Returns the plan of a maze; what the robot cannot come to is solid.
 #[must_use]
 pub fn plan_of(course: &Course) -> FloorPlan {
     let world = &course.world;
@@ -137,9 +137,9 @@ fn add(graph: &mut GraphPicture, node: GraphNode) {
     }
 }
 
-/// The map by itself, as the paper's figure 8: fragment nodes as discs, junction nodes as squares,
-/// each edge with the sign of the fragment's end and the port of the junction. Nodes lie as they do
-/// in the maze.
+/// Returns the map by itself, as the paper's figure 8: fragment nodes as discs, junction nodes as
+/// squares, each edge with the sign of the fragment's end and the port of the junction. Nodes lie
+/// as they do in the maze.
 #[must_use]
 pub fn graph(map: &CpMap, course: &Course) -> Drawing {
     let world = &course.world;
@@ -215,7 +215,7 @@ fn junction_node(map: &CpMap, id: JunctionId, junction: &Junction, at: Point) ->
         .note(note.trim_end_matches("; "))
 }
 
-/// An end as the paper writes it: A3⁺.
+/// Returns an end as the paper writes it: A3⁺.
 fn end_name(end: End) -> String {
     let sign = match end.sign {
         Sign::Minus => "⁻",
@@ -224,7 +224,7 @@ fn end_name(end: End) -> String {
     format!("{}{sign}", fragment_name(end.fragment))
 }
 
-/// The three properties of a fragment node: its sequence, its length, its transitions.
+/// Returns the three properties of a fragment node: its sequence, its length, its transitions.
 fn fragment_note(map: &CpMap, id: FragmentId, fragment: &Fragment) -> String {
     let sequence: Vec<String> = fragment
         .patterns
@@ -280,19 +280,19 @@ fn stubs(graph: &mut GraphPicture, layout: &Layout, world: &World) {
     }
 }
 
-/// The middles of cells.
+/// Returns the middles of cells.
 fn centres(cells: &[Cell], world: &World) -> Vec<Point> {
     cells.iter().map(|cell| world.cell_centre(*cell)).collect()
 }
 
-/// The point half way along cells, where a fragment's name stands.
+/// Returns the point half way along cells, where a fragment's name stands.
 #[must_use]
 pub fn middle_of(cells: &[Cell], world: &World) -> Point {
     point_along(&centres(cells, world), 0.5)
 }
 
-/// A point along a way from which straight lines to both its ends pass no node: the middle, or as
-/// near to it as may be.
+/// Returns a point along a way from which straight lines to both its ends pass no node: the middle,
+/// or as near to it as may be.
 fn free(points: &[Point], graph: &GraphPicture) -> Point {
     let (Some(start), Some(end)) = (points.first(), points.last()) else {
         return Point::origin();
@@ -318,14 +318,14 @@ fn free(points: &[Point], graph: &GraphPicture) -> Point {
     candidates[0]
 }
 
-/// How far a point lies from the line between two others.
+/// Returns how far a point lies from the line between two others.
 fn distance_to(point: Point, from: Point, to: Point) -> f64 {
     let along = to - from;
     let share = (point - from).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
     (point - (from + share.clamp(0.0, 1.0) * along)).norm()
 }
 
-/// The point at this share of the length, 0 … 1.
+/// Returns the point at this share of the length, 0 … 1.
 fn point_along(points: &[Point], share: f64) -> Point {
     let length = |pair: &[Point]| (pair[1] - pair[0]).norm();
     let mut left = points.windows(2).map(length).sum::<f64>() * share;
@@ -338,7 +338,8 @@ fn point_along(points: &[Point], share: f64) -> Point {
     points.first().copied().unwrap_or_else(Point::origin)
 }
 
-/// Where a sign stands: a little way along, to the left. `unit` is the length of a user unit, m.
+/// Returns where a sign stands: a little way along, to the left. `unit` is the length of a user
+/// unit, m.
 fn beside(at: Point, towards: Point, unit: f64) -> Point {
     let along = (towards - at).normalize();
     at + unit * (17.0 * along + 9.0 * Vector::new(-along.y, along.x))

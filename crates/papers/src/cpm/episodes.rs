@@ -83,7 +83,7 @@ pub(super) fn table(courses: &[Course]) -> Table {
     ))
 }
 
-/// One trial of CPM, and what its rivals need to do as well.
+/// Returns one trial of CPM, and what its rivals need to do as well.
 pub(super) fn run(
     course: &Course,
     patterns: &CommonPatterns,
@@ -170,7 +170,7 @@ impl JunctionTask {
     }
 }
 
-/// How many steps from cell to cell a drive had.
+/// Returns how many steps from cell to cell a drive had.
 fn length_of(cells: impl Iterator<Item = Cell>) -> u32 {
     let mut cells = cells.peekable();
     let mut length = 0;
@@ -244,7 +244,7 @@ fn random_walk(graph: &JunctionTask, wanted: u32, seed: u64) -> Option<Walked> {
     None
 }
 
-/// One episode: at each junction a branch at random, but not the one it came by.
+/// Returns one episode: at each junction a branch at random, but not the one it came by.
 fn wander(graph: &JunctionTask, rng: &mut impl Rng) -> u64 {
     let (mut at, mut cells) = (graph.start, 0);
     let mut came: Option<u32> = None;

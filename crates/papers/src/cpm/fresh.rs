@@ -46,7 +46,7 @@ pub(super) struct FreshRow {
 }
 
 impl FreshRow {
-    /// The better system on the robot as it is made.
+    /// Returns the better system on the robot as it is made.
     fn new(family: &'static str) -> Self {
         Self {
             row: family.to_owned(),
@@ -66,7 +66,7 @@ impl FreshRow {
         }
     }
 
-    /// The paper's system in the same worlds.
+    /// Returns the paper's system in the same worlds.
     fn papers_system(self) -> Self {
         Self {
             row: format!("{} (paper's system)", self.row),
@@ -76,7 +76,7 @@ impl FreshRow {
     }
 }
 
-/// All rows.
+/// Returns all rows.
 pub(super) fn rows() -> Vec<FreshRow> {
     let families = CORRIDORS.into_iter().chain(OPEN);
     let papers = ["office", "wings"];
@@ -174,7 +174,7 @@ impl FreshRun {
     }
 }
 
-/// The table.
+/// Returns the table.
 pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
     let worlds = options.runs_else(WORLDS, QUICK);
     Table::of::<FreshRun>(FRESH, "Fresh worlds: each run another drawing")
@@ -249,7 +249,7 @@ impl FreshRow {
     }
 }
 
-/// A number below `count`.
+/// Returns a number below `count`.
 fn position(count: usize, rng: &mut impl Rng) -> usize {
     rng.random_range(0..count.max(1) as u32) as usize
 }

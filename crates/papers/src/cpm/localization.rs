@@ -13,7 +13,7 @@ use tolman_systems::cpm::{Approach, CommonPatterns};
 /// The name of the table.
 pub(super) const LOCALIZATION: &str = "localization";
 
-/// After so many places the robot has to know where it is.
+/// Number of places after which the robot has to know where it is.
 const MOST_PLACES: u32 = 6;
 
 /// Trials that are made at most to have a map of a maze.
@@ -22,8 +22,7 @@ const ATTEMPTS: u32 = 20;
 /// Runs of a row: a share of 90 % is known to within 6 % then.
 const RUNS: u32 = 100;
 
-/// So many maps of each maze are learned, which runs share in turn; aliased mazes have one each
-/// run.
+/// Number of maps learned of each maze, which runs share in turn; aliased mazes have one each run.
 const MAPS: usize = 20;
 
 /// As many for a first look.
@@ -81,7 +80,7 @@ impl LocalizationRun {
 
     fn relations(&self) -> Result<(), String> {
         for knowable in [self.bends_percent, self.places_percent] {
-            // The best guess is wrong, or one of so many that are as good.
+            // The best guess is wrong, or one of several that are as good.
             let guesses = 100.0 / knowable;
             let possible = knowable <= 0.0 || (guesses - guesses.round()).abs() <= 1e-6;
             let told = format!("a chance is {knowable} %, expected 0 or 100 over a whole number");
@@ -102,7 +101,7 @@ impl LocalizationRun {
 #[derive(Debug, Default)]
 pub(super) struct Known([OnceLock<Vec<TrialRecord>>; MAPS]);
 
-/// The maze of a row, and the robot's approach.
+/// Returns the maze of a row, and the robot's approach.
 fn cast(row: &str) -> (&str, Approach) {
     match row.strip_suffix(TO_AND_FRO) {
         Some(maze) => (maze, Approach::ToAndFro),
@@ -110,7 +109,13 @@ fn cast(row: &str) -> (&str, Approach) {
     }
 }
 
-/// The table.
+/// Names the maps that a run is by; `None` of a run in a maze of its own.
+pub(super) fn maps_of(job: &Job<'_>) -> Option<String> {
+    let (maze, _) = cast(job.row);
+    (maze != ALIASED).then(|| format!("maps {}", job.run as usize % MAPS))
+}
+
+/// Returns the table.
 pub(super) fn table(courses: &[Course], options: &Options) -> Table {
     let title = "Put down in mid-fragment of one of the mazes";
     let runs = options.runs_else(RUNS, QUICK_RUNS);
@@ -132,7 +137,7 @@ pub(super) fn table(courses: &[Course], options: &Options) -> Table {
 }
 
 impl Known {
-    /// A solved trial of each maze, for one run of a row.
+    /// Returns a solved trial of each maze, for one run of a row.
     fn records(
         &self,
         courses: &[Course],
@@ -162,7 +167,7 @@ impl Known {
         Ok(self.0[number].get_or_init(|| records))
     }
 
-    /// One robot put down.
+    /// Returns one robot put down.
     pub(super) fn run(
         &self,
         courses: &[Course],
@@ -188,7 +193,7 @@ impl Known {
     }
 }
 
-/// The paper's robot, put down in the maze at the place `here` among those that it knows.
+/// Returns the paper's robot, put down in the maze at the place `here` among those that it knows.
 fn put_down<'a>(
     known: &'a [KnownMaze<'a>],
     here: usize,
@@ -207,7 +212,7 @@ fn put_down<'a>(
     }
 }
 
-/// A robot put down in a maze with fragments that look alike.
+/// Returns a robot put down in a maze with fragments that look alike.
 fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<Fields, BoxError> {
     for attempt in 0..ATTEMPTS {
         let seed = |of| run_seed(seed, of, attempt);

@@ -15,7 +15,7 @@ use tolman_experiment::BoxError;
 /// Cells along each side of an aliased maze.
 const ALIASED_SIDE: u16 = 5;
 
-/// The paper's three mazes, drawn anew.
+/// Returns the paper's three mazes, drawn again.
 pub(super) fn papers() -> Result<Vec<Course>, BoxError> {
     [
         include_str!("../../mazes/cpm-1.maze"),
@@ -27,12 +27,12 @@ pub(super) fn papers() -> Result<Vec<Course>, BoxError> {
     .collect()
 }
 
-/// That of figure 11, drawn anew.
+/// That of figure 11, drawn again.
 pub(super) fn real() -> Result<Course, BoxError> {
     read(include_str!("../../mazes/cpm-real.maze"))
 }
 
-/// Where the common patterns are learned.
+/// Returns where the common patterns are learned.
 pub(super) fn learning() -> Result<Course, BoxError> {
     read(include_str!("../../mazes/cpm-learning.maze"))
 }
@@ -41,8 +41,8 @@ fn read(text: &str) -> Result<Course, BoxError> {
     Ok(epuck_course("", tolman_maze::read(text)?)?)
 }
 
-/// The mazes that the caller names; the later of two of one name gets a number, and so does one
-/// whose name is that of another's row.
+/// Returns the mazes that the caller names; the later of two of one name gets a number, and so does
+/// one whose name is that of another's row.
 pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Course>, BoxError> {
     let mut courses: Vec<Course> = Vec::new();
     for path in files {
@@ -58,9 +58,9 @@ pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Course>, BoxError> {
     Ok(courses)
 }
 
-/// A random maze whose fragments are short and alike, without rooms: a way behind every other dead
-/// end opened, start in the south-west, goal in the dead end farthest from it. Drawn again until
-/// two fragments of it bend alike.
+/// Returns a random maze whose fragments are short and alike, without rooms: a way behind every
+/// other dead end opened, start in the south-west, goal in the dead end farthest from it. Drawn
+/// again until two fragments of it bend alike.
 pub(super) fn aliased(seed: u64) -> Result<Course, BoxError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     loop {

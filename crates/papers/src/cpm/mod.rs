@@ -27,7 +27,9 @@ use tolman_arena::course::Course;
 use tolman_arena::cpm::{TrialRecord, epuck, learn};
 use tolman_arena::diktiometry::EpuckSurveyConfig;
 use tolman_draw::Figure;
-use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run, Table};
+use tolman_experiment::{
+    BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run, Table, Tour,
+};
 use tolman_replay::Replay;
 use tolman_systems::baselines::q_learning::QLearningConfig;
 use tolman_systems::cpm::{CommonPatterns, Mode};
@@ -50,6 +52,10 @@ pub(super) const ENTRY: Entry = Entry {
              Robot Path Planning, figures 9 and 11",
     runs: 10,
     quick_runs: 3,
+    tour: Some(Tour {
+        tables: &["9", "11"],
+        runs: Some(2),
+    }),
     open,
 };
 
@@ -136,7 +142,7 @@ fn less([first, second]: [f64; 2]) -> f64 {
     100.0 * (1.0 - second / first)
 }
 
-/// Whether a value is there where it is expected, and is that but for rounding.
+/// Returns whether a value is there where it is expected, and is that but for rounding.
 fn agree(found: Option<f64>, expected: Option<f64>) -> bool {
     match (found, expected) {
         (Some(found), Some(expected)) => (found - expected).abs() < 1e-9,
@@ -145,7 +151,7 @@ fn agree(found: Option<f64>, expected: Option<f64>) -> bool {
 }
 
 impl Cpm {
-    /// The maze and the way of mapping of a run that is a trial.
+    /// Returns the maze and the way of mapping of a run that is a trial.
     fn cast(&self, job: &Job<'_>) -> Result<Option<(Course, Mode)>, BoxError> {
         match job.table {
             EPISODES => Ok(Some((self.course(job.row)?.clone(), trials::faithful()))),
@@ -156,7 +162,7 @@ impl Cpm {
         }
     }
 
-    /// Plays the trial of a run, and says where; none of a run that is no trial.
+    /// Plays the trial of a run, and says where, or `None` of a run that is no trial.
     fn play(&self, job: &Job<'_>) -> Result<Option<(Course, TrialRecord)>, BoxError> {
         let Some((course, mode)) = self.cast(job)? else {
             return Ok(None);
@@ -219,6 +225,10 @@ impl Procedure for Cpm {
                 None => Err(format!("there is no table {table:?}").into()),
             },
         }
+    }
+
+    fn shares(&self, job: &Job<'_>) -> Option<String> {
+        (job.table == LOCALIZATION).then(|| localization::maps_of(job))?
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {

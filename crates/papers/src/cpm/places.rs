@@ -53,12 +53,12 @@ pub(super) fn table(courses: &[Course]) -> Table {
     ))
 }
 
-/// What the runs depend on.
+/// Returns what the runs depend on.
 pub(super) const fn config() -> EpuckSurveyConfig {
     EpuckSurveyConfig::usual(MOVES)
 }
 
-/// One survey.
+/// Returns one survey.
 pub(super) fn run(course: &Course, job: &Job<'_>) -> Result<Fields, BoxError> {
     let survey = survey_maze(&course.maze, course.corridor_width, &config(), job.seed)?;
     let score = survey.score;

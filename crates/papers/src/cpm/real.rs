@@ -35,7 +35,7 @@ pub(super) struct Real {
     patterns: OnceLock<CommonPatterns>,
 }
 
-/// What the runs depend on.
+/// Returns what the runs depend on.
 pub(super) fn config() -> impl Serialize {
     #[derive(Serialize)]
     struct Config {
@@ -50,7 +50,7 @@ pub(super) fn config() -> impl Serialize {
     }
 }
 
-/// How it observes in the corridors of a course.
+/// Returns how it observes in the corridors of a course.
 fn walker(course: &Course) -> Result<WalkerConfig, BoxError> {
     Ok(WalkerConfig {
         stride_s: STRIDE_S,
@@ -68,7 +68,7 @@ impl Real {
         })
     }
 
-    /// What it learned, which takes a second; two threads that ask at once learn the same.
+    /// Returns what it learned, which takes a second; two threads that ask at once learn the same.
     fn patterns(&self) -> Result<&CommonPatterns, BoxError> {
         if let Some(patterns) = self.patterns.get() {
             return Ok(patterns);
@@ -155,7 +155,7 @@ impl RoundTripRun {
     }
 }
 
-/// Why its numbers of observations and seconds are not ours.
+/// Reason why its numbers of observations and seconds are not ours.
 const SMALLER: &str = "the paper's maze is smaller than this drawing of it";
 
 pub(super) fn table(course: &Course) -> Table {
@@ -176,7 +176,7 @@ pub(super) fn table(course: &Course) -> Table {
                 .paper(RoundTripRun::given_up, 1.0),
         )
         .note(
-            "Figure 11's maze drawn anew: four fragments, two junctions. To the goal, back with a look at fragments that may be shorter, and to the \
+            "Figure 11's maze drawn again: four fragments, two junctions. To the goal, back with a look at fragments that may be shorter, and to the \
              goal again by the map. The robot sweeps at 3π/5 rad/s, looks every 6 s and has learned for 5400 s, as the paper's, which made one trial; \
              the maze is larger than the paper's, so only the reductions can be compared. Solved: goal, start and goal again were reached; whether the last way is the shortest is not asked.",
         )

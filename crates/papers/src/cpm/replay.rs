@@ -60,7 +60,7 @@ pub(super) fn of_round_trip(real: &Real, job: &Job<'_>) -> Result<Replay, BoxErr
         .fact("given up", trip.given_up.to_string()))
 }
 
-/// Where an e-puck was after every step.
+/// Returns where an e-puck was after every step.
 fn track(path: &[Pose]) -> RobotTrack {
     let body = Body::Circle {
         radius: BODY_RADIUS,
@@ -103,7 +103,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// The replay of a track, with what was seen on it.
+    /// Returns the replay of a track, with what was seen on it.
     fn replay(self, step_us: u64, job: &Job<'_>, mut track: RobotTrack) -> Replay {
         let scenery = Scenery::of_world(&self.course.world);
         track.maps = vec![MapGrowth {

@@ -21,7 +21,7 @@ const ALIASED_MAZES: u32 = 200;
 const ALIASED_QUICK: u32 = 20;
 
 /// Fragments after which the paper's system gives up in an aliased maze, which has some seven. On a
-/// map that is wrong it may go round for ever.
+/// map that is wrong it may go round forever.
 const ALIASED_PATIENCE: u32 = 500;
 
 /// What follows the name of a maze in a row of the paper's offline system.
@@ -33,7 +33,7 @@ const PAPERS_RULE: &str = " offline (paper's rule)";
 /// What follows the name of a maze in a row of our own reading.
 pub(super) const BETTER: &str = " better";
 
-/// An episode is long that leads over so many times the shortest path.
+/// An episode is long from this many times the shortest path on.
 const LONG: f64 = 10.0;
 
 /// A table, and what is tried in each of its rows.
@@ -75,7 +75,7 @@ pub(super) fn faithful() -> Mode {
     Mode::Paper(CpmConfig::online())
 }
 
-/// The paper's own trials with its own equations.
+/// Returns the paper's own trials with its own equations.
 fn papers_rule() -> Mode {
     Mode::Paper(CpmConfig {
         matching: FragmentMatching::Positions(Similarity::literal()),
@@ -154,7 +154,7 @@ fn in_modes<const N: usize>(courses: &[Course], modes: [(&str, Mode); N]) -> Vec
     courses.iter().flat_map(each).collect()
 }
 
-/// The paper's two systems side by side.
+/// Returns the paper's two systems side by side.
 pub(super) fn offline(courses: &[Course]) -> Trials {
     let offline = Mode::Paper(CpmConfig::offline());
     let settings = in_modes(courses, [(OFFLINE, offline), (" online", faithful())]);
@@ -197,7 +197,7 @@ pub(super) fn unlearned(courses: &[Course]) -> Trials {
     })
 }
 
-/// What the paper excludes.
+/// Returns what the paper excludes.
 pub(super) fn aliased(options: &Options) -> Trials {
     let patient = CpmConfig {
         most_traversals: ALIASED_PATIENCE,
@@ -248,12 +248,12 @@ fn map_right() -> Metric {
     Metric::percent("map_right_percent", TrialRun::map_right)
 }
 
-/// The stricter yardstick.
+/// Returns the stricter baseline.
 fn as_it_lies() -> Metric {
     Metric::percent("shortest_as_it_lies_percent", TrialRun::shortest_as_it_lies)
 }
 
-/// What the second episode saves.
+/// Returns what the second episode saves.
 fn reduction() -> Metric {
     Metric::mean(TrialRun::reduction).named("reduction_percent")
 }
@@ -329,7 +329,7 @@ record! {
 pub(super) type Modes<'a> = BTreeMap<&'a str, Mode>;
 
 impl Trials {
-    /// A table with a row for each setting.
+    /// Returns a table with a row for each setting.
     pub(super) fn new(
         table: Table,
         settings: Vec<Setting>,
@@ -343,7 +343,7 @@ impl Trials {
         }
     }
 
-    /// Every row with the way it maps, for the configuration.
+    /// Returns every row with the way it maps, for the configuration.
     pub(super) fn modes(&self) -> Modes<'_> {
         let settings = self.settings.iter();
         settings
@@ -351,7 +351,7 @@ impl Trials {
             .collect()
     }
 
-    /// The maze and the way of mapping of a run.
+    /// Returns the maze and the way of mapping of a run.
     pub(super) fn cast(&self, job: &Job<'_>) -> Result<(Course, Mode), BoxError> {
         let mut settings = self.settings.iter();
         let setting = settings.find(|setting| setting.row == job.row);
@@ -376,7 +376,7 @@ fn measure(trial: &CpmTrial<'_>) -> Result<Fields, BoxError> {
     Ok(TrialRun::of(trial.course, &record, record.is_solved()).fields()?)
 }
 
-/// A trial of the paper's robot.
+/// Returns a trial of the paper's robot.
 pub(super) fn trial<'a>(
     course: &'a Course,
     patterns: &'a CommonPatterns,
@@ -449,7 +449,7 @@ impl TrialRun {
     }
 }
 
-/// How far the robot drove in the first episode, m.
+/// Returns how far the robot drove in the first episode, m.
 pub(super) fn metres(record: &TrialRecord) -> f64 {
     let first = record
         .path
@@ -461,7 +461,7 @@ pub(super) fn metres(record: &TrialRecord) -> f64 {
         .sum()
 }
 
-/// Part of a whole; none of nothing.
+/// Part of a whole, or `None` of nothing.
 fn share(part: u32, rest: u32) -> Option<f64> {
     (part + rest > 0).then(|| f64::from(part) / f64::from(part + rest))
 }

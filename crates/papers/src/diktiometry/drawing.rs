@@ -13,8 +13,8 @@ const WIDTH: f64 = 560.0;
 /// More boxes than these lie over each other and hide the world.
 const MOST_BOXES: usize = 100;
 
-/// The places with the boxes that hold them, as seen from where the robot began, and the links,
-/// over the walls. Maps of more than a hundred places are drawn without boxes.
+/// Returns the places with the boxes that hold them, as seen from where the robot began, and the
+/// links, over the walls. Maps of more than a hundred places are drawn without boxes.
 #[must_use]
 pub fn map_over_world(office: &Office, survey: &Survey) -> Drawing {
     let mut plan = FloorPlan::of_world(&office.course.world, WIDTH);

@@ -61,12 +61,12 @@ fn errors(trial: &Trial, runs: &[Run]) -> Result<Figure, BoxError> {
     Ok(figure.caption(caption).table(trial.name))
 }
 
-/// A table's name as part of a file's.
+/// Returns a table's name as part of a file's.
 fn slug(trial: &Trial) -> String {
     trial.name.replace(' ', "-")
 }
 
-/// The map of a run, laid from where the robot truly began.
+/// Returns the map of a run, laid from where the robot truly began.
 fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Figure, BoxError> {
     let survey = Survey::new(&setting.office, setting.config.clone(), run.seed)?.finish()?;
     let score = survey.score();

@@ -58,7 +58,7 @@ pub(super) struct FreshRow {
 }
 
 impl FreshRow {
-    /// A passive walk by the robot of the paper's figures, by our mapper.
+    /// Returns a passive walk by the robot of the paper's figures, by our mapper.
     const fn new(row: &'static str, draw: Draw, moves: u32) -> Self {
         Self {
             row,
@@ -88,7 +88,7 @@ impl FreshRow {
         }
     }
 
-    /// What it sees of a place is which ways lead on, and that counts as evidence.
+    /// Returns what it sees of a place is which ways lead on, and that counts as evidence.
     const fn by_exits(self) -> Self {
         Self {
             robot: |robot| robot.sight = PlaceCue::Exits,
@@ -120,7 +120,7 @@ const fn painted(row: &'static str, draw: Draw) -> FreshRow {
         .by_looks()
 }
 
-/// All rows.
+/// Returns all rows.
 pub(super) fn rows() -> Vec<FreshRow> {
     let five_scripted = FreshRow {
         row: "5x5 with scripts",
@@ -233,12 +233,13 @@ impl FreshRun {
     }
 }
 
-/// Whether so large shares of the places and of the ways of a world are enough for a right map.
+/// Returns whether so large shares of the places and of the ways of a world are enough for a right
+/// map.
 fn is_whole(places: f64, ways: f64) -> bool {
     places.min(ways) >= MapJudgement::ENOUGH
 }
 
-/// The table.
+/// Returns the table.
 pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
     let runs = |row: &FreshRow| options.runs_else(row.worlds, QUICK);
     Table::of::<FreshRun>(FRESH, "Fresh worlds: each run another drawing")
@@ -262,7 +263,7 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
         .note(
             "Each run draws its own world from its seed, the same for all rows of a kind. 5x5, 7x7 and 20x20 are blocks with a quarter of \
              the ways walled up, all places alike; 700, 3000 and 6000 moves. Doorways: a fifth of the passages, walls of eight colours. Ladders \
-             (corridors of so many cells), eights, spirals and rings have walls of eight colours, the office floor has one; 1000 moves with \
+             (corridors of that many cells), eights, spirals and rings have walls of eight colours, the office floor has one; 1000 moves with \
              scripts. Scripts are begun with a chance of 30 %, in 20x20 always. Constant error: odometry and compass are wrong by the same \
              all along. Paper's rule: a place is known again if boxes meet, and places merge by their estims. The row of all runs has those by \
              the paper's rule, too.",
@@ -270,7 +271,7 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
 }
 
 impl FreshRow {
-    /// What the runs depend on, but for what the mapper is told of each drawing.
+    /// Returns what the runs depend on, but for what the mapper is told of each drawing.
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
         struct Settings {

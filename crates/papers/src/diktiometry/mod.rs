@@ -14,7 +14,7 @@ use tolman_arena::diktiometry::{ErrorSummary, NEAR, PlanTrial, Survey, TAIL, WIN
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row,
-    Run, Settling, Table, record,
+    Run, Settling, Table, Tour, record,
 };
 use tolman_replay::Replay;
 
@@ -29,6 +29,10 @@ pub(super) const ENTRY: Entry = Entry {
     source: "S. Engelson, D. McDermott: Maps Considered as Adaptive Planning Resources, figures 3 and 4",
     runs: 10,
     quick_runs: 2,
+    tour: Some(Tour {
+        tables: &["3b"],
+        runs: Some(1),
+    }),
     open,
 };
 
@@ -144,7 +148,7 @@ fn table(trial: &Trial) -> Table {
         .note(note)
 }
 
-/// A part of a whole; `None` of nothing.
+/// Returns a part of a whole; `None` of nothing.
 fn share(part: usize, whole: usize) -> Option<f64> {
     (whole > 0).then(|| part as f64 / whole as f64)
 }

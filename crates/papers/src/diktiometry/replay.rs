@@ -16,7 +16,7 @@ use tolman_replay::{
 };
 use tolman_systems::diktiometry::Reason;
 
-/// Only every so many time steps of the simulator become steps of the replay.
+/// Time steps of the simulator per step of the replay.
 const COARSE: usize = 12;
 /// Nodes that moved less than this are left where they are, m: a quarter of a corridor's width.
 /// Most moves of the robot shift most of the map a little, which nobody could see and every replay

@@ -44,7 +44,7 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    /// A row that measures the map of a survey that heeds scripts.
+    /// Returns a row that measures the map of a survey that follows scripts.
     fn scripted(row: &'static str, office: &Arc<Office>, config: SurveyConfig) -> Self {
         Self {
             row,
@@ -57,7 +57,7 @@ impl Setting {
         }
     }
 
-    /// What the runs depend on.
+    /// Returns what the runs depend on.
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
         struct Row<'a> {
@@ -187,7 +187,7 @@ fn ablations(office: &Arc<Office>) -> Vec<Setting> {
     ABLATIONS.map(setting).into()
 }
 
-/// A maze of MSLST as that paper has it, with that paper's robot.
+/// Returns a maze of MSLST as that paper has it, with that paper's robot.
 fn mslst(row: &'static str, text: &str) -> Result<Setting, BoxError> {
     let file = tolman_maze::read(text)?;
     let furniture = OfficeConfig {

@@ -72,8 +72,8 @@ impl<T: Copy> Annealing<T> {
         }
     }
 
-    /// How wide the window of a step is, as a share of the search space: each step narrows it by
-    /// the same factor.
+    /// Returns how wide the window of a step is, as a share of the search space: each step narrows
+    /// it by the same factor.
     fn share(&self, step: u32) -> f64 {
         let last = self.steps.saturating_sub(1).max(1);
         libm::pow(LAST, f64::from(step.min(last)) / f64::from(last))

@@ -43,7 +43,7 @@ struct Best {
 }
 
 impl Searches {
-    /// The maps of the best runs; a row without a map that has a score is left out.
+    /// Returns the maps of the best runs; a row without a map that has a score is left out.
     pub(super) fn drawings(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let mut figures = vec![self.best_maps(runs)?];
         let setting = settings()[SHOWN[1]];
@@ -119,7 +119,7 @@ impl Searches {
     }
 }
 
-/// The runs of a row.
+/// Returns the runs of a row.
 fn of_row<'a>(runs: &'a [Run], setting: &Setting) -> impl Iterator<Item = &'a Run> {
     let (table, row) = (setting.table, setting.row);
     runs.iter().filter(move |run| run.is_of(table, row))
@@ -157,7 +157,7 @@ const READ: &str = "Each node's image has its middle where the node lies, in cel
                     above the blue one; lines are links. On the pitch the windows are on the right. Images were converted to red, \
                     green and blue. Of each set the best map of at most 40 nodes, whose images can be made out.";
 
-/// An axis over the field, with room for the images and the names of the goals.
+/// Returns an axis over the field, with room for the images and the names of the goals.
 fn axis(title: &str) -> Axis {
     Axis::linear(title).between(-0.5, 9.5)
 }
@@ -168,7 +168,7 @@ fn upright(at: Point) -> Point {
     Point::new(at.y, f64::from(CellGrid::SIDE) - at.x)
 }
 
-/// A map, with its blue and its yellow goal.
+/// Returns a map, with its blue and its yellow goal.
 fn drawn(
     map: &PlaceMap,
     field_from_map: &FieldFromMap,

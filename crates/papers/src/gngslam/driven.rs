@@ -44,7 +44,7 @@ record! {
     }
 }
 
-/// Whether a table is this one.
+/// Returns whether a table is this one.
 pub(super) fn has(table: &str) -> bool {
     table == DRIVEN
 }
@@ -109,7 +109,7 @@ const WIDTH: f64 = 460.0;
 /// The drives that the picture shows.
 const SHOWN: usize = 3;
 
-/// The map of the first run of the last row over the pitch, with the first drives by it.
+/// Returns the map of the first run of the last row over the pitch, with the first drives by it.
 pub(super) fn figures(runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let (row, _) = ROWS[1];
     let mut of_row = runs

@@ -113,12 +113,12 @@ impl Scores {
     }
 }
 
-/// The colour of a row; guesses have that of the last.
+/// Returns the colour of a row; guesses have that of the last.
 const fn series(row: usize) -> Series {
     Series(row as u32)
 }
 
-/// The percentage of values in each bin, as a stair.
+/// Returns the percentage of values in each bin, as a stair.
 fn histogram(values: &[f64]) -> Vec<LinePoint> {
     let mut counts = [0_u32; BINS];
     for value in values {
@@ -132,7 +132,7 @@ fn histogram(values: &[f64]) -> Vec<LinePoint> {
     stairs.take_while(|point| point.x <= SHOWN + 1e-9).collect()
 }
 
-/// The mean of bootstrapped means and the interval that holds them; `None` of no scores.
+/// Returns the mean of bootstrapped means and the interval that holds them; `None` of no scores.
 fn bootstrapped(scores: &[f64], seed: u64) -> Result<Option<(f64, ConfidenceInterval)>, BoxError> {
     if scores.is_empty() {
         return Ok(None);

@@ -21,7 +21,7 @@ use serde::Serialize;
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Pairwise, Procedure,
-    Record, Row, Run, Table, record,
+    Record, Row, Run, Table, Tour, record,
 };
 
 use search_space::TABLE_3_1;
@@ -42,6 +42,10 @@ pub(super) const ENTRY: Entry = Entry {
              Growing Neural Gas, 2006",
     runs: 500,
     quick_runs: 40,
+    tour: Some(Tour {
+        tables: &["4.1"],
+        runs: Some(10),
+    }),
     open,
 };
 
@@ -118,7 +122,7 @@ record! {
     }
 }
 
-/// A table of maps without rows.
+/// Returns a table of maps without rows.
 fn of_maps(name: &str, title: &str) -> Table {
     let best = Metric::greatest("best_score", MapRun::score).titled("best map");
     Table::of::<MapRun>(name, title)
@@ -177,10 +181,15 @@ fn random_map(seed: u64) -> MapRun {
     }
 }
 
+/// Returns which setting a job's row is, if it is one.
+fn place_of(job: &Job<'_>) -> Option<usize> {
+    let is_row = |setting: &sets::Setting| (setting.table, setting.row) == (job.table, job.row);
+    settings().iter().position(is_row)
+}
+
 impl Procedure for GngSlam {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let is_row = |setting: &sets::Setting| (setting.table, setting.row) == (job.table, job.row);
-        let run = match (job.table, job.row, settings().iter().position(is_row)) {
+        let run = match (job.table, job.row, place_of(job)) {
             (guesses::NAME, ..) => return guesses::run(job),
             (table, ..) if driven::has(table) => return driven::run(job),
             (table, ..) if online::has(table) => return online::run(&self.long, job),
@@ -190,6 +199,15 @@ impl Procedure for GngSlam {
             (table, row, _) => return Err(format!("there is no row {row:?} of {table}").into()),
         };
         Ok(run.fields()?)
+    }
+
+    fn shares(&self, job: &Job<'_>) -> Option<String> {
+        let (row, number) = match job.table {
+            table if online::has(table) => return online::long_run_of(job),
+            optimum::NAME => optimum::search_of(job),
+            _ => (place_of(job)?, job.run / searches::MAPS),
+        };
+        Some(format!("search {number} of setting {row}"))
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {

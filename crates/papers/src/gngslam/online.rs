@@ -63,7 +63,7 @@ record! {
         score: Option<f64> => higher("score to the border").share().decimals(3),
         /// Root-mean-square distance of that run's positions from the true ones.
         tried_error_m: Option<f64> => lower("error on a run not learned from").unit("m").decimals(3),
-        /// Looks of that run after which it knew where it was; none if it never did.
+        /// Looks of that run after which it knew where it was, or `None` if it never did.
         looks_to_localize: Option<u32> => lower("looks until localized"),
         /// Root-mean-square distance from the true position over the last tenth of a run.
         position_error_m: Option<f64> => lower("error, last tenth").unit("m").decimals(3),
@@ -87,7 +87,7 @@ pub(super) struct LongRuns(Mutex<BTreeMap<u32, Shared>>);
 /// A run that whoever comes first makes, while the others wait.
 type Shared = Arc<Mutex<Option<Arc<OnlineRun>>>>;
 
-/// The tables.
+/// Returns the tables.
 pub(super) fn tables(options: &Options) -> Vec<Table> {
     let runs = options.runs_else(RUNS, QUICK_RUNS);
     let row = |name: &str| Row::new(name).runs(runs);
@@ -115,7 +115,7 @@ pub(super) fn tables(options: &Options) -> Vec<Table> {
     ]
 }
 
-/// A table without rows.
+/// Returns a table without rows.
 fn learned(name: &str, title: &str) -> Table {
     Table::of::<OnlineFields>(name, title)
         .metric(Metric::mean(OnlineFields::score))
@@ -127,9 +127,15 @@ fn learned(name: &str, title: &str) -> Table {
         .metric(Metric::mean(OnlineFields::bumps))
 }
 
-/// Whether a table is one of these.
+/// Returns whether a table is one of these.
 pub(super) fn has(table: &str) -> bool {
     [ONLINE, OTHERS, BY_SEED, WHEELS].contains(&table)
+}
+
+/// Names the long run that a job looks at; `None` if it looks at none.
+pub(super) fn long_run_of(job: &Job<'_>) -> Option<String> {
+    let looks = job.table == ONLINE && [RAW, CORRECTED].contains(&job.row);
+    looks.then(|| format!("long run {}", job.run))
 }
 
 pub(super) fn run(long: &LongRuns, job: &Job<'_>) -> Result<Fields, BoxError> {
@@ -166,7 +172,7 @@ fn tried(pitch: &Pitch, seed: u64) -> Result<OnlineFields, BoxError> {
     tried_with(pitch, OnlineSlamConfig::pioneer_2dx(), CALIBRATION, seed)
 }
 
-/// The same by other settings, with wheels that are wrong by up to `calibration`.
+/// Returns the same by other settings, with wheels that are wrong by up to `calibration`.
 fn tried_with(
     pitch: &Pitch,
     config: OnlineSlamConfig,
@@ -187,7 +193,7 @@ fn tried_with(
     })
 }
 
-/// The score of a look by the border of the true cell.
+/// Returns the score of a look by the border of the true cell.
 fn score(pitch: &Pitch, look: &LookedFrom) -> f64 {
     let (cells, size) = (pitch.cells(), pitch.cells().size());
     let off = look.corrected.position - cells.bounds().min;
@@ -195,7 +201,7 @@ fn score(pitch: &Pitch, look: &LookedFrom) -> f64 {
     PointScore::of(pitch.cell_of(look.truth.position), in_cells).by_border
 }
 
-/// The errors of a run, by tenths.
+/// Returns the errors of a run, by tenths.
 fn trajectory(run: &OnlineRun, position: impl Fn(&LookedFrom) -> Point) -> OnlineFields {
     let tenth = |number: usize| {
         let looks = run.looks.len();
@@ -244,7 +250,7 @@ impl LongRuns {
     }
 }
 
-/// How the error grows with the way.
+/// Returns how the error grows with the way.
 pub(super) fn figures(runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let error = Axis::log("error, m");
     let mut chart = Chart::new(Axis::linear("way, m").from_zero(), error);

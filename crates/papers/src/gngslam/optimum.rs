@@ -12,12 +12,13 @@ pub(super) const NAME: &str = "3.1";
 record! {
     /// Where a search ended.
     struct OptimumRun {
-        /// Value of the parameter at the search's last map; none of a weight that does not count.
+        /// Value of the parameter at the search's last map, or `None` of a weight that does not
+        /// count.
         value: Option<f64> => neither("value").at_least(0).decimals(3),
     }
 }
 
-/// The table of as many whole searches as `runs` of each set make.
+/// Returns the table of as many whole searches as `runs` of each set make.
 pub(super) fn table(runs: u32) -> Table {
     let searches = SETS.len() as u32 * (runs / MAPS);
     let rows = TABLE_3_1.iter().map(|parameter| {
@@ -37,13 +38,18 @@ pub(super) fn table(runs: u32) -> Table {
         ))
 }
 
+/// Returns the set and the number of the search that a run looks at.
+pub(super) const fn search_of(job: &Job<'_>) -> (usize, u32) {
+    (job.run as usize % SETS.len(), job.run / SETS.len() as u32)
+}
+
 /// Tells the parameter of a row at the end of a search.
 pub(super) fn run(searches: &Searches, job: &Job<'_>) -> Result<Fields, BoxError> {
     let row = TABLE_3_1
         .iter()
         .position(|parameter| parameter.name == job.row);
     let row = row.ok_or_else(|| format!("there is no row {:?}", job.row))?;
-    let (set, search) = (job.run as usize % SETS.len(), job.run / SETS.len() as u32);
+    let (set, search) = search_of(job);
     let last = searches.map(set, search * MAPS + MAPS - 1)?;
     let counts = SETS[set].with_sonar || job.row != "w_sonar";
     let value = last.parameters.get(row).copied().filter(|_| counts);

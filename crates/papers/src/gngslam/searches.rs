@@ -137,8 +137,8 @@ fn record(tried: &Tried<Learned>) -> MapRun {
     }
 }
 
-/// One of the streams of random numbers of a run: 0 for parameters, 1 for learning, 2 for the
-/// records that are asked about.
+/// Returns one of the streams of random numbers of a run: 0 for parameters, 1 for learning, 2 for
+/// the records that are asked about.
 fn stream(seed: u64, number: u64) -> ChaCha8Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(number);

@@ -122,7 +122,7 @@ pub(super) struct Setting {
 /// How many rows have maps.
 pub(super) const SETTINGS: usize = 10;
 
-/// All rows whose maps are learned, those of Table 4.1 first.
+/// Returns all rows whose maps are learned, those of Table 4.1 first.
 pub(super) const fn settings() -> [Setting; SETTINGS] {
     [
         of_paper(SETS[0]),

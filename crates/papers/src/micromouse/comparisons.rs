@@ -55,7 +55,7 @@ impl LearningRun {
     }
 }
 
-/// The tables, where the paper's mazes are.
+/// Returns the tables, where the paper's mazes are.
 pub(super) fn tables(paper: &[PaperTable]) -> Vec<Table> {
     let mazes = mazes(paper);
     if mazes.is_empty() {
@@ -82,7 +82,7 @@ pub(super) fn tables(paper: &[PaperTable]) -> Vec<Table> {
     vec![planners, learning]
 }
 
-/// The mazes of tables 1 to 3.
+/// Returns the mazes of tables 1 to 3.
 fn mazes(paper: &[PaperTable]) -> Vec<(&'static str, &Maze)> {
     ["1", "2", "3"]
         .into_iter()

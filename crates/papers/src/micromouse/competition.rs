@@ -52,7 +52,7 @@ pub(super) fn table(sets: &[MazeSet]) -> Table {
         )
 }
 
-/// How the mouse drives in the mazes of a set.
+/// Returns how the mouse drives in the mazes of a set.
 fn drive(set: &MazeSet) -> SpeedRunConfig {
     let larger = |maze: &Maze| maze.grid().width().max(maze.grid().height()) > 16;
     if set.mazes.iter().any(|(_, maze)| larger(maze)) {

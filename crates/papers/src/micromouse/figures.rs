@@ -53,7 +53,7 @@ pub(super) fn of(experiment: &Micromouse, runs: &[Run]) -> Result<Vec<Figure>, B
     Ok(figures)
 }
 
-/// What the mouse knows after so many steps, or at the end of its first run.
+/// Returns what the mouse knows after a number of steps, or at the end of its first run.
 fn known_after<S: Search>(
     maze: &Maze,
     mouse: &mut Driver<S>,
@@ -97,8 +97,8 @@ fn dead_ends(map: &WallMap<SIDE>) -> Figure {
         .table(TABLE)
 }
 
-/// The moment in our search when the run that can be hoped for differs most from the one that is
-/// certain.
+/// Returns the moment in our search when the run that can be hoped for differs most from the one
+/// that is certain.
 fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     let Some((start, _)) = maze.start() else {
         return Ok(None);
@@ -134,7 +134,7 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     Ok(None)
 }
 
-/// The stops of the best run, if there is one.
+/// Returns the stops of the best run, if there is one.
 fn run(
     map: &WallMap<SIDE>,
     unknown: Unknown,
@@ -165,7 +165,7 @@ fn middle(cell: Cell) -> Point {
     Point::new(f64::from(cell.x) + 0.5, f64::from(cell.y) + 0.5)
 }
 
-/// The walls that are known to stand, in cells.
+/// Returns the walls that are known to stand, in cells.
 fn walls(map: &WallMap<SIDE>) -> Vec<[Point; 2]> {
     let grid: Grid = map.grid();
     let sides = grid.cells().flat_map(|cell| {

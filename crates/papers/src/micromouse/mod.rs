@@ -25,7 +25,7 @@ use tolman_arena::micromouse::{Judgement, MAX_STEPS, floor, try_on};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row, Run, Table,
-    record, require,
+    Tour, record, require,
 };
 use tolman_systems::baselines::q_learning::QLearningConfig;
 use tolman_systems::micromouse::Searcher;
@@ -43,6 +43,10 @@ pub(super) const ENTRY: Entry = Entry {
     source: "X. Wang: Plot and Navigate a Virtual Maze, tables 1 to 4",
     runs: 5,
     quick_runs: 5,
+    tour: Some(Tour {
+        tables: &["1", "competition"],
+        runs: None,
+    }),
     open,
 };
 
@@ -104,7 +108,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     Ok(Experiment::new(ENTRY, tables, config, micromouse).skipped(skipped))
 }
 
-/// The mazes of all tables by table and name.
+/// Returns the mazes of all tables by table and name.
 fn all_mazes(paper: &[PaperTable], sets: &[MazeSet]) -> BTreeMap<String, String> {
     let of_paper = paper
         .iter()
@@ -242,14 +246,14 @@ impl Micromouse {
         set.ok_or_else(|| format!("there is no set {name:?}").into())
     }
 
-    /// A run in a maze of a set.
+    /// Returns a run in a maze of a set.
     fn run_on_set(&self, job: &Job<'_>, searcher: Searcher) -> Result<Fields, BoxError> {
         let (maze, walls) = self.set(job.row)?.maze(job.run)?;
         let judgement = try_on(walls, searcher, job.seed)?.1;
         Ok(SetRun::of(&judgement, maze).fields()?)
     }
 
-    /// A run in the maze of a table of the paper.
+    /// Returns a run in the maze of a table of the paper.
     fn run_of_paper(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let table = self.paper.iter().find(|table| table.name == job.table);
         let row = table.and_then(|table| table.row(job.row));

@@ -118,7 +118,7 @@ fn maze(seed: u64, side: u16) -> Result<Maze, BoxError> {
     Ok(maze)
 }
 
-/// One maze.
+/// Returns one maze.
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let mouse = mice()
         .find(|mouse| mouse.row == job.row)
@@ -139,7 +139,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(run.fields()?)
 }
 
-/// How often the mouse arrives, by noise.
+/// Returns how often the mouse arrives, by noise.
 pub(super) fn figure(runs: &[Run]) -> Figure {
     let mut chart = Chart::new(
         Axis::linear("noise").from_zero(),

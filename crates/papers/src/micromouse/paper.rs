@@ -115,7 +115,7 @@ const fn lines(maze: &'static str, [low, high, target]: [(f64, f64); 3]) -> [Lin
     ]
 }
 
-/// The tables, with the mazes that are below the folder of data.
+/// Returns the tables, with the mazes that are below the folder of data.
 pub(super) fn tables(folder: Option<&Path>) -> Result<Vec<PaperTable>, BoxError> {
     let mut tables = Vec::new();
     for (name, title, note, lines) in TABLES {

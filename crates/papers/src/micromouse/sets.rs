@@ -1,11 +1,10 @@
 //! Sets of mazes: those of others where they are found, ours, and those the caller names.
 
-use std::fs;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use tolman_formats::input::{self, SourceError};
 use tolman_maze::{Braided, Maze};
 
 use crate::maze_file;
@@ -33,7 +32,7 @@ pub(super) struct LeftOut {
 }
 
 impl MazeSet {
-    /// A set from which nothing is left out.
+    /// Returns a set from which nothing is left out.
     fn of(name: String, mazes: Vec<(String, Maze)>) -> Self {
         Self {
             name,
@@ -57,15 +56,15 @@ impl MazeSet {
         Ok(Self::of("braided 16".to_owned(), mazes))
     }
 
-    /// All mazes of a folder that can be solved and fit a mouse, by name.
+    /// Returns all mazes of a folder that can be solved and fit a mouse, by name.
     fn in_folder(name: String, folder: &Path) -> Result<Self, BoxError> {
         let files = files_in(folder)
             .map_err(|error| format!("the folder {} cannot be read: {error}", folder.display()))?;
         let mut set = Self::of(name, Vec::new());
         for path in &files {
-            let text = match fs::read_to_string(path) {
+            let text = match input::text(path) {
                 Ok(text) => text,
-                Err(error) if error.kind() == ErrorKind::InvalidData => {
+                Err(SourceError::NoText { .. } | SourceError::ByteOrderMark { .. }) => {
                     set.left_out.no_maze += 1;
                     continue;
                 }
@@ -88,13 +87,13 @@ impl MazeSet {
         Row::new(&self.name).run_each(self.mazes.len() as u32)
     }
 
-    /// The maze of a run, with its name.
+    /// Returns the maze of a run, with its name.
     pub(super) fn maze(&self, run: u32) -> Result<&(String, Maze), BoxError> {
         let maze = self.mazes.get(run as usize);
         maze.ok_or_else(|| "there is no such run".into())
     }
 
-    /// What was left out, for people; none if nothing was.
+    /// Returns what was left out, for people, or `None` if nothing was.
     pub(super) fn complaint(&self) -> Option<String> {
         let LeftOut {
             no_maze,
@@ -183,6 +182,8 @@ fn fits(maze: &Maze) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     const SOUND: &str = "+---+---+\n| S   G |\n+---+---+\n";

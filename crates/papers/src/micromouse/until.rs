@@ -41,7 +41,7 @@ pub(super) fn of_row(row: &str) -> Option<Until> {
     found.map(|(_, until)| until)
 }
 
-/// One run in a maze of the set.
+/// Returns one run in a maze of the set.
 pub(super) fn run(set: &MazeSet, until: Until, job: &Job<'_>) -> Result<Fields, BoxError> {
     let count = set.mazes.len().max(1) as u32;
     let (name, maze) = set.maze(job.run % count)?;
@@ -49,7 +49,7 @@ pub(super) fn run(set: &MazeSet, until: Until, job: &Job<'_>) -> Result<Fields, 
     Ok(SetRun::of(&judgement, name).fields()?)
 }
 
-/// A mouse whose random numbers follow from `seed`.
+/// Returns a mouse whose random numbers follow from `seed`.
 fn judged(maze: &Maze, until: Until, seed: u64) -> Result<Judgement, BoxError> {
     let brief = brief(maze)?;
     let explorer = MoveExplorerConfig::tuned();

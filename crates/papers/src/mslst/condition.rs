@@ -42,7 +42,7 @@ impl Condition {
         Self::DoorShut,
     ];
 
-    /// The name of its row.
+    /// Returns the name of its row.
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::AsJudged => "as judged",
@@ -66,7 +66,8 @@ impl Condition {
             .find(|condition| condition.name() == name)
     }
 
-    /// The robot: with the noise that the better system is judged with, and what is wrong beside.
+    /// Returns the robot: with the noise that the better system is judged with, and what is wrong
+    /// beside.
     pub(super) fn robot(self, calibrated: &LaserPioneerConfig) -> LaserPioneerConfig {
         let mut robot = with_sensor_noise(calibrated, ENCODER_SD);
         let faults = &mut robot.faults;
@@ -117,7 +118,7 @@ impl Condition {
         })
     }
 
-    /// How the door stands that was open when the robot learned.
+    /// Returns how the door stands that was open when the robot learned.
     pub(super) const fn door(self) -> DoorState {
         match self {
             Self::DoorShut => DoorState::Shut,

@@ -169,7 +169,7 @@ impl Contest {
             .note(note)
     }
 
-    /// The table with what is measured in it, without its rows.
+    /// Returns the table with what is measured in it, without its rows.
     fn measured(&self) -> Table {
         let over = |name, agent: Agent| {
             let title = format!("steps / {}'s", agent.name());
@@ -205,7 +205,7 @@ impl Contest {
             .metric(Metric::mean(ContestRun::bounces))
     }
 
-    /// What the runs depend on.
+    /// Returns what the runs depend on.
     pub(super) fn config(&self) -> ContestConfig<'_> {
         let learners = self.competitors.iter();
         let width = self.venue.course.corridor_width;
@@ -229,6 +229,14 @@ impl Contest {
         competitor.ok_or_else(|| format!("there is no brain {row:?}").into())
     }
 
+    /// Names the map that a run of a learner is by; `None` of who learns none.
+    pub(super) fn map_of(&self, job: &Job<'_>) -> Option<String> {
+        let competitor = self.competitor(job.row).ok()?;
+        let map = job.run % self.maps;
+        let name = || format!("map {map} of {} in {}", job.row, job.table);
+        competitor.entrant.learns().then(name)
+    }
+
     /// Plays one run.
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let learns = self.competitor(job.row)?.entrant.learns();
@@ -241,7 +249,7 @@ impl Contest {
         Ok(run.fields()?)
     }
 
-    /// Where a run takes place, who drives, and what it has learned.
+    /// Returns where a run takes place, who drives, and what it has learned.
     fn cast(&self, job: &Job<'_>) -> Result<(Trial<'_>, Mind, &Ready), BoxError> {
         let competitor = self.competitor(job.row)?;
         let ready = competitor.ready(&self.venue, job.run)?;
@@ -252,7 +260,7 @@ impl Contest {
         Ok((trial, ready.mind(&self.venue)?, ready))
     }
 
-    /// One run and how often the robot bounced in it.
+    /// Returns one run and how often the robot bounced in it.
     pub(super) fn episode(&self, job: &Job<'_>) -> Result<(Episode, u32), BoxError> {
         let (trial, mut mind, _) = self.cast(job)?;
         let mut bounces = Bounces::default();
@@ -264,7 +272,7 @@ impl Contest {
         Ok((episode, bounces.count))
     }
 
-    /// One run as it can be watched.
+    /// Returns one run as it can be watched.
     pub(super) fn replay(&self, job: &Job<'_>) -> Result<Replay, BoxError> {
         let (trial, mut mind, ready) = self.cast(job)?;
         Ok(venue::replay(job, &trial, &mut mind, ready.nodes())?)
@@ -272,7 +280,7 @@ impl Contest {
 }
 
 impl Competitor {
-    /// What it has learned for this run, by whoever asks first.
+    /// Returns what it has learned for this run, by whoever asks first.
     pub(super) fn ready(&self, venue: &Venue, run: u32) -> Result<&Ready, BoxError> {
         let number = run as usize % self.ready.len();
         let cell = &self.ready[number];
@@ -285,7 +293,7 @@ impl Competitor {
         Ok(cell.get_or_init(|| ready))
     }
 
-    /// Map 0 of MSLST; none of who learns none.
+    /// Map 0 of MSLST, or `None` of who learns none.
     pub(super) fn first_map(&self, venue: &Venue) -> Result<Option<&Learned>, BoxError> {
         if !self.entrant.learns() {
             return Ok(None);

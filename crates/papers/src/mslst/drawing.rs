@@ -10,7 +10,8 @@ use tolman_systems::mslst::Learned;
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
 
-/// The paper's figure 3: every model scan, north upwards, with the number of nodes that have it.
+/// Returns the paper's figure 3: every model scan, north upwards, with the number of nodes that
+/// have it.
 #[must_use]
 pub fn states(learned: &Learned) -> Drawing {
     let mut tiles = Tiles::new(6);
@@ -28,8 +29,8 @@ pub fn states(learned: &Learned) -> Drawing {
 /// all of it would be a blot.
 pub const SHOWN_ACTIONS: u32 = 500;
 
-/// The paper's figure 4, over the maze: each node of the first [`SHOWN_ACTIONS`] where the robot
-/// truly was when it was made, those of the destination filled.
+/// Returns the paper's figure 4, over the maze: each node of the first [`SHOWN_ACTIONS`] where the
+/// robot truly was when it was made, those of the destination filled.
 #[must_use]
 pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
     let mut graph = GraphPicture::new().radius(2.0);

@@ -47,18 +47,18 @@ pub(super) enum LearnerConfig {
 }
 
 impl Entrant {
-    /// The paper's baselines before its system, what says how good they are after it.
+    /// Returns the paper's baselines before its system, what says how good they are after it.
     pub(super) fn lineup(learners: impl IntoIterator<Item = Self>) -> Vec<Self> {
         let baselines = [Agent::Avoid, Agent::WallFollow].map(Self::Agent);
-        let yardsticks = [Agent::Oracle, Agent::UnlocalizedOracle].map(Self::Agent);
+        let oracles = [Agent::Oracle, Agent::UnlocalizedOracle].map(Self::Agent);
         baselines
             .into_iter()
             .chain(learners)
-            .chain(yardsticks)
+            .chain(oracles)
             .collect()
     }
 
-    /// The name of its row.
+    /// Returns the name of its row.
     pub(super) fn row(self) -> String {
         match self {
             Self::Agent(agent) => agent.name().to_owned(),
@@ -67,17 +67,18 @@ impl Entrant {
         }
     }
 
-    /// Whether it is there to be compared with the others, and is no yardstick.
+    /// Returns whether it is there to be compared with the others, and is not a baseline.
     pub(super) const fn competes(self) -> bool {
         !matches!(self, Self::Agent(Agent::Oracle | Agent::UnlocalizedOracle))
     }
 
-    /// Whether it learns a map before it runs.
+    /// Returns whether it learns a map before it runs.
     pub(super) const fn learns(self) -> bool {
         !matches!(self, Self::Agent(_))
     }
 
-    /// What its runs depend on beside the world, where corridors are `corridor_width` m wide.
+    /// Returns what its runs depend on beside the world, where corridors are `corridor_width` m
+    /// wide.
     pub(super) fn config(self, corridor_width: f64) -> Option<LearnerConfig> {
         match self {
             Self::Agent(_) => None,
@@ -90,7 +91,7 @@ impl Entrant {
         }
     }
 
-    /// The robot that it has: a better system is one that stands sensors that err.
+    /// Returns the robot that it has: a better system is one that stands sensors that err.
     pub(super) fn robot(self, venue: &Venue) -> LaserPioneerConfig {
         match self {
             Self::Agent(_) | Self::Mslst(_) => venue.robot.clone(),
@@ -115,7 +116,7 @@ impl Entrant {
 }
 
 impl Ready {
-    /// A mind for one run, which remembers no other.
+    /// Returns a mind for one run, which remembers no other.
     pub(super) fn mind(&self, venue: &Venue) -> Result<Mind, EpisodeError> {
         Ok(match self {
             Self::Agent(agent) => venue.mind(*agent)?,
@@ -129,7 +130,7 @@ impl Ready {
         })
     }
 
-    /// Where the nodes of its map truly lie, by id.
+    /// Returns where the nodes of its map truly lie, by id.
     pub(super) fn nodes(&self) -> &[Point] {
         match self {
             Self::Agent(_) => &[],
@@ -138,7 +139,7 @@ impl Ready {
         }
     }
 
-    /// What MSLST has learned; none of others.
+    /// Returns what MSLST has learned, or `None` of others.
     pub(super) fn learned(&self) -> Option<&Learned> {
         match self {
             Self::Agent(_) | Self::Better(_) => None,

@@ -46,7 +46,7 @@ pub(super) struct Family {
     mazes: u32,
     limit: Option<u32>,
     entrants: Vec<Entrant>,
-    /// Mazes that one yardstick has planned in and the last has not run in yet, by number.
+    /// Mazes that one baseline has planned in and the last has not run in yet, by number.
     planned: Mutex<BTreeMap<u32, Arc<Venue>>>,
 }
 
@@ -78,7 +78,8 @@ const RANDOM_MAZES: u32 = 200;
 const BRAIDED: f64 = 0.5;
 
 impl Family {
-    /// The drawings of Large that are kept, with at least 20 starts each; `runs` starts in all.
+    /// Returns the drawings of Large that are kept, with at least 20 starts each; `runs` starts in
+    /// all.
     pub(super) fn drawings(runs: u32, limit: Option<u32>) -> Self {
         let [twenty, fifty] =
             [20.0, 50.0].map(|threshold| Entrant::Mslst(MslstConfig::large(threshold)));
@@ -123,7 +124,7 @@ impl Family {
         }
     }
 
-    /// The name of its table.
+    /// Returns the name of its table.
     pub(super) const fn name(&self) -> &'static str {
         match self.kind {
             Kind::Drawings => "drawings",
@@ -214,7 +215,8 @@ impl Family {
         Ok(run.fields()?)
     }
 
-    /// The world of a run; of a yardstick that of the yardstick before, which has planned in it.
+    /// Returns the world of a run; of a baseline that of the baseline before, which has planned in
+    /// it.
     fn venue_of(&self, entrant: &Entrant, job: &Job<'_>) -> Result<Arc<Venue>, BoxError> {
         if entrant.competes() {
             return Ok(Arc::new(self.venue(job)?));
@@ -231,7 +233,7 @@ impl Family {
         Ok(venue)
     }
 
-    /// The world of a run.
+    /// Returns the world of a run.
     fn venue(&self, job: &Job<'_>) -> Result<Venue, BoxError> {
         let venue = match self.kind {
             Kind::Drawings => Drawing::Large.venue(LARGE_DRAWINGS[job.run as usize])?,
@@ -241,7 +243,7 @@ impl Family {
     }
 }
 
-/// The random maze of a run.
+/// Returns the random maze of a run.
 pub(super) fn random(job: &Job<'_>) -> Result<Venue, BoxError> {
     let rng = &mut ChaCha8Rng::seed_from_u64(job.seed);
     let mut side = || rng.random_range(LEAST_SIDE..=MOST_SIDE) as u16;
@@ -282,10 +284,10 @@ fn spread(name: &str, field: &str, unit: &str) -> [Metric; 5] {
     ]
 }
 
-/// How many times a yardstick's steps, as a ratio of sums.
-fn over(name: &str, yardstick: Agent) -> Metric {
-    let title = format!("steps / {}'s", yardstick.name());
-    Metric::multiple(name, FamilyRun::steps, yardstick.name()).titled(title)
+/// Returns how many times a baseline's steps, as a ratio of sums.
+fn over(name: &str, baseline: Agent) -> Metric {
+    let title = format!("steps / {}'s", baseline.name());
+    Metric::multiple(name, FamilyRun::steps, baseline.name()).titled(title)
 }
 
 #[cfg(test)]

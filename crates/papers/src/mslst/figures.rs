@@ -47,7 +47,7 @@ pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxErr
     Ok(figures)
 }
 
-/// The paper's figure 3: every model scan, north upwards, with the nodes that have it.
+/// Returns the paper's figure 3: every model scan, north upwards, with the nodes that have it.
 fn states(learned: &Learned, at: &str, here: &str) -> Figure {
     let title = format!("{here}: states of map 0");
     Figure::new(format!("states-{at}"), title, drawing::states(learned)).caption(
@@ -55,7 +55,8 @@ fn states(learned: &Learned, at: &str, here: &str) -> Figure {
     )
 }
 
-/// The paper's figure 4, over the maze: each node where the robot truly was when it was made.
+/// Returns the paper's figure 4, over the maze: each node where the robot truly was when it was
+/// made.
 fn graph(contest: &Contest, learned: &Learned, at: &str, here: &str) -> Figure {
     let nodes = learned.map.graph.nodes();
     let linear = nodes.iter().filter(|node| ways_from(node) <= 2).count();
@@ -73,7 +74,7 @@ fn graph(contest: &Contest, learned: &Learned, at: &str, here: &str) -> Figure {
     ))
 }
 
-/// How many edges lead to other nodes.
+/// Returns how many edges lead to other nodes.
 fn ways_from(node: &Node) -> usize {
     node.edges.iter().filter(|edge| edge.head.is_some()).count()
 }
@@ -81,7 +82,7 @@ fn ways_from(node: &Node) -> usize {
 /// How many runs a map must have for its success to be drawn.
 const LEAST_RUNS: u64 = 5;
 
-/// How success differs from map to map; none while the maps have too few runs to tell.
+/// Returns how success differs from map to map, or `None` while the maps have too few runs to tell.
 fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<Figure>, BoxError> {
     let ranks = Axis::linear("maps, from the worst to the best");
     let mut chart = Chart::new(
@@ -123,7 +124,7 @@ fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<F
     Ok((drawn > 0).then(figure))
 }
 
-/// Where the first runs went.
+/// Returns where the first runs went.
 fn ways(contest: &Contest, runs: &[&Run], at: &str, here: &str) -> Result<Figure, BoxError> {
     let mut plan = crate::plan_of_course(&contest.venue.course, WIDTH);
     for run in runs {

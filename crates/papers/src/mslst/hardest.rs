@@ -32,7 +32,7 @@ const WORLDS: [(&str, u64); 4] = [
 /// Maps of each world at most.
 const MOST_MAPS: u32 = 50;
 
-/// An episode is drawn as a detour if it takes so many times as long as the Unlocalized oracle's.
+/// An episode is drawn as a detour from this multiple of the Unlocalized oracle's time on.
 const DETOUR: u32 = 2;
 
 /// The worlds, and how many maps and starts each is tried with.
@@ -120,7 +120,7 @@ impl Hardest {
         driver.drive(|_| None, watch)
     }
 
-    /// The ways by the first map of each world that was played.
+    /// Returns the ways by the first map of each world that was played.
     pub(super) fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let first = |world: &&Venue| {
             let mut own = runs

@@ -35,8 +35,8 @@ const ROWS: [(&str, u32); 3] = [
     ("Better, ten times as long", 10),
 ];
 
-/// Random mazes, where enough runs are asked for: one for every so many, since each is learned
-/// thirteen times over.
+/// Random mazes, where enough runs are asked for: one for every this many runs, since each is
+/// learned thirteen times over.
 const MOST_MAZES: u32 = 100;
 const RUNS_A_MAZE: u32 = 10;
 

@@ -21,7 +21,7 @@ mod states;
 use crate::venue::{self, Venue};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Entry, Experiment, Fields, Job, Options, P_TABLE, Procedure, Run,
+    BoxError, Entry, Experiment, Fields, Job, Options, P_TABLE, Procedure, Run, Tour,
 };
 use tolman_replay::Replay;
 
@@ -40,6 +40,10 @@ pub(super) const ENTRY: Entry = Entry {
     source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 1 to 3",
     runs: 25,
     quick_runs: 10,
+    tour: Some(Tour {
+        tables: &["2 (J)"],
+        runs: Some(3),
+    }),
     open,
 };
 
@@ -150,6 +154,21 @@ impl Procedure for Mslst {
             Some(contest) => contest.run(job),
             None => states::run(job, &self.contests),
         }
+    }
+
+    fn shares(&self, job: &Job<'_>) -> Option<String> {
+        let run = job.run;
+        if self
+            .families
+            .iter()
+            .any(|family| family.name() == job.table)
+        {
+            return Some(format!("maze {run} of {}", job.table));
+        }
+        if [ROBUSTNESS, ABLATION].contains(&job.table) {
+            return Some(format!("drawing {run}"));
+        }
+        self.contest(job.table)?.map_of(job)
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {

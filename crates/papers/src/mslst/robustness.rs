@@ -131,7 +131,7 @@ impl Robustness {
         Ok(run.fields()?)
     }
 
-    /// A drawing as it was learned, or with a door shut since, with what was planned there.
+    /// Returns a drawing as it was learned, or with a door shut since, with what was planned there.
     fn venue(&self, number: u32, door: DoorState) -> Result<Arc<Venue>, BoxError> {
         let cell = &self.venues[number as usize][usize::from(door == DoorState::Shut)];
         if let Some(venue) = cell.get() {
@@ -148,7 +148,7 @@ impl Robustness {
     }
 }
 
-/// A drawing in which the way is shut between two cells of its loop, any of them.
+/// Returns a drawing in which the way is shut between two cells of its loop, any of them.
 fn with_a_door_shut(drawing: u32) -> Result<Venue, BoxError> {
     let maze = Drawing::Large.maze(drawing)?;
     let mut shut: Vec<Maze> = Vec::new();

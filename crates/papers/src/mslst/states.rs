@@ -22,12 +22,12 @@ pub(super) fn table() -> Table {
         .paper_runs(1)
         .rows(TABLE_1.map(row))
         .note(
-            "Every run wanders anew. The quantizer's one parameter that no source gives was chosen on the row Large 50; \
+            "Every run wanders again. The quantizer's one parameter that no source gives was chosen on the row Large 50; \
              the others are predictions.",
         )
 }
 
-/// One run: Phase I.
+/// Returns one run: Phase I.
 pub(super) fn run(job: &Job<'_>, contests: &[Contest]) -> Result<Fields, BoxError> {
     let row = states_row(job.row)?;
     let mut venues = contests.iter().map(|contest| &contest.venue);

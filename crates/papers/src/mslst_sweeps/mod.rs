@@ -34,6 +34,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, future work",
     runs: 10,
     quick_runs: 2,
+    tour: None,
     open,
 };
 

@@ -19,7 +19,7 @@ use tolman_systems::mslst::ROBOT_UNIT;
 pub(super) struct Sweep {
     pub(super) name: &'static str,
     pub(super) title: &'static str,
-    /// What is varied, with its unit; none if the settings have no order.
+    /// What is varied, with its unit, or `None` if the settings have no order.
     pub(super) axis: Option<&'static str>,
     pub(super) settings: Vec<Setting>,
     pub(super) note: &'static str,
@@ -48,7 +48,7 @@ pub(super) enum World {
 }
 
 impl World {
-    /// The course of the run with this seed.
+    /// Returns the course of the run with this seed.
     pub(super) fn course(&self, seed: u64) -> Result<Course, BoxError> {
         let rng = &mut ChaCha8Rng::seed_from_u64(seed);
         let maze = match *self {
@@ -89,7 +89,7 @@ impl World {
 }
 
 impl Setting {
-    /// What its runs depend on.
+    /// Returns what its runs depend on.
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
         struct Config<'a> {
@@ -112,7 +112,7 @@ impl Setting {
     }
 }
 
-/// Every sweep.
+/// Returns every sweep.
 pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
     let [j, large] = fixed()?;
     let base = MslstConfig::large(50.0);
@@ -194,7 +194,7 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
     ])
 }
 
-/// The paper's two worlds with its limits.
+/// Returns the paper's two worlds with its limits.
 fn fixed() -> Result<[World; 2], BoxError> {
     let fixed = |venue: Venue| World::Fixed {
         steps: venue.step_limit,
@@ -246,7 +246,7 @@ fn worlds(j: World, large: &World) -> Result<Vec<Setting>, BoxError> {
     Ok(rows)
 }
 
-/// A ring of eight beams in place of the laser's 72, as the sonars of a Khepera.
+/// Returns a ring of eight beams in place of the laser's 72, as the sonars of a Khepera.
 fn with_sonars() -> LaserPioneerConfig {
     let laser = pioneer::calibrated();
     LaserPioneerConfig {
@@ -255,7 +255,7 @@ fn with_sonars() -> LaserPioneerConfig {
     }
 }
 
-/// The same maze with corridors of another width, robot units.
+/// Returns the same maze with corridors of another width, robot units.
 fn widened(world: &World, units: f64) -> Result<World, BoxError> {
     let World::Fixed { course, steps } = world else {
         return Ok(world.clone());
@@ -272,7 +272,7 @@ fn widened(world: &World, units: f64) -> Result<World, BoxError> {
     })
 }
 
-/// A square without walls inside, the destination in its south-east corner.
+/// Returns a square without walls inside, the destination in its south-east corner.
 fn room(side: u16) -> Result<World, BoxError> {
     let mut maze = Maze::open(Grid::new(side, side));
     maze.set_goals(vec![Cell::new(side - 1, 0)]);

@@ -109,7 +109,7 @@ pub(super) struct Learned {
     pub(super) second: Soinn<f64>,
 }
 
-/// Whether the table is one of these.
+/// Returns whether the table is one of these.
 pub(super) fn has(table: &str) -> bool {
     [NAME, ONE_AFTER_ANOTHER, OTHER_STREAMS].contains(&table)
 }
@@ -157,7 +157,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(run.fields()?)
 }
 
-/// Whether there are five clusters, each with at least 95 % of one region's points.
+/// Returns whether there are five clusters, each with at least 95 % of one region's points.
 fn is_right(second: &Soinn<f64>, seed: u64) -> Result<bool, BoxError> {
     let clusters = second.network().clusters();
     if clusters.count() != REGIONS as usize {

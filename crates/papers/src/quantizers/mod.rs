@@ -19,7 +19,7 @@ use tolman_sim::robots::LaserPioneerConfig;
 use crate::data;
 use tolman_arena::pioneer;
 use tolman_draw::Figure;
-use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run};
+use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run, Tour};
 
 use sonar::Log;
 use states::Mazes;
@@ -32,6 +32,10 @@ pub(super) const ENTRY: Entry = Entry {
              incremental network for on-line unsupervised classification and topology learning, 2006",
     runs: 20,
     quick_runs: 10,
+    tour: Some(Tour {
+        tables: &["1"],
+        runs: None,
+    }),
     open,
 };
 
@@ -60,7 +64,7 @@ struct Parameters {
     second_layer: SecondLayerConfig,
 }
 
-/// The same with the greatest integer of TOML for a number of units without a bound.
+/// Returns the same with the greatest integer of TOML for a number of units without a bound.
 fn unbounded(config: GngConfig) -> GngConfig {
     let max_units = config.max_units.min(i64::MAX as usize);
     GngConfig {

@@ -16,7 +16,7 @@ const SHUFFLED: &str = "shuffled";
 const IN_TIME: &str = "in time";
 const REPLAYED: &str = "in time, replayed";
 
-/// GNG grows to so many units, and the scans come so many times over.
+/// Number of units that GNG grows to, and number of times that the scans are shown.
 const UNITS: usize = 40;
 const PASSES: u32 = 3;
 
@@ -75,7 +75,7 @@ pub(super) fn run(mazes: &Mazes, job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(fields)
 }
 
-/// What a quantizer makes of a stream, measured by all scans.
+/// Returns what a quantizer makes of a stream, measured by all scans.
 fn learn<'a>(
     mut quantizer: impl Quantizer<f64>,
     stream: impl Iterator<Item = &'a Vec<f64>>,

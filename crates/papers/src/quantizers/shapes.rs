@@ -17,7 +17,7 @@ pub(super) const MARKS: [u32; 6] = [100, 300, 1000, 3000, 10_000, 30_000];
 /// Points that the error is measured on, which are not learnt.
 const PROBES: usize = 2000;
 
-/// GNG grows to so many units.
+/// Number of units that GNG grows to.
 const UNITS: usize = 100;
 
 /// In squared units of the data: about 100 units in equilibrium.
@@ -46,7 +46,7 @@ record! {
 }
 
 impl ShapesRun {
-    /// The errors at [`MARKS`].
+    /// Returns the errors at [`MARKS`].
     pub(super) const fn errors(&self) -> [f64; MARKS.len()] {
         [
             self.rms_100,

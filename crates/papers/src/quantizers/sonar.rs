@@ -23,7 +23,7 @@ const UNITS: usize = 100;
 /// In squared metres.
 const THRESHOLD: f64 = 10.0;
 
-/// The readings are shown so many times, each time in another order.
+/// Number of times that the readings are shown, each time in another order.
 const PASSES: u32 = 5;
 
 /// The log: readings in metres, each with what the wall-following robot did, in the order of time.
@@ -35,7 +35,7 @@ pub(crate) struct Log {
 }
 
 impl Log {
-    /// The log, if it is there.
+    /// Returns the log, if it is there.
     pub(crate) fn find() -> Result<Option<Self>, BoxError> {
         let path = data::folder().map(|folder| folder.join(FILE));
         match path {

@@ -58,12 +58,12 @@ impl Mazes {
         [&self.j, &self.large]
     }
 
-    /// The scans of phase I in the Large maze.
+    /// Returns the scans of phase I in the Large maze.
     pub(super) fn large_scans(&self, seed: u64) -> Result<Vec<Vec<f64>>, BoxError> {
         scans(&self.large, seed)
     }
 
-    /// The network of a run of the table, and the scans it learned.
+    /// Returns the network of a run of the table, and the scans it learned.
     pub(super) fn learn(&self, job: &Job<'_>) -> Result<(Gng<f64>, Vec<Vec<f64>>), BoxError> {
         let row = states_row(job.row)?;
         let mut courses = self.all().into_iter();
@@ -109,8 +109,8 @@ record! {
     }
 }
 
-/// What the decay is chosen by: it gives the paper's 26 states in Large 50, the median of runs; the
-/// others are predictions.
+/// Returns what the decay is chosen by: it gives the paper's 26 states in Large 50, the median of
+/// runs; the others are predictions.
 pub(super) fn decay_table() -> Table {
     let fields = [DecayRun::large_50, DecayRun::j_100, DecayRun::large_20];
     let table = Table::of::<DecayRun>(DECAY, "Table 1 by the decay of errors, medians")
@@ -134,7 +134,7 @@ impl Mazes {
     }
 }
 
-/// How many states scans make.
+/// Returns how many states scans make.
 fn states(scans: &[Vec<f64>], threshold: f64, decay: f64) -> Result<usize, BoxError> {
     let config = GngConfig {
         decay,
@@ -147,7 +147,7 @@ fn states(scans: &[Vec<f64>], threshold: f64, decay: f64) -> Result<usize, BoxEr
     Ok(gng.network().len())
 }
 
-/// The scans of phase I.
+/// Returns the scans of phase I.
 fn scans(course: &Course, seed: u64) -> Result<Vec<Vec<f64>>, BoxError> {
     Ok(mslst::scans(course, &pioneer::calibrated(), STEPS, seed)?)
 }

@@ -23,8 +23,8 @@ pub(super) const REGIONS: u32 = 5;
 /// The sides of the square that the regions and the noise lie in.
 const SIDE: f64 = 10.0;
 
-/// The artificial data of Shen and Hasegawa 2006: two Gaussians, two concentric rings and a sine
-/// curve, and noise evenly over the whole square, a share of all points. Their figure has no
+/// Returns the artificial data of Shen and Hasegawa 2006: two Gaussians, two concentric rings and a
+/// sine curve, and noise evenly over the whole square, a share of all points. Their figure has no
 /// scales; the gaps here are a tenth of the square and more.
 pub(super) fn five_clusters(
     order: Order,
@@ -50,12 +50,12 @@ pub(super) fn five_clusters(
     (0..points).map(point).collect()
 }
 
-/// A point of a region: 0 and 1 are the Gaussians, 2 and 3 the rings, 4 the sine curve.
+/// Returns a point of a region: 0 and 1 are the Gaussians, 2 and 3 the rings, 4 the sine curve.
 pub(super) fn of_region(region: u32, rng: &mut ChaCha8Rng) -> Point {
     in_region(region, 0.0, 1.0, rng)
 }
 
-/// The same, of the sine curve only what lies between two shares of its length.
+/// Returns the same, of the sine curve only what lies between two shares of its length.
 fn in_region(region: u32, from: f64, to: f64, rng: &mut ChaCha8Rng) -> Point {
     match region {
         0 => gaussian([1.6, 8.2], 0.35, rng),
@@ -94,7 +94,7 @@ fn on_ring(centre: Point, radius: f64, half_width: f64, rng: &mut ChaCha8Rng) ->
     ]
 }
 
-/// Two rings and two full squares, as GNG is usually shown on.
+/// Returns two rings and two full squares, as GNG is usually shown on.
 pub(super) fn rings_and_squares(rng: &mut ChaCha8Rng) -> Point {
     match rng.random_range(0..4_u32) {
         0 => on_ring([2.5, 7.5], 1.8, 0.1, rng),

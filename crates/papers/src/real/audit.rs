@@ -65,15 +65,15 @@ record! {
         bounds_broken: u32 => lower("bounds broken").decimals(2),
         /// False closures that are refuted.
         false_refuted_percent: f64 => higher("false refuted").percent().decimals(1),
-        /// Right closures that are supported; none where there are none.
+        /// Right closures that are supported, or `None` where there are none.
         true_supported_percent: Option<f64> => higher("right supported").percent().decimals(1),
         /// Time of the audit over that of GTSAM's graduated non-convexity on the same graph, with
         /// the same standard deviations, in the same run. GTSAM is ended after ten minutes, or when
         /// it has taken 40 times as long and a minute: the ratio is at most this then.
         seconds_over_gtsam: Option<f64> => lower("time over GTSAM's").at_least(0).decimals(3),
-        /// False closures that GTSAM keeps; none where it did not end.
+        /// False closures that GTSAM keeps, or `None` where it did not end.
         gtsam_false_kept: Option<u32> => lower("GTSAM keeps false").decimals(2),
-        /// Right closures that GTSAM drops; none where it did not end.
+        /// Right closures that GTSAM drops, or `None` where it did not end.
         gtsam_true_dropped: Option<u32> => lower("GTSAM drops right").decimals(2),
         /// False closures that were added: fewer where the graph has no room for them.
         added: u32 => neither("added").decimals(0),
@@ -168,7 +168,7 @@ impl Graphs {
         })
     }
 
-    /// What is left out, if anything is.
+    /// Returns what is left out, if anything is.
     pub(super) fn missing(&self) -> Option<String> {
         let missing = self.known.iter().any(|known| known.graph.is_none());
         missing.then(|| data::missing("the pose graphs of the Vertigo project"))
@@ -269,7 +269,7 @@ fn percent(part: u32, whole: u32) -> Option<f64> {
     (whole > 0).then(|| 100.0 * f64::from(part) / f64::from(whole))
 }
 
-/// A graph with its false closures as a file says it.
+/// Returns a graph with its false closures as a file says it.
 fn g2o_of(file: &GraphFile, graph: &PoseGraph) -> G2o {
     let id = |pose: u32| file.file.poses[pose as usize].id;
     let edges = graph.edges().iter().map(|edge| G2oEdge {
@@ -285,7 +285,7 @@ fn g2o_of(file: &GraphFile, graph: &PoseGraph) -> G2o {
     }
 }
 
-/// A graph of others with its truth, if both are here.
+/// Returns a graph of others with its truth, if both are here.
 fn of_others(
     folder: Option<&Path>,
     name: &str,
@@ -331,7 +331,7 @@ fn poses_of_lines(text: &str) -> Result<Vec<Pose>, BoxError> {
         .collect()
 }
 
-/// The project's own graph without the false closures that it comes with.
+/// Returns the project's own graph without the false closures that it comes with.
 fn rooms() -> Result<(GraphFile, Vec<Pose>), BoxError> {
     let of = |text: &str| {
         GraphFile::of(G2o::parse(text)?)

@@ -122,7 +122,7 @@ impl MapPicture {
     }
 }
 
-/// Whether a cell is a wall.
+/// Returns whether a cell is a wall.
 pub(super) fn is_wall(occupied: Option<f64>) -> bool {
     occupied.is_some_and(|occupied| occupied >= WALL)
 }
@@ -152,7 +152,7 @@ pub fn ros_map(grid: &OccupancyGrid) -> RosMap {
     }
 }
 
-/// The scans that show something new.
+/// Returns the scans that show something new.
 fn apart(poses: &[Pose]) -> Vec<usize> {
     let mut drawn: Vec<usize> = Vec::new();
     for (index, pose) in poses.iter().enumerate() {

@@ -71,7 +71,7 @@ impl Kind {
     }
 }
 
-/// Whether a measurement is off from the truth by more than 1 m or 20°.
+/// Returns whether a measurement is off from the truth by more than 1 m or 20°.
 pub(super) fn is_false(measured: Pose, truth: Pose) -> bool {
     let off = truth.between(measured);
     off.position.coords.norm() > FALSE_M || off.heading.degrees().abs() > FALSE_DEG
@@ -129,7 +129,8 @@ impl<'a> Spoiler<'a> {
         drawn
     }
 
-    /// One false closure, or a group of them; `None` if chance chose poses that will not do.
+    /// Returns one false closure, or a group of them; `None` if chance chose poses that will not
+    /// do.
     fn group(&self, kind: Kind, rng: &mut ChaCha8Rng) -> Option<Vec<PoseEdge>> {
         let length = if kind.is_grouped() {
             rng.random_range(10..=20_u32)
@@ -200,7 +201,7 @@ impl<'a> Spoiler<'a> {
     }
 }
 
-/// A pose moved by chance, in its own frame.
+/// Returns a pose moved by chance, in its own frame.
 fn spread(pose: Pose, metres: f64, radians: f64, rng: &mut ChaCha8Rng) -> Pose {
     let (x, y) = gaussians(rng);
     let (turn, _) = gaussians(rng);
@@ -210,7 +211,7 @@ fn spread(pose: Pose, metres: f64, radians: f64, rng: &mut ChaCha8Rng) -> Pose {
     ))
 }
 
-/// Two independent numbers of the standard normal distribution (Box and Muller, 1958).
+/// Returns two independent numbers of the standard normal distribution (Box and Muller, 1958).
 fn gaussians(rng: &mut ChaCha8Rng) -> (f64, f64) {
     let unit = |rng: &mut ChaCha8Rng| (f64::from(rng.random::<u32>()) + 0.5) / 4_294_967_296.0;
     let radius = libm::sqrt(-2.0 * libm::log(unit(rng)));

@@ -5,7 +5,7 @@ use tolman_experiment::{BoxError, Run};
 
 use super::{LogSystem, MapPicture, Real, small};
 
-/// A picture of the small log's map.
+/// Returns a picture of the small log's map.
 pub(super) fn of(real: &Real, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     if !runs.iter().any(|run| run.table == small::NAME) {
         return Ok(Vec::new());

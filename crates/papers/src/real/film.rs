@@ -48,7 +48,7 @@ impl MappedLog {
         self.keyframes.get(keyframe).map_or(0, |scan| *scan as u32)
     }
 
-    /// What the laser read at each keyframe.
+    /// Returns what the laser read at each keyframe.
     fn readings(&self, log: &RobotLog) -> Option<Scans> {
         let of_first = log.scans.first()?.scan.ring;
         let every = of_first.beams.div_ceil(SHOWN_BEAMS).max(1);
@@ -71,7 +71,7 @@ impl MappedLog {
         })
     }
 
-    /// Keyframes as nodes, one after the other, and closures between them.
+    /// Keyframes as nodes, one by one, and closures between them.
     fn keyframe_map(&self) -> MapGrowth {
         let every = self.keyframes.len().div_ceil(MOST_NODES).max(1);
         let node = |number: usize| {
@@ -120,7 +120,7 @@ impl MappedLog {
     }
 }
 
-/// The time between two scans in the mean, s.
+/// Returns the time between two scans in the mean, s.
 fn pace(log: &RobotLog) -> f64 {
     let ends = log.scans.first().zip(log.scans.last());
     let lasted = ends.map_or(0.0, |(first, last)| last.time - first.time);

@@ -19,8 +19,8 @@ const SCRIPT: &str = include_str!("gnc.py");
 /// When it is ended at the latest, s.
 const CAP: f64 = 600.0;
 
-/// When it is ended because it is slower by far: so many times as long as the audit, and so many
-/// seconds at least.
+/// When it is stopped for being far slower: after this multiple of the audit's time, and at least
+/// the seconds below.
 const TIMES: f64 = 40.0;
 const LEAST: f64 = 60.0;
 
@@ -39,7 +39,7 @@ pub(super) struct GncRun {
 }
 
 impl Gnc {
-    /// The Python that `TOLMAN_PYTHON` names, or `python3`, if it has GTSAM.
+    /// Returns the Python that `TOLMAN_PYTHON` names, or `python3`, if it has GTSAM.
     pub(super) fn find() -> Option<Self> {
         let python = env::var("TOLMAN_PYTHON").unwrap_or_else(|_| "python3".to_owned());
         let mut command = Command::new(&python);
@@ -94,7 +94,7 @@ impl Gnc {
         })
     }
 
-    /// What the script writes; `None` if it had to be ended.
+    /// Returns what the script writes; `None` if it had to be ended.
     fn answer(&self, arguments: &[&str; 4]) -> Result<Option<String>, BoxError> {
         let mut command = Command::new(&self.python);
         command.args(["-c", SCRIPT]).args(arguments);

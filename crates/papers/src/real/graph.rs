@@ -1,10 +1,9 @@
 //! Pose graphs of others as this project has them.
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+use tolman_formats::input::{self, SourceError};
 use tolman_formats::{G2o, G2oError};
 use tolman_geom::Pose;
 use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
@@ -20,7 +19,7 @@ pub struct GraphFile {
     pub graph: PoseGraph,
 }
 
-/// Why a file is no pose graph.
+/// Reason why a file is no pose graph.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GraphFileError {
@@ -29,8 +28,8 @@ pub enum GraphFileError {
     File {
         /// Which file.
         path: PathBuf,
-        /// What the system says.
-        source: io::Error,
+        /// Why.
+        source: SourceError,
     },
     /// It holds nothing of use.
     #[error("{}", path.display())]
@@ -58,7 +57,7 @@ impl GraphFile {
     /// # Errors
     /// [`GraphFileError`] with the file and what is wrong with it.
     pub fn read(path: &Path) -> Result<Self, GraphFileError> {
-        let bytes = fs::read(path).map_err(|source| GraphFileError::File {
+        let bytes = input::bytes(path).map_err(|source| GraphFileError::File {
             path: path.to_owned(),
             source,
         })?;
@@ -73,7 +72,7 @@ impl GraphFile {
         })
     }
 
-    /// The graph of what a file says; the error bears the line at fault.
+    /// Returns the graph of what a file says; the error bears the line at fault.
     pub(super) fn of(file: G2o) -> Result<Self, (usize, PoseGraphError)> {
         let mut graph = PoseGraph::new();
         for pose in &file.poses {

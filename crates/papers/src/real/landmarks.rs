@@ -81,7 +81,7 @@ impl LandmarkMap {
     }
 }
 
-/// How poses are made to agree while there are more to come: nearly.
+/// Returns how poses are made to agree while there are more to come: nearly.
 const fn on_the_way() -> OptimizerConfig {
     OptimizerConfig {
         most_steps: 4,
@@ -90,7 +90,7 @@ const fn on_the_way() -> OptimizerConfig {
     }
 }
 
-/// The times of the poses that are kept, s.
+/// Returns the times of the poses that are kept, s.
 pub(super) fn steps_of(reckoned: &Trajectory) -> Vec<f64> {
     let (Some(first), Some(last)) = (reckoned.poses().first(), reckoned.poses().last()) else {
         return Vec::new();
@@ -149,7 +149,7 @@ fn see(
     })
 }
 
-/// The information of what errs by so much: ahead and left, m, and heading, rad (standard
+/// Returns the information of what errs by so much: ahead and left, m, and heading, rad (standard
 /// deviations).
 pub(super) fn information(errors: [f64; 3]) -> Matrix3<f64> {
     Matrix3::from_diagonal(&Vector3::from(errors).map(|error| 1.0 / (error * error)))

@@ -152,7 +152,7 @@ impl RobotLog {
     /// told after each scan how many there were.
     ///
     /// # Errors
-    /// If a scan is none.
+    /// If a scan is invalid.
     pub fn map(
         &self,
         system: LogSystem,

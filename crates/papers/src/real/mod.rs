@@ -21,7 +21,7 @@ mod wean;
 
 use serde::Serialize;
 use tolman_draw::Figure;
-use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run};
+use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run, Tour};
 use tolman_maps::audit::AuditConfig;
 use tolman_maps::scan_matching::ScanMatchingConfig;
 use tolman_systems::places::PlacesConfig;
@@ -41,6 +41,10 @@ pub(super) const ENTRY: Entry = Entry {
              SLAM Algorithms, 2009, for the relations",
     runs: 5,
     quick_runs: 1,
+    tour: Some(Tour {
+        tables: &["small log"],
+        runs: None,
+    }),
     open,
 };
 
@@ -118,6 +122,11 @@ impl Procedure for Real {
             (sonar::NAME, Some(log)) => log.run(job),
             (table, _) => Err(format!("there is no table {table}").into()),
         }
+    }
+
+    /// The rows of a table read the same log.
+    fn shares(&self, job: &Job<'_>) -> Option<String> {
+        Some(job.table.to_owned())
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {

@@ -50,7 +50,7 @@ pub(super) struct Intel {
     dense: OnceLock<MappedLog>,
 }
 
-/// A file of the data, if it is here.
+/// Returns a file of the data, if it is here.
 pub(super) fn file(name: &str) -> Option<PathBuf> {
     let path = data::folder()?.join(name);
     path.exists().then_some(path)
@@ -62,7 +62,7 @@ fn is_here() -> bool {
         .all(|name| file(name).is_some())
 }
 
-/// What to tell where it is not here.
+/// Returns what to tell where it is not here.
 pub(super) fn missing() -> Option<String> {
     (!is_here()).then(|| data::missing("the logs of the Intel lab and their relations"))
 }
@@ -135,7 +135,7 @@ impl Intel {
         Ok(self.dense.get_or_init(|| dense))
     }
 
-    /// The way that a row has.
+    /// Returns the way that a row has.
     fn way(&self, job: &Job<'_>) -> Result<(Trajectory, MappedLog), BoxError> {
         let named = ROWS.iter().find(|(name, _)| *name == job.row);
         let (_, system) = named.ok_or_else(|| format!("there is no row {}", job.row))?;

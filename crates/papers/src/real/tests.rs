@@ -6,7 +6,7 @@ use super::small::Small;
 use super::trajectories::aligned;
 use super::{LogSystem, RobotLog};
 
-/// Every third scan of the small log, which is as far as a robot comes in a second.
+/// Returns every third scan of the small log, which is as far as a robot comes in a second.
 fn log() -> RobotLog {
     let log = Small::read().unwrap().log;
     RobotLog {

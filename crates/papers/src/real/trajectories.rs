@@ -76,7 +76,7 @@ record! {
     }
 }
 
-/// What to tell where a log is not here.
+/// Returns what to tell where a log is not here.
 pub(super) fn missing() -> Option<String> {
     let here = ROWS.iter().all(|(_, name, _)| file(name).is_some());
     (!here).then(|| data::missing("logs of buildings"))
@@ -97,7 +97,7 @@ pub(super) fn table() -> Table {
         )
 }
 
-/// The wheels of a robot, made worse.
+/// Returns the wheels of a robot, made worse.
 pub(super) fn worse(odometry: &[Pose], wear: Wear, seed: u64) -> Vec<Pose> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut side = || if rng.random::<bool>() { 1.0 } else { -1.0 };
@@ -127,7 +127,7 @@ pub(super) fn worse(odometry: &[Pose], wear: Wear, seed: u64) -> Vec<Pose> {
     worse
 }
 
-/// A number of the standard normal distribution (Box and Muller).
+/// Returns a number of the standard normal distribution (Box and Muller).
 fn gaussian(rng: &mut ChaCha8Rng) -> f64 {
     let unit = |rng: &mut ChaCha8Rng| (f64::from(rng.random::<u32>()) + 0.5) / 4_294_967_296.0;
     let (radius, turn) = (unit(rng), unit(rng));
@@ -157,7 +157,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(run.fields()?)
 }
 
-/// How far poses are from the true ones.
+/// Returns how far poses are from the true ones.
 pub(super) fn aligned(found: &[Pose], truth: &[Pose]) -> Result<AlignedScore, BoxError> {
     let pairs = found.iter().zip(truth);
     let pairs: Vec<(Point, Point)> = pairs.map(|(a, b)| (a.position, b.position)).collect();

@@ -54,7 +54,7 @@ record! {
     }
 }
 
-/// What to tell where the drive is not here.
+/// Returns what to tell where the drive is not here.
 pub(super) fn missing() -> Option<String> {
     let here = [DRIVE, TRUTH].iter().all(|name| file(name).is_some());
     (!here).then(|| data::missing("the corridor of Chemnitz"))
@@ -107,7 +107,7 @@ fn is_true(one: &PlaceMatch, truth: &Trajectory) -> bool {
     pair.is_some_and(|(now, then)| (now - then).norm() < TRUE_M)
 }
 
-/// The matches that others support.
+/// Returns the matches that others support.
 fn accepted(odometry: &[LogVelocity], matches: &[PlaceMatch]) -> Result<Vec<PlaceMatch>, BoxError> {
     let reckoned = LogVelocity::dead_reckoning(odometry);
     let times = matches.iter().flat_map(|one| [one.earlier, one.time]);

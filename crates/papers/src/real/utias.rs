@@ -34,7 +34,7 @@ const PAIRS: [[u32; 2]; 6] = [[1, 2], [1, 3], [2, 1], [2, 3], [3, 1], [3, 2]];
 
 /// A robot knows what it saw in so long a time, s.
 const MEMORY_S: f64 = 10.0;
-/// It says where it is when it knows so many landmarks.
+/// Number of landmarks it must know before it says where it is.
 const LEAST_SEEN: usize = 2;
 /// Nodes of the map: two for each cell.
 const NODES: usize = 128;
@@ -58,7 +58,7 @@ fn folder() -> Option<PathBuf> {
     file(FOLDER)
 }
 
-/// What to tell where the set is not here.
+/// Returns what to tell where the set is not here.
 pub(super) fn missing() -> Option<String> {
     folder()
         .is_none()
@@ -129,7 +129,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(run.fields()?)
 }
 
-/// A map of where the robot was and how far the landmarks are from there.
+/// Returns a map of where the robot was and how far the landmarks are from there.
 fn place_map(known: &LandmarkMap, rng: &mut ChaCha8Rng) -> Result<PlaceMap, BoxError> {
     let record = |pose: Pose| {
         let landmarks = known.landmarks.values();

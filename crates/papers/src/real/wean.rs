@@ -43,7 +43,7 @@ record! {
     }
 }
 
-/// What to tell where a log is not here.
+/// Returns what to tell where a log is not here.
 pub(super) fn missing() -> Option<String> {
     let here = ROWS.iter().all(|(_, name)| file(name).is_some());
     (!here).then(|| data::missing("the logs of Wean Hall"))
@@ -64,7 +64,7 @@ pub(super) fn table() -> Table {
         )
 }
 
-/// A log as a map of places.
+/// Returns a log as a map of places.
 fn mapped(number: usize) -> Result<PlacesMapper, BoxError> {
     let (row, name) = ROWS[number % ROWS.len()];
     let path = file(name).ok_or_else(|| format!("the log of {row} is gone"))?;

@@ -95,7 +95,7 @@ pub(crate) enum Condition {
 }
 
 impl Drawing {
-    /// The drawing of this number, by geometry alone.
+    /// Returns the drawing of this number, by geometry alone.
     pub(crate) fn maze(self, number: u32) -> Result<Maze, GenerateError> {
         let stream = format!("drawings of {}", self.name());
         let rng = &mut ChaCha8Rng::seed_from_u64(run_seed(SEED, &stream, number));
@@ -118,7 +118,7 @@ impl Drawing {
         }
     }
 
-    /// The drawing of this number as a world.
+    /// Returns the drawing of this number as a world.
     pub(crate) fn venue(self, number: u32) -> Result<Venue, BoxError> {
         let file = MazeFile::from(self.maze(number)?);
         let course = Course::for_body(self.name(), &file, &pioneer::body())?;
@@ -128,7 +128,7 @@ impl Drawing {
         })
     }
 
-    /// Whether the lists say that this drawing is kept, where they reach as far.
+    /// Returns whether the lists say that this drawing is kept, where they reach as far.
     pub(crate) fn listed(self, number: u32) -> Option<bool> {
         match self {
             Self::J => (number <= J_DRAWING).then_some(number == J_DRAWING),
@@ -146,8 +146,8 @@ impl Drawing {
         }
     }
 
-    /// The most steps of the Oracle, on average. In Large those of the paper's MSLST 20 in the runs
-    /// in which it arrived; in J the upper end of what its MSLST 100 may have needed.
+    /// Returns the most steps of the Oracle, on average. In Large those of the paper's MSLST 20 in
+    /// the runs in which it arrived; in J the upper end of what its MSLST 100 may have needed.
     const fn oracle_steps(self) -> f64 {
         match self {
             Self::J => 47.0,
@@ -155,8 +155,8 @@ impl Drawing {
         }
     }
 
-    /// What a drawing must meet. In J success is no condition: no such letter was ever seen in
-    /// which our Wall-follow misses the destination as often as the paper's.
+    /// Returns what a drawing must meet. In J success is no condition: no such letter was ever seen
+    /// in which our Wall-follow misses the destination as often as the paper's.
     pub(crate) const fn conditions(self) -> &'static [Condition] {
         match self {
             Self::J => &[
@@ -175,8 +175,8 @@ impl Drawing {
         }
     }
 
-    /// Judges the drawing of this number by [`RUNS`] runs of each agent; none where its loop alone
-    /// rules it out.
+    /// Judges the drawing of this number by [`RUNS`] runs of each agent, or `None` where its loop
+    /// alone rules it out.
     pub(crate) fn judged(self, number: u32) -> Result<Option<Judged>, BoxError> {
         let venue = self.venue(number)?;
         let trapped_percent = right_hand::trapped_percent(&venue.course.maze);
@@ -227,7 +227,7 @@ impl Drawing {
 }
 
 impl Judged {
-    /// Whether it misses a condition.
+    /// Returns whether it misses a condition.
     pub(crate) fn misses(&self, condition: Condition) -> bool {
         let mut conditions = self.conditions.iter();
         conditions.any(|judgement| judgement.condition == condition && judgement.excess > 0.0)
@@ -243,7 +243,7 @@ impl Judged {
     }
 }
 
-/// How far a value lies outside an interval, as a share of the end that it is beyond.
+/// Returns how far a value lies outside an interval, as a share of the end that it is beyond.
 fn beyond(value: f64, (low, high): (f64, f64)) -> f64 {
     if value < low {
         (low - value) / low
@@ -262,14 +262,15 @@ fn success_interval(paper: &PaperRow) -> Result<(f64, f64), BoxError> {
     Ok((100.0 * interval.low, 100.0 * interval.high))
 }
 
-/// The 95 % interval of the paper's mean steps.
+/// Returns the 95 % interval of the paper's mean steps.
 fn steps_interval(paper: &PaperRow) -> (f64, f64) {
     let (mean, sd) = paper.steps;
     let half = Z * sd / f64::from(PAPER_RUNS).sqrt();
     (mean - half, mean + half)
 }
 
-/// The runs of an agent, the same as those of its row in the table of that maze under seed 1.
+/// Returns the runs of an agent, the same as those of its row in the table of that maze under seed
+/// 1.
 fn played(venue: &Venue, agent: Agent) -> Result<Played, BoxError> {
     let (mut reached, mut steps) = (0_u32, 0_u32);
     for run in 0..RUNS {

@@ -8,7 +8,7 @@ use tolman_arena::course::Course;
 use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
 
-/// The worlds of these files, each under a name of its own that is none of those `taken` by other
+/// Returns the worlds of these files, each under a name of its own, none of them `taken` by other
 /// tables.
 pub(crate) fn from_files(files: &[PathBuf], taken: &[&str]) -> Result<Vec<Venue>, BoxError> {
     let mut venues: Vec<Venue> = Vec::new();
@@ -22,7 +22,7 @@ pub(crate) fn from_files(files: &[PathBuf], taken: &[&str]) -> Result<Vec<Venue>
     Ok(venues)
 }
 
-/// The world of a file.
+/// Returns the world of a file.
 pub(crate) fn from_file(path: &Path) -> Result<Venue, BoxError> {
     let file = maze_file::read(path)?;
     let name = file.name.clone().unwrap_or_else(|| maze_file::stem(path));

@@ -58,13 +58,13 @@ impl MazeRun {
     }
 }
 
-/// How a run ended, in words.
+/// Returns how a run ended, in words.
 const fn outcome(reached: bool) -> &'static str {
     if reached { "reached" } else { "timed out" }
 }
 
 impl Venue {
-    /// The table of this world, of which each run has a [`MazeRun`] in its record.
+    /// Returns the table of this world, of which each run has a [`MazeRun`] in its record.
     pub(crate) fn table<T: Record>(&self) -> Table {
         let table = Table::of::<T>(&self.table, &self.title)
             .at_most(MazeRun::steps, self.step_limit)

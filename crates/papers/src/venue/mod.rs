@@ -62,7 +62,7 @@ impl World {
     }
 }
 
-/// What the runs of the calibrated robot depend on: its worlds, by table.
+/// Returns what the runs of the calibrated robot depend on: its worlds, by table.
 pub(super) fn config<'a, W: Serialize>(
     worlds: impl Iterator<Item = (&'a str, W)>,
 ) -> Result<toml::Table, BoxError> {
@@ -77,23 +77,23 @@ pub(super) fn config<'a, W: Serialize>(
     })?)
 }
 
-/// The paper's own worlds.
+/// Returns the paper's own worlds.
 pub(super) fn papers() -> Result<[Venue; 2], BoxError> {
     Ok([j_like(j_maze()?), large_like(large_maze()?)])
 }
 
-/// A course that stands for the paper's J maze, with its limit and its rows.
+/// Returns a course that stands for the paper's J maze, with its limit and its rows.
 fn j_like(course: Course) -> Venue {
     Venue::new("2 (J)", "The J maze", course, paper::J_STEPS).known(paper::TABLE_2)
 }
 
-/// A course that stands for the paper's Large maze, with its limit and its rows.
+/// Returns a course that stands for the paper's Large maze, with its limit and its rows.
 pub(super) fn large_like(course: Course) -> Venue {
     Venue::new("3 (Large)", "The Large maze", course, paper::LARGE_STEPS).known(paper::TABLE_3)
 }
 
-/// The first Large maze, drawn when steps per action still had a say in it: too long for the
-/// paper's figures, and a hard one for whoever navigates.
+/// Returns the first Large maze, drawn when steps per action still had a say in it: too long for
+/// the paper's figures, and a hard one for whoever navigates.
 pub(super) fn large_hard() -> Result<Venue, BoxError> {
     let course = built_in("Large, hard", include_str!("../../mazes/large-hard.maze"))?;
     let title = "The first Large maze, which is too long to be the paper's";
@@ -105,12 +105,12 @@ pub(super) fn large_hard() -> Result<Venue, BoxError> {
     ))
 }
 
-/// The paper's J maze.
+/// Returns the paper's J maze.
 pub(super) fn j_maze() -> Result<Course, BoxError> {
     built_in("J", include_str!("../../mazes/j.maze"))
 }
 
-/// The paper's Large maze.
+/// Returns the paper's Large maze.
 pub(super) fn large_maze() -> Result<Course, BoxError> {
     built_in("Large", include_str!("../../mazes/large.maze"))
 }
@@ -124,7 +124,7 @@ fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
 }
 
 impl Venue {
-    /// A course of which the paper says nothing, for the calibrated robot.
+    /// Returns a course of which the paper says nothing, for the calibrated robot.
     pub(super) fn new(table: &str, title: &str, course: Course, step_limit: u32) -> Self {
         Self {
             table: table.to_owned(),
@@ -137,7 +137,7 @@ impl Venue {
         }
     }
 
-    /// A maze of which the paper says nothing, with a limit in proportion to its corridors.
+    /// Returns a maze of which the paper says nothing, with a limit in proportion to its corridors.
     ///
     /// # Errors
     /// If the robot does not fit its corridors.
@@ -173,12 +173,12 @@ impl Venue {
         }
     }
 
-    /// Whether the paper has a table of it.
+    /// Returns whether the paper has a table of it.
     pub(super) const fn is_papers(&self) -> bool {
         !self.paper.is_empty()
     }
 
-    /// The row of a brain, with what the paper says of it.
+    /// Returns the row of a brain, with what the paper says of it.
     pub(super) fn row(&self, name: &str) -> Row {
         let row = Row::new(name);
         match self.paper(name) {
@@ -190,17 +190,17 @@ impl Venue {
         }
     }
 
-    /// What the paper says of a brain here.
+    /// Returns what the paper says of a brain here.
     pub(super) fn paper(&self, name: &str) -> Option<&'static PaperRow> {
         self.paper.iter().find(|paper| paper.row == name)
     }
 
-    /// What the runs here depend on.
+    /// Returns what the runs here depend on.
     pub(super) fn world(&self) -> World {
         World::of(&self.course, self.step_limit)
     }
 
-    /// The run of a seed, from the start that belongs to it.
+    /// Returns the run of a seed, from the start that belongs to it.
     pub(super) fn trial(&self, seed: u64) -> Trial<'_> {
         Trial {
             course: &self.course,
@@ -211,7 +211,7 @@ impl Venue {
         }
     }
 
-    /// An agent that has not begun.
+    /// Returns an agent that has not begun.
     pub(super) fn mind(&self, agent: Agent) -> Result<Mind, EpisodeError> {
         self.cast.mind(agent, &self.course, &self.robot)
     }

@@ -62,7 +62,7 @@ pub(crate) const TABLE_1: [StatesRow; 3] = [
     states("Large 50", "Large", 50.0, 26.0),
 ];
 
-/// The row of table 1 that bears this name.
+/// Returns the row of table 1 that bears this name.
 pub(crate) fn states_row(name: &str) -> Result<StatesRow, BoxError> {
     let mut rows = TABLE_1.into_iter();
     let row = rows.find(|row| row.row == name);

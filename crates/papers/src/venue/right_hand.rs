@@ -4,8 +4,8 @@ use alloc::collections::BTreeSet;
 
 use tolman_maze::{Cell, Direction, Maze};
 
-/// The percentage of starts, each a cell with a direction, from which an exact right-hand tour
-/// never comes to a goal: those on a loop round an island of walls. O(cells²).
+/// Returns the percentage of starts, each a cell with a direction, from which an exact right-hand
+/// tour never comes to a goal: those on a loop round an island of walls. O(cells²).
 pub(super) fn trapped_percent(maze: &Maze) -> f64 {
     let steps = maze.steps_to_goal();
     let leads_on = |cell: &Cell| steps[maze.grid().index(*cell)].is_some_and(|steps| steps > 0);

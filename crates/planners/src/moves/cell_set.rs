@@ -24,7 +24,7 @@ impl<const N: usize> CellSet<N> {
         Self { rows: [0; N] }
     };
 
-    /// Those of `cells` that lie within `N` × `N`.
+    /// Returns those of `cells` that lie within `N` × `N`.
     pub(super) fn of(cells: impl IntoIterator<Item = Cell>) -> Self {
         let mut set = Self::EMPTY;
         for cell in cells {
@@ -50,7 +50,7 @@ impl<const N: usize> CellSet<N> {
         cell.x < 32 && row >> cell.x & 1 == 1
     }
 
-    /// The cells whose value a predicate holds for.
+    /// Returns the cells whose value a predicate holds for.
     pub(super) fn filter(values: &[[u16; N]; N], holds: impl Fn(u16) -> bool) -> Self {
         let mut set = Self::EMPTY;
         for (row, values) in set.rows.iter_mut().zip(values) {
@@ -107,7 +107,7 @@ impl<const N: usize> CellSet<N> {
         self.with(other, |row, other| row & !other)
     }
 
-    /// Two sets, put together row by row.
+    /// Returns two sets, put together row by row.
     #[inline(always)]
     fn with(mut self, other: &Self, each: impl Fn(u32, u32) -> u32) -> Self {
         for (row, other) in self.rows.iter_mut().zip(&other.rows) {
@@ -148,7 +148,7 @@ impl<const N: usize> Iterator for Cells<N> {
         }
     }
 
-    /// All at once, which is faster than one after the other.
+    /// Returns all at once, which is faster than one by one.
     fn fold<B, F: FnMut(B, Cell) -> B>(self, init: B, mut each: F) -> B {
         let mut folded = init;
         for (y, row) in (0..).zip(self.rows) {

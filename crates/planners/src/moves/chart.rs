@@ -10,8 +10,7 @@ use crate::{TooLarge, Unknown};
 
 /// What is known of a maze, and how long runs through it can be.
 ///
-/// Walls can be [learned](Self::look) one after the other; the maps follow, and only as far as they
-/// change.
+/// Walls can be [learned](Self::look) one by one; the maps follow, and only as far as they change.
 #[derive(Clone, Debug)]
 pub(super) struct Chart<const N: usize> {
     pub(super) start: Cell,
@@ -48,17 +47,17 @@ impl<const N: usize> Chart<N> {
         })
     }
 
-    /// The paper's open path: steps of the best run that can be hoped for.
+    /// Returns the paper's open path: steps of the best run that can be hoped for.
     pub(super) fn open(&self) -> Option<u16> {
         self.to_goal.moves(self.start)
     }
 
-    /// The sides that nobody has looked at.
+    /// Returns the sides that nobody has looked at.
     pub(super) fn unknown(&self) -> Sides<N> {
         self.hoped.minus(&self.certain)
     }
 
-    /// Those of one cell.
+    /// Returns those of one cell.
     pub(super) fn unknown_sides(&self, cell: Cell) -> impl Iterator<Item = Direction> {
         Direction::ALL
             .into_iter()
@@ -69,8 +68,8 @@ impl<const N: usize> Chart<N> {
         self.hoped.contains(cell, side) && !self.certain.contains(cell, side)
     }
 
-    /// The steps of the best run from the start to the goal that drives over the `side` of `cell`.
-    /// At most six leaps do, each in both directions.
+    /// Returns the steps of the best run from the start to the goal that drives over the `side` of
+    /// `cell`. At most six leaps do, each in both directions.
     pub(super) fn run_through(&self, cell: Cell, side: Direction) -> Option<u16> {
         let mut best: Option<u16> = None;
         self.hoped.leaps_over(cell, side, |one, other| {
@@ -86,8 +85,8 @@ impl<const N: usize> Chart<N> {
         best
     }
 
-    /// A way of fewest steps from `at` to `target` on known ground; none if none leads there. Of
-    /// such ways it is one with much to see at its last stops.
+    /// Returns a way of fewest steps from `at` to `target` on known ground, or `None` if none leads
+    /// there. Of such ways it is one with much to see at its last stops.
     pub(super) fn course(&self, target: Cell, at: Cell) -> Option<Course> {
         let mut course = Course::to(target);
         if self.leap_to(target, at).is_some() {
@@ -107,13 +106,13 @@ impl<const N: usize> Chart<N> {
         Some(course)
     }
 
-    /// The first leap of the way from `at` to `target`.
+    /// Returns the first leap of the way from `at` to `target`.
     pub(super) fn leap_towards(&self, target: Cell, at: Cell) -> Option<Leap> {
         let first = self.course(target, at)?.stops().next()?;
         self.leap_to(first, at)
     }
 
-    /// The leap from `at` to `end`, if one leads there.
+    /// Returns the leap from `at` to `end`, if one leads there.
     fn leap_to(&self, end: Cell, at: Cell) -> Option<Leap> {
         let direction = match (end.x.cmp(&at.x), end.y.cmp(&at.y)) {
             (Ordering::Equal, Ordering::Greater) => Direction::North,
@@ -143,8 +142,8 @@ impl<const N: usize> Chart<N> {
         Some(driven)
     }
 
-    /// Whether what is across a side is a goal, or leads on: a run over a side that is certain only
-    /// now has to go on from there.
+    /// Returns whether what is across a side is a goal, or leads on: a run over a side that is
+    /// certain only now has to go on from there.
     fn joins(&self, at: Cell, side: Direction) -> bool {
         let Some(across) = at.beyond(side) else {
             return false;
@@ -211,10 +210,10 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// So many stops are kept.
+    /// Number of stops that are kept.
     const MOST: usize = 32;
 
-    /// The way of one leap.
+    /// Returns the way of one leap.
     const fn to(target: Cell) -> Self {
         Self {
             stops: [target; Self::MOST],
@@ -222,7 +221,7 @@ impl Course {
         }
     }
 
-    /// The way leads to `stop` after so many steps.
+    /// Notes that the way leads to `stop` after `steps` steps.
     fn pass(&mut self, stop: Cell, steps: u16) {
         if let Some(slot) = self.stops.get_mut(usize::from(steps) - 1) {
             *slot = stop;

@@ -6,11 +6,11 @@ use super::split_mix::SplitMix;
 
 /// Draws mazes at random among those that agree with all that is known.
 ///
-/// The unknown sides are drawn one after the other, in an order by chance, each given those around
-/// it that are known or drawn already. The log-odds that a side is open are a sum of terms for its
-/// two ends, the posts, and for its two cells. By far the strongest is a rule of the competitions:
-/// no post stands without a wall. The terms were fitted by logistic regression on every second of
-/// the classic mazes, all sides of each revealed in an order by chance.
+/// The unknown sides are drawn one by one, in an order by chance, each given those around it that
+/// are known or drawn already. The log-odds that a side is open are a sum of terms for its two
+/// ends, the posts, and for its two cells. By far the strongest is a rule of the competitions: no
+/// post stands without a wall. The terms were fitted by logistic regression on every second of the
+/// classic mazes, all sides of each revealed in an order by chance.
 pub(super) struct Completions<'a, const N: usize> {
     chart: &'a Chart<N>,
     /// The unknown sides, as many as there are.
@@ -79,7 +79,7 @@ impl<'a, const N: usize> Completions<'a, N> {
         }
     }
 
-    /// The open sides of one maze. O(unknown sides).
+    /// Returns the open sides of one maze. O(unknown sides).
     pub(super) fn draw(&mut self) -> Sides<N> {
         self.shuffle();
         let mut draw = Draw {
@@ -128,7 +128,7 @@ struct Draw<const N: usize> {
 }
 
 impl<const N: usize> Draw<N> {
-    /// The terms for what is around the `side` of `cell`, beyond which `next` lies.
+    /// Returns the terms for what is around the `side` of `cell`, beyond which `next` lies.
     fn surroundings(&self, cell: Cell, side: Direction, next: Cell) -> f32 {
         let [left, right] = [side.left(), side.right()].map(|lateral| {
             let across = match cell.beyond(lateral) {

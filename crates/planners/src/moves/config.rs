@@ -31,7 +31,7 @@ pub struct MoveExplorerConfig {
 }
 
 impl MoveExplorerConfig {
-    /// The one configuration that all our figures are made with. How it was chosen:
+    /// Returns the one configuration that all our figures are made with. How it was chosen:
     /// `docs/micromouse.md`.
     #[must_use]
     pub const fn tuned() -> Self {

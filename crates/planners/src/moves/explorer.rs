@@ -56,16 +56,16 @@ enum Goal {
 pub enum MoveDecision {
     /// Drive there, and look around.
     Drive(Leap),
-    /// Turn right on the spot, to see what lies behind.
+    /// Turn right in place, to see what lies behind.
     Turn,
     /// The mouse was at a goal, and no run from the start takes fewer steps than the best known
-    /// one, whatever the walls nobody has looked at. It takes so many:
+    /// one, whatever the walls nobody has looked at. Its length:
     Finished {
         /// Steps.
         moves: u16,
     },
     /// The mouse was at a goal, and to look on is expected to cost more than it gains
-    /// ([`WorthConfig`](super::WorthConfig)). The best known run takes so many:
+    /// ([`WorthConfig`](super::WorthConfig)). The length of the best known run:
     Enough {
         /// Steps.
         moves: u16,
@@ -80,7 +80,7 @@ pub(super) enum Task {
     Decided(MoveDecision),
     /// To drive there.
     DriveTo(Cell),
-    /// The mouse was at the goal and knows a run of so many steps: to look at what might make a
+    /// The mouse was at the goal and knows a run of this length: to look at what might make a
     /// better one.
     Prove {
         /// Steps.
@@ -108,7 +108,7 @@ impl Task {
 }
 
 impl<const N: usize> MoveExplorer<N> {
-    /// An explorer for a mouse that makes its runs from `start` and has seen nothing.
+    /// Returns an explorer for a mouse that makes its runs from `start` and has seen nothing.
     ///
     /// # Errors
     /// If a weight is out of its range.
@@ -138,7 +138,7 @@ impl<const N: usize> MoveExplorer<N> {
         Ok(self.task(&chart, at).decide(&chart, at, prove))
     }
 
-    /// What is known, from where the mouse is now.
+    /// Returns what is known, from where the mouse is now.
     pub(super) fn chart(
         &mut self,
         walls: &impl Walls,
@@ -177,7 +177,7 @@ impl<const N: usize> MoveExplorer<N> {
         target.map_or(Task::Decided(MoveDecision::Stuck), Task::DriveTo)
     }
 
-    /// Where to look while no way to the goal is known.
+    /// Returns where to look while no way to the goal is known.
     fn best_approach(&self, chart: &Chart<N>, at: Cell) -> Option<Cell> {
         let config = &self.config;
         let outlook = Outlook::new(chart);
@@ -198,8 +198,8 @@ impl<const N: usize> MoveExplorer<N> {
         stops.best()
     }
 
-    /// What to look at for the proof, the best first, when runs of `limit` steps and more do not
-    /// matter.
+    /// Returns what to look at for the proof, the best first, when runs of `limit` steps and more
+    /// do not matter.
     pub(super) fn proofs<const K: usize>(
         &self,
         chart: &Chart<N>,
@@ -223,18 +223,19 @@ impl<const N: usize> MoveExplorer<N> {
         stops
     }
 
-    /// How a stop so many steps away counts.
+    /// Returns how a stop `moves` steps away counts.
     fn distance(&self, moves: u16) -> f32 {
         let near = self.distances.get(usize::from(moves)).copied();
         near.unwrap_or_else(|| libm::powf(f32::from(moves), self.config.nearness))
     }
 
-    /// Whether a look around from `cell` tells anything about runs of less than `limit` steps.
+    /// Returns whether a look around from `cell` tells anything about runs of less than `limit`
+    /// steps.
     pub(super) fn tells(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> bool {
         self.told(chart, cell, limit) > 0.0
     }
 
-    /// What a look around from `cell` tells about runs of less than `limit` steps.
+    /// Returns what a look around from `cell` tells about runs of less than `limit` steps.
     fn told(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> f32 {
         let mut told = 0.0;
         // A leap over one of the sides begins or ends at the cell or drives over it, so a run with
@@ -254,13 +255,14 @@ impl<const N: usize> MoveExplorer<N> {
         told
     }
 
-    /// What a stop tells at most: one of its four sides is known, by which the mouse gets there.
+    /// Returns what a stop tells at most: one of its four sides is known, by which the mouse gets
+    /// there.
     fn most_told(&self) -> f32 {
         (Direction::ALL.len() - 1) as f32 * (self.config.base + 1.0)
     }
 }
 
-/// The goal that takes fewest steps to drive to.
+/// Returns the goal that takes fewest steps to drive to.
 fn nearest_goal<const N: usize>(chart: &Chart<N>, at: Cell) -> Option<Cell> {
     let here = MoveMap::over(&chart.certain, &super::cell_set::CellSet::of([at]));
     let reached = chart
@@ -270,7 +272,7 @@ fn nearest_goal<const N: usize>(chart: &Chart<N>, at: Cell) -> Option<Cell> {
     reached.min_by_key(|goal| here.moves(*goal))
 }
 
-/// A whole power.
+/// Returns a whole power.
 fn power(base: f32, exponent: u16) -> f32 {
     (0..exponent).fold(1.0, |power, _| power * base)
 }

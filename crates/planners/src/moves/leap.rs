@@ -17,14 +17,14 @@ impl Leap {
     /// The most cells of one step (the paper, section 1.1).
     pub const MOST_CELLS: u8 = 3;
 
-    /// All leaps from a cell: north, east, south, west; of each the short ones first.
+    /// Returns all leaps from a cell: north, east, south, west; of each the short ones first.
     pub fn all<const N: usize>(passages: &Passages<N>, from: Cell) -> impl Iterator<Item = Self> {
         Direction::ALL
             .into_iter()
             .flat_map(move |direction| Self::along(passages, from, direction))
     }
 
-    /// The leaps from a cell in one direction, the short ones first.
+    /// Returns the leaps from a cell in one direction, the short ones first.
     pub fn along<const N: usize>(
         passages: &Passages<N>,
         from: Cell,
@@ -35,7 +35,7 @@ impl Leap {
         })
     }
 
-    /// The same, as long as the cells before are open to that direction.
+    /// Returns the same, as long as the cells before are open to that direction.
     pub(super) fn row(
         from: Cell,
         direction: Direction,

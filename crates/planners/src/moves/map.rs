@@ -12,7 +12,7 @@ use crate::Passages;
 #[derive(Clone, Debug)]
 pub struct MoveMap<const N: usize> {
     moves: [[u16; N]; N],
-    /// How many cells are so many steps away at most; as long as it has `levels`.
+    /// Number of cells at most n steps away, by n, below `levels`.
     within: [[u16; N]; N],
     levels: u16,
     /// The first and the last number of steps that sides closed since put in doubt.
@@ -39,14 +39,14 @@ impl<const N: usize> MoveMap<N> {
         Self::over(&Sides::from(passages), &CellSet::of(targets))
     }
 
-    /// The same, all cells that are equally far away at once.
+    /// Returns the same, all cells that are equally far away at once.
     pub(super) fn over(sides: &Sides<N>, targets: &CellSet<N>) -> Self {
         let mut map = Self::BLANK;
         map.spread(sides, Wave::new(*targets), |_| false);
         map
     }
 
-    /// A map to `target` that may end where `from` is reached.
+    /// Returns a map to `target` that may end where `from` is reached.
     pub(super) fn between(sides: &Sides<N>, target: Cell, from: Cell) -> Self {
         let mut map = Self::BLANK;
         let wave = Wave::new(CellSet::of([target]));
@@ -137,7 +137,7 @@ impl<const N: usize> MoveMap<N> {
         self.spread(sides, wave, |wave| wave.moves >= limit);
     }
 
-    /// Steps from `cell` to the nearest target, none if no way leads there.
+    /// Steps from `cell` to the nearest target, or `None` if no way leads there.
     #[must_use]
     pub fn moves(&self, cell: Cell) -> Option<u16> {
         let moves = self.moves_or_never(cell);
@@ -150,7 +150,7 @@ impl<const N: usize> MoveMap<N> {
         moves.copied().unwrap_or(NEVER)
     }
 
-    /// A way of fewest steps from `cell` to a target, on the passages the map was made for.
+    /// Returns a way of fewest steps from `cell` to a target, on the passages the map was made for.
     /// Nothing, where no way leads to one or the cell is one. Of equally good leaps the first of
     /// [`Leap::all`] is taken.
     #[must_use]
@@ -163,12 +163,12 @@ impl<const N: usize> MoveMap<N> {
     }
 }
 
-/// Breadth-first search: the cells that are so many steps away.
+/// Breadth-first search: the cells at one number of steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wave<const N: usize> {
-    /// So many at most.
+    /// At most this number of steps away.
     reached: CellSet<N>,
-    /// Just so many.
+    /// Cells at exactly this number of steps.
     pub(super) front: CellSet<N>,
     pub(super) moves: u16,
 }

@@ -17,7 +17,7 @@ pub(super) struct Play {
 }
 
 impl Play {
-    /// So many stages are kept.
+    /// Number of stages that are kept.
     const MOST: usize = 64;
 
     pub(super) const fn new() -> Self {

@@ -26,7 +26,7 @@ impl Rival {
         self.mazes += 1.0;
     }
 
-    /// The steps it costs more, and `confidence` standard errors on top.
+    /// Returns the steps it costs more, and `confidence` standard errors on top.
     pub(super) fn at_worst(&self, confidence: f32) -> f32 {
         let mean = self.sum / self.mazes;
         let variance = (self.squares / self.mazes - mean * mean).max(LEAST_VARIANCE);

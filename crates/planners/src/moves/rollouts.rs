@@ -16,21 +16,21 @@ use crate::TooLarge;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct RolloutConfig {
-    /// At most so many mazes are drawn for a decision. ≥ 1.
+    /// Maximum number of mazes drawn for a decision. ≥ 1.
     pub completions: u16,
-    /// A stop that does no better than the explorer's own in so many mazes, on average, is given
-    /// up. ≥ 1.
+    /// Number of mazes after which a stop that is no better on average than the explorer's own is
+    /// given up. ≥ 1.
     pub trial: u16,
     /// By how many standard errors a stop must save steps to be preferred to the explorer's own. ≥
     /// 0.
     pub confidence: f32,
-    /// What chance follows from: the same seed, the same decisions.
+    /// Seed of all random numbers: the same seed gives the same decisions.
     pub seed: u64,
 }
 
 impl RolloutConfig {
-    /// The one configuration that all our figures are made with: as many mazes as there is time for
-    /// (`docs/micromouse.md`).
+    /// Returns the one configuration that all our figures are made with: as many mazes as there is
+    /// time for (`docs/micromouse.md`).
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
@@ -90,7 +90,7 @@ struct Aim {
     unknown: u32,
 }
 
-/// So many stops are tried, the explorer's own among them.
+/// Number of stops that are tried, the explorer's own among them.
 const STOPS: usize = 5;
 
 impl<const N: usize> Rollouts<N> {
@@ -111,8 +111,8 @@ impl<const N: usize> Rollouts<N> {
         })
     }
 
-    /// The same, but it stops as soon as the rest of the proof is expected to cost more than it
-    /// gains: see [`WorthConfig`].
+    /// Returns the same, but it stops as soon as the rest of the proof is expected to cost more
+    /// than it gains: see [`WorthConfig`].
     ///
     /// # Errors
     /// If a value is out of its range.
@@ -158,7 +158,7 @@ impl<const N: usize> Rollouts<N> {
         Some(aim.stop)
     }
 
-    /// The stop chosen before, if nothing new was seen since and it still tells something.
+    /// Returns the stop chosen before, if nothing new was seen since and it still tells something.
     fn kept_aim(&self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Aim> {
         self.aim.filter(|aim| {
             aim.unknown == chart.unknown().len()
@@ -167,7 +167,7 @@ impl<const N: usize> Rollouts<N> {
         })
     }
 
-    /// The stop to drive to, of those that the base policy thinks best.
+    /// Returns the stop to drive to, of those that the base policy thinks best.
     fn choose(&self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Cell> {
         let stops = self.base.proofs::<{ STOPS }>(chart, at, closed);
         let own = stops.best()?;

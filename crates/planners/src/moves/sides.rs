@@ -38,7 +38,7 @@ impl<const N: usize> Sides<N> {
         set
     }
 
-    /// The cell that a side is north or east of, and the set that it is in.
+    /// Returns the cell that a side is north or east of, and the set that it is in.
     fn slot(&mut self, cell: Cell, direction: Direction) -> Option<(Cell, &mut CellSet<N>)> {
         let (cell, side) = northern_or_eastern(cell, direction)?;
         let is_north = side == Direction::North;
@@ -72,7 +72,7 @@ impl<const N: usize> Sides<N> {
         }
     }
 
-    /// A number that hardly another side has; the same from both its cells.
+    /// Returns a number that hardly another side has; the same from both its cells.
     pub(super) fn fingerprint(cell: Cell, direction: Direction) -> u64 {
         let number = northern_or_eastern(cell, direction).map_or(u64::MAX, |(cell, side)| {
             let is_north = u64::from(side == Direction::North);
@@ -88,12 +88,12 @@ impl<const N: usize> Sides<N> {
         }
     }
 
-    /// How many sides, each counted once.
+    /// Returns how many sides, each counted once.
     pub(super) fn len(&self) -> u32 {
         self.north.len() + self.east.len()
     }
 
-    /// The cells that have one of these sides.
+    /// Returns the cells that have one of these sides.
     pub(super) fn cells(&self) -> CellSet<N> {
         let mut cells = self.north.or(&self.east);
         let rows = cells.rows.iter_mut().zip(&self.east.rows);
@@ -105,13 +105,13 @@ impl<const N: usize> Sides<N> {
         cells
     }
 
-    /// Every side once: the northern ones, then the eastern ones.
+    /// Returns every side once: the northern ones, then the eastern ones.
     pub(super) fn iter(&self) -> impl Iterator<Item = (Cell, Direction)> + use<N> {
         let north = self.north.iter().map(|cell| (cell, Direction::North));
         north.chain(self.east.iter().map(|cell| (cell, Direction::East)))
     }
 
-    /// The cells that are one leap away from some of `cells`.
+    /// Returns the cells that are one leap away from some of `cells`.
     pub(super) fn leaps_from(&self, cells: &CellSet<N>) -> CellSet<N> {
         let mut ends = CellSet::EMPTY;
         let rows = ends.rows.iter_mut().zip(&cells.rows);
@@ -141,7 +141,7 @@ impl<const N: usize> Sides<N> {
         ends
     }
 
-    /// The leaps from a cell in one direction, the short ones first.
+    /// Returns the leaps from a cell in one direction, the short ones first.
     pub(super) fn leaps_along(
         &self,
         from: Cell,
@@ -150,7 +150,7 @@ impl<const N: usize> Sides<N> {
         Leap::row(from, direction, move |cell| self.contains(cell, direction))
     }
 
-    /// All leaps from a cell, in the order of [`Leap::all`].
+    /// Returns all leaps from a cell, in the order of [`Leap::all`].
     pub(super) fn leaps(&self, from: Cell) -> impl Iterator<Item = Leap> {
         Direction::ALL
             .into_iter()
@@ -190,7 +190,7 @@ impl<const N: usize> Sides<N> {
         }
     }
 
-    /// The cell across an open side.
+    /// Returns the cell across an open side.
     fn next(&self, cell: Cell, side: Direction) -> Option<Cell> {
         cell.beyond(side).filter(|_| self.contains(cell, side))
     }
@@ -204,7 +204,8 @@ impl<const N: usize> From<&Passages<N>> for Sides<N> {
     }
 }
 
-/// A side as the northern or eastern one of a cell; none in the west or south of all cells.
+/// Returns a side as the northern or eastern one of a cell, or `None` in the west or south of all
+/// cells.
 fn northern_or_eastern(cell: Cell, direction: Direction) -> Option<(Cell, Direction)> {
     match direction {
         Direction::North | Direction::East => Some((cell, direction)),

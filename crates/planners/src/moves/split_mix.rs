@@ -17,7 +17,8 @@ impl SplitMix {
         mixed ^ (mixed >> 31)
     }
 
-    /// A whole number from 0 up to but not including `end`; even up to one part in 2³² / `end`.
+    /// Returns a whole number from 0 up to but not including `end`; even up to one part in 2³² /
+    /// `end`.
     pub(super) const fn below(&mut self, end: u32) -> u32 {
         (((self.next() >> 32) * end as u64) >> 32) as u32
     }

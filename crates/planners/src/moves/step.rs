@@ -33,7 +33,7 @@ impl QuarterTurn {
         }
     }
 
-    /// Where a mouse looks afterwards that has looked to `heading`.
+    /// Returns where a mouse looks afterwards that has looked to `heading`.
     #[must_use]
     pub const fn applied_to(self, heading: Direction) -> Direction {
         match self {
@@ -45,8 +45,8 @@ impl QuarterTurn {
 }
 
 impl MouseStep {
-    /// The step of a mouse that looks to `heading` and leaps; then it looks to where `heading`
-    /// says.
+    /// Returns the step of a mouse that looks to `heading` and leaps; then it looks to where
+    /// `heading` says.
     #[must_use]
     pub fn of_leap(heading: &mut Direction, leap: Leap) -> Self {
         let cells = leap.cells.min(Leap::MOST_CELLS) as i8;

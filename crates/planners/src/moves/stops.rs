@@ -27,7 +27,7 @@ impl<const K: usize> Stops<K> {
         }
     }
 
-    /// The score that a stop needs at least to be kept.
+    /// Returns the score that a stop needs at least to be kept.
     pub(super) fn lowest(&self) -> f32 {
         let last = self.best.last().copied().flatten();
         last.map_or(f32::NEG_INFINITY, |(score, _)| score)
@@ -37,7 +37,7 @@ impl<const K: usize> Stops<K> {
         self.iter().next()
     }
 
-    /// The best, if it scores more than so much.
+    /// Returns the best, if it scores more than so much.
     pub(super) fn best_above(&self, score: f32) -> Option<Cell> {
         let best = self.best.first().copied().flatten();
         best.filter(|(held, _)| *held > score).map(|(_, cell)| cell)

@@ -33,7 +33,7 @@ pub struct WorthConfig {
 }
 
 impl WorthConfig {
-    /// The one configuration that all our figures are made with. How it was chosen:
+    /// Returns the one configuration that all our figures are made with. How it was chosen:
     /// `docs/micromouse.md`.
     #[must_use]
     pub const fn tuned() -> Self {
@@ -72,8 +72,8 @@ struct Payoff {
 }
 
 impl<const N: usize> Rollouts<N> {
-    /// Whether to look on costs more than it is expected to gain, from the cell `at` where the
-    /// known run takes `closed` steps.
+    /// Returns whether to look on costs more than it is expected to gain, from the cell `at` where
+    /// the known run takes `closed` steps.
     pub(super) fn is_enough(
         &self,
         worth: &WorthConfig,

@@ -45,7 +45,7 @@ impl<const N: usize> Buckets<N> {
         }
     }
 
-    /// The first bucket from `bucket` on that holds a cell.
+    /// Returns the first bucket from `bucket` on that holds a cell.
     #[inline]
     pub(super) fn next(&mut self, bucket: usize) -> Option<usize> {
         if self.occupied == 0 {

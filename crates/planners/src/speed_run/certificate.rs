@@ -22,7 +22,7 @@ pub struct SpeedRunCertificate {
     pub time_ms: u32,
 }
 
-/// Why a [`SpeedRunCertificate`] is worth nothing.
+/// Reason why a [`SpeedRunCertificate`] is worth nothing.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SpeedRunCertificateError {
@@ -116,9 +116,9 @@ impl SpeedRunCertificate {
     }
 }
 
-/// How long the best run takes if all walls that nobody has looked at are open, by plain Dijkstra
-/// on an explicit graph; none if no way leads to a goal. O(n log n) for n cells, some hundred times
-/// slower than a [`SpeedRunMap`](super::SpeedRunMap).
+/// Returns how long the best run takes if all walls that nobody has looked at are open, by plain
+/// Dijkstra on an explicit graph, or `None` if no way leads to a goal. O(n log n) for n cells, some
+/// hundred times slower than a [`SpeedRunMap`](super::SpeedRunMap).
 #[must_use]
 pub fn best_possible_ms(
     walls: &impl Walls,
@@ -246,7 +246,7 @@ impl Spot {
         made
     }
 
-    /// Straights of 1, 2, … cells, each of which is so many steps of the heading long.
+    /// Straights of 1, 2, … cells, each of them one or several steps of the heading long.
     fn straights(
         self,
         open: &impl Fn(Point) -> bool,
@@ -351,7 +351,7 @@ fn is_goal(spot: Spot, goals: &[Cell]) -> bool {
     spot.eighth % 2 == 0 && goals.iter().any(|goal| middle(goal) == spot.at)
 }
 
-/// What is known of the wall whose middle is `point`.
+/// Returns what is known of the wall whose middle is `point`.
 fn knowledge(walls: &impl Walls, (x, y): Point) -> Knowledge {
     // The cell south-west of the middle of an edge, which is its western or southern side.
     let (Ok(column), Ok(row)) = (u16::try_from((x - 1) / 2), u16::try_from((y - 1) / 2)) else {

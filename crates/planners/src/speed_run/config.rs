@@ -93,7 +93,7 @@ impl SpeedRunConfig {
     }
 }
 
-/// Why times cannot be worked out from a [`SpeedRunConfig`].
+/// Reason why times cannot be worked out from a [`SpeedRunConfig`].
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SpeedRunConfigError {

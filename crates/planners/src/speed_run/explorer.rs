@@ -46,7 +46,8 @@ pub enum Decision {
 }
 
 impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
-    /// An explorer that has seen nothing, for a mouse that starts in `home`, looking to `heading`.
+    /// Returns an explorer that has seen nothing, for a mouse that starts in `home`, looking to
+    /// `heading`.
     #[must_use]
     pub const fn new(
         times: &'a SpeedRunTimes<N>,
@@ -122,7 +123,7 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
         self.stage
     }
 
-    /// The planner: which run is hoped for, and in the end known to be the best.
+    /// Returns the planner: which run is hoped for, and in the end known to be the best.
     #[must_use]
     pub const fn planner(&self) -> &SpeedRunPlanner<'a, N> {
         &self.planner

@@ -52,7 +52,7 @@ impl<const N: usize> Default for SpeedRunMap<N> {
 }
 
 impl<const N: usize> SpeedRunMap<N> {
-    /// A map on which no goal is in reach from anywhere.
+    /// Returns a map on which no goal is in reach from anywhere.
     #[must_use]
     pub const fn new() -> Self {
         const { assert!(N <= 32, "a row of cells is a word of 32 bits") };
@@ -63,7 +63,7 @@ impl<const N: usize> SpeedRunMap<N> {
         }
     }
 
-    /// Works the times to `goals` out anew. O(N² · N): every state looks along a straight at most.
+    /// Works the times to `goals` out again. O(N² · N): every state looks along a straight at most.
     pub fn search(
         &mut self,
         passages: &Passages<N>,
@@ -99,15 +99,16 @@ impl<const N: usize> SpeedRunMap<N> {
         }
     }
 
-    /// How long the run from `state` to the nearest goal takes, in milliseconds; none if no way
-    /// leads there.
+    /// Returns how long the run from `state` to the nearest goal takes, in milliseconds, or `None`
+    /// if no way leads there.
     #[must_use]
     pub fn time_ms(&self, state: RunState) -> Option<u16> {
         let time = self.time_from(Node::new::<N>(state));
         (time != NEVER).then_some(time)
     }
 
-    /// The best run from `start`, move by move, on the passages and times of the last search.
+    /// Returns the best run from `start`, move by move, on the passages and times of the last
+    /// search.
     ///
     /// If passages were closed since, what comes out is a best run still, provided that it
     /// [arrives](SpeedRun::has_arrived).

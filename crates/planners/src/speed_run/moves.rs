@@ -6,12 +6,12 @@ use super::{RunState, SlalomTimes};
 /// One move of a speed run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunMove {
-    /// So many cells straight on.
+    /// A number of cells straight on.
     Straight {
         /// 1 or more.
         cells: u16,
     },
-    /// So many cells straight on along a diagonal, from edge to edge.
+    /// A number of cells straight on along a diagonal, from edge to edge.
     Diagonal {
         /// 1 or more.
         cells: u16,
@@ -56,7 +56,7 @@ pub struct RunStep {
 }
 
 impl RunStep {
-    /// The sides to which the mouse leaves one cell after the other, from the cell of
+    /// Returns the sides to which the mouse leaves one cell after the other, from the cell of
     /// [`RunStep::from`] to that of the state after the move.
     pub fn directions(self) -> impl Iterator<Item = Direction> {
         // A pattern, from the beginning again when it is used up.
@@ -129,7 +129,7 @@ pub enum Side {
 }
 
 impl SlalomTimes {
-    /// How long this turn takes, in milliseconds.
+    /// Returns how long this turn takes, in milliseconds.
     #[must_use]
     pub const fn time_ms(&self, slalom: Slalom) -> u16 {
         match slalom {
@@ -142,7 +142,7 @@ impl SlalomTimes {
     }
 }
 
-/// Whether `sides` (one byte a cell) has `cell` open to `direction`.
+/// Returns whether `sides` (one byte a cell) has `cell` open to `direction`.
 #[inline(always)]
 pub(super) fn is_open(sides: &[u8], cell: usize, direction: usize) -> bool {
     sides
@@ -209,7 +209,7 @@ pub(super) fn for_each_turn<const N: usize>(
     }
 }
 
-/// Every cell count `n` and end of the straights that lead on from `node`, nearest first.
+/// Returns every cell count `n` and end of the straights that lead on from `node`, nearest first.
 #[inline(always)]
 pub(super) fn straights<const N: usize>(
     sides: &[u8],

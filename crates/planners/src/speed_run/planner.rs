@@ -22,12 +22,12 @@ pub struct SpeedRunPlanner<'a, const N: usize> {
 pub enum Replanning {
     /// The best run is as fast as before: there is still one among the best known.
     Kept,
-    /// The map was searched anew.
+    /// The map was searched again.
     Searched,
 }
 
 impl<'a, const N: usize> SpeedRunPlanner<'a, N> {
-    /// A planner that has seen no maze yet.
+    /// Returns a planner that has seen no maze yet.
     #[must_use]
     pub const fn new(times: &'a SpeedRunTimes<N>, start: RunState, goals: &'a [Cell]) -> Self {
         Self {
@@ -56,26 +56,26 @@ impl<'a, const N: usize> SpeedRunPlanner<'a, N> {
         Replanning::Searched
     }
 
-    /// How long the best run takes, in milliseconds; none if no way leads to a goal, or before the
-    /// first update.
+    /// Returns how long the best run takes, in milliseconds, or `None` if no way leads to a goal,
+    /// or before the first update.
     #[must_use]
     pub fn time_ms(&self) -> Option<u16> {
         self.map.time_ms(self.start)
     }
 
-    /// A best run on the passages of the last update.
+    /// Returns a best run on the passages of the last update.
     #[must_use]
     pub fn run<'b>(&'b self, passages: &'b Passages<N>) -> SpeedRun<'b, N> {
         self.map.run(passages, self.times, self.start)
     }
 
-    /// Where the runs begin.
+    /// Returns where the runs begin.
     #[must_use]
     pub const fn start(&self) -> RunState {
         self.start
     }
 
-    /// Where they end.
+    /// Returns where they end.
     #[must_use]
     pub const fn goals(&self) -> &'a [Cell] {
         self.goals

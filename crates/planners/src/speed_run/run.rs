@@ -29,14 +29,14 @@ impl<'a, const N: usize> SpeedRun<'a, N> {
         }
     }
 
-    /// Where the run is before its next move.
+    /// Returns where the run is before its next move.
     #[must_use]
     pub fn state(&self) -> RunState {
         self.at.state::<N>()
     }
 
-    /// Every edge that the run crosses from here on: the cell it leaves and the side it leaves it
-    /// to.
+    /// Returns every edge that the run crosses from here on: the cell it leaves and the side it
+    /// leaves it to.
     pub fn edges(self) -> impl Iterator<Item = (Cell, Direction)> {
         let mut cell = self.at.cell_of::<N>();
         self.flat_map(RunStep::directions).map(move |direction| {
@@ -49,7 +49,7 @@ impl<'a, const N: usize> SpeedRun<'a, N> {
         })
     }
 
-    /// Whether the run has come to a goal.
+    /// Returns whether the run has come to a goal.
     #[must_use]
     pub fn has_arrived(&self) -> bool {
         self.map.time_from(self.at) == 0
@@ -59,9 +59,9 @@ impl<'a, const N: usize> SpeedRun<'a, N> {
 impl<const N: usize> Iterator for SpeedRun<'_, N> {
     type Item = RunStep;
 
-    /// The first move, in the order straights from short to long, then turns, after which exactly
-    /// as much time is left as the map says. None at the goal, and where no move fits, because
-    /// passages were closed or no goal is in reach.
+    /// Returns the first move, in the order straights from short to long, then turns, after which
+    /// exactly as much time is left as the map says. None at the goal, and where no move fits,
+    /// because passages were closed or no goal is in reach.
     fn next(&mut self) -> Option<RunStep> {
         let (map, times, sides, from) = (self.map, self.times, self.passages.sides(), self.at);
         let left = map.time_from(from);

@@ -91,7 +91,7 @@ impl Node {
         }
     }
 
-    /// The same place, looking the other way.
+    /// Returns the same place, looking the other way.
     pub(super) const fn reversed<const N: usize>(self) -> Self {
         match self.facing() {
             Facing::Straight(heading) => Self::straight(self.cell, opposite(heading)),
@@ -134,8 +134,8 @@ impl Node {
     }
 }
 
-/// The cell on the other side of an edge that is open. (Off the maze the number is that of no cell
-/// or of a wrong one; no open edge leads there.)
+/// Returns the cell on the other side of an edge that is open. (Off the maze the number is that of
+/// no cell or of a wrong one; no open edge leads there.)
 pub(super) const fn beside<const N: usize>(cell: usize, direction: usize) -> usize {
     match direction {
         0 => cell.wrapping_add(N),

@@ -6,8 +6,8 @@ use super::config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigErr
 /// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N`
 /// cells: 16 for classic ones, 32 for half-size ones.
 ///
-/// Times of straights are rounded up. So a straight never takes longer than its two parts one
-/// after the other, and the search need not look at straights that follow straights.
+/// Times of straights are rounded up. So a straight never takes longer than its two parts one by
+/// one, and the search need not look at straights that follow straights.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpeedRunTimes<const N: usize> {
     /// Straights of 0 … N − 1 cells.
@@ -68,21 +68,21 @@ impl<const N: usize> SpeedRunTimes<N> {
         })
     }
 
-    /// A straight of `cells` cells, from the middle of one to the middle of another; none if no
-    /// such straight fits into the maze.
+    /// Returns a straight of `cells` cells, from the middle of one to the middle of another, or
+    /// `None` if no such straight fits into the maze.
     #[must_use]
     pub fn straight_ms(&self, cells: usize) -> Option<u16> {
         self.straights().get(cells).copied()
     }
 
-    /// A diagonal across `cells` cells, from the middle of one edge to that of another; none if no
-    /// such diagonal fits into the maze.
+    /// Returns a diagonal across `cells` cells, from the middle of one edge to that of another,
+    /// or `None` if no such diagonal fits into the maze.
     #[must_use]
     pub fn diagonal_ms(&self, cells: usize) -> Option<u16> {
         self.diagonals().get(cells).copied()
     }
 
-    /// How long a move takes; none if no such straight fits into the maze.
+    /// Returns how long a move takes, or `None` if no such straight fits into the maze.
     #[must_use]
     pub fn of(&self, run_move: RunMove) -> Option<u16> {
         match run_move {
@@ -92,7 +92,7 @@ impl<const N: usize> SpeedRunTimes<N> {
         }
     }
 
-    /// The slalom turns.
+    /// Returns the slalom turns.
     #[must_use]
     pub const fn slalom(&self) -> SlalomTimes {
         self.slalom
@@ -108,8 +108,8 @@ impl<const N: usize> SpeedRunTimes<N> {
         self.diagonal.as_flattened()
     }
 
-    /// The bucket of the search that a time belongs to. A move always leads to a later one, and by
-    /// less than 2 N.
+    /// Returns the bucket of the search that a time belongs to. A move always leads to a later one,
+    /// and by less than 2 N.
     pub(super) const fn bucket(&self, time: u16) -> usize {
         bucket(self.bucket_scale, time)
     }
@@ -131,7 +131,7 @@ impl SlalomTimes {
     }
 }
 
-/// How long a straight of `length` millimetres takes, rounded up.
+/// Returns how long a straight of `length` millimetres takes, rounded up.
 fn milliseconds(drive: SpeedProfile, speed: f64, length: f64) -> u64 {
     let SpeedProfile {
         acceleration_mm_s2: acceleration,
@@ -181,7 +181,7 @@ fn check(config: &SpeedRunConfig) -> Result<(), SpeedRunConfigError> {
 mod tests {
     use super::*;
 
-    /// What `change` makes of the classic preset.
+    /// Returns what `change` makes of the classic preset.
     fn outcome(change: impl FnOnce(&mut SpeedRunConfig)) -> Result<(), SpeedRunConfigError> {
         let mut config = SpeedRunConfig::classic();
         change(&mut config);

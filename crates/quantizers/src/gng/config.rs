@@ -19,7 +19,7 @@ pub struct GngConfig {
     pub split_factor: f64,
     /// d: what is left of all errors after each input; above 0, at most 1.
     pub decay: f64,
-    /// The network does not grow beyond so many units; at least 2. `usize::MAX` for no bound.
+    /// Maximum number of units; at least 2. `usize::MAX` for no bound.
     pub max_units: usize,
     /// In which order a step does its parts.
     pub order: StepOrder,
@@ -121,8 +121,8 @@ pub enum Removal {
 }
 
 impl GngConfig {
-    /// The growing neural gas of Fritzke 1995 with the values of its section 4: ε_b 0.2, ε_n 0.006,
-    /// a_max 50, λ 100, α 0.5, d 0.995.
+    /// Returns the growing neural gas of Fritzke 1995 with the values of its section 4: ε_b 0.2,
+    /// ε_n 0.006, a_max 50, λ 100, α 0.5, d 0.995.
     pub fn fritzke() -> Self {
         Self {
             winner_rate: 0.2,
@@ -139,10 +139,10 @@ impl GngConfig {
         }
     }
 
-    /// The equilibrium GNG of MSLST with an error threshold of its table 1, in squared robot units
-    /// for scans in robot units. The paper gives no rates; these are Fritzke's. His decay d = 0.995
-    /// is also the one at which the scans of the Large maze at threshold 50 give the paper's 26
-    /// units, which it was chosen by (see docs/quantizers.md).
+    /// Returns the equilibrium GNG of MSLST with an error threshold of its table 1, in squared
+    /// robot units for scans in robot units. The paper gives no rates; these are Fritzke's. His
+    /// decay d = 0.995 is also the one at which the scans of the Large maze at threshold 50 give
+    /// the paper's 26 units, which it was chosen by (see docs/quantizers.md).
     pub fn mslst(threshold: f64) -> Self {
         Self {
             decay: 0.995,
@@ -152,8 +152,8 @@ impl GngConfig {
         }
     }
 
-    /// The equilibrium GNG of Provost's code for SODA: ε_b 0.05, ε_n 0.0006, a_max 100, λ 200, d 1
-    /// − 0.0005, relative errors, and the rate as the gate.
+    /// Returns the equilibrium GNG of Provost's code for SODA: ε_b 0.05, ε_n 0.0006, a_max 100, λ
+    /// 200, d 1 − 0.0005, relative errors, and the rate as the gate.
     pub fn provost(threshold: f64) -> Self {
         Self {
             winner_rate: 0.05,

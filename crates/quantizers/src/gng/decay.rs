@@ -30,13 +30,13 @@ impl Decay {
         self.factor
     }
 
-    /// What is to be kept for `value`.
+    /// Returns what is to be kept for `value`.
     #[inline]
     pub(super) fn kept(self, value: f64) -> f64 {
         value / self.factor
     }
 
-    /// What the number that was kept stands for.
+    /// Returns what the number that was kept stands for.
     #[inline]
     pub(super) fn value(self, kept: f64) -> f64 {
         kept * self.factor

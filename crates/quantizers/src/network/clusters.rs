@@ -16,12 +16,12 @@ pub struct Clusters {
 }
 
 impl Clusters {
-    /// How many clusters there are.
+    /// Returns how many clusters there are.
     pub fn count(&self) -> usize {
         self.count as usize
     }
 
-    /// The number of a unit's cluster.
+    /// Returns the number of a unit's cluster.
     ///
     /// # Errors
     /// If the unit was not there when the clusters were found.
@@ -32,14 +32,14 @@ impl Clusters {
             .map_err(|_| UnknownUnit(id))
     }
 
-    /// All units, ascending, each with the number of its cluster.
+    /// Returns all units, ascending, each with the number of its cluster.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = (UnitId, u32)> + '_ {
         self.labels.iter().copied()
     }
 }
 
 impl<S: Scalar> Network<S> {
-    /// The connected components of the graph as it is now.
+    /// Returns the connected components of the graph as it is now.
     ///
     /// ```
     /// use tolman_quantizers::{Gng, GngConfig, Quantizer};

@@ -27,7 +27,7 @@ pub enum UnitSearch {
 }
 
 impl UnitSearch {
-    /// Whether an index shall be built for so many units.
+    /// Returns whether an index is worth building for `units` units.
     pub(crate) fn wants_tree(self, dimension: usize, units: usize) -> bool {
         if dimension > MOST_FEATURES {
             return false;

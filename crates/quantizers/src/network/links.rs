@@ -52,7 +52,7 @@ impl Links {
         self.degrees[slot] as usize
     }
 
-    /// The neighbours of a slot in ascending order.
+    /// Returns the neighbours of a slot in ascending order.
     #[inline]
     pub(crate) fn neighbours(
         &self,
@@ -61,13 +61,13 @@ impl Links {
         self.halves(slot).iter().map(|half| half.to as usize)
     }
 
-    /// The neighbours of a slot in ascending order, with the ages of the edges.
+    /// Returns the neighbours of a slot in ascending order, with the ages of the edges.
     #[inline]
     pub(crate) fn ages(&self, slot: usize) -> impl DoubleEndedIterator<Item = (usize, u32)> + '_ {
         (0..self.degree(slot)).map(move |place| self.at(slot, place))
     }
 
-    /// The neighbour at `place` in ascending order, and the edge's age.
+    /// Returns the neighbour at `place` in ascending order, and the edge's age.
     #[inline]
     pub(crate) fn at(&self, slot: usize, place: usize) -> (usize, u32) {
         let half = self.halves(slot)[place];
@@ -75,7 +75,7 @@ impl Links {
         (half.to as usize, both.wrapping_sub(half.renewed))
     }
 
-    /// The last neighbour, and the edge's age.
+    /// Returns the last neighbour, and the edge's age.
     pub(crate) fn last(&self, slot: usize) -> Option<(usize, u32)> {
         self.ages(slot).next_back()
     }

@@ -17,7 +17,7 @@ pub struct QuantizationError {
 }
 
 impl<S: Scalar> Network<S> {
-    /// The quantization error over a set of inputs, in the distance of the network.
+    /// Returns the quantization error over a set of inputs, in the distance of the network.
     ///
     /// # Errors
     /// If an input is invalid, there are none, or the network has no units.

@@ -15,7 +15,7 @@ pub(crate) struct Metric<S> {
 }
 
 impl<S: Scalar> Metric<S> {
-    /// All weights 1.
+    /// Returns all weights 1.
     pub(crate) fn uniform(dimension: usize) -> Result<Self, QuantizerConfigError> {
         if dimension == 0 {
             return Err(QuantizerConfigError::NoFeatures);
@@ -27,7 +27,7 @@ impl<S: Scalar> Metric<S> {
         })
     }
 
-    /// The weights of the squares, one a feature.
+    /// Returns the weights of the squares, one a feature.
     pub(crate) fn weighted(weights: &[S]) -> Result<Self, QuantizerConfigError> {
         let mut total = 0.0;
         for (feature, weight) in weights.iter().enumerate() {
@@ -59,7 +59,7 @@ impl<S: Scalar> Metric<S> {
         self.weights.as_deref()
     }
 
-    /// Whether `input` can be learnt or asked for.
+    /// Returns whether `input` can be learnt or asked for.
     #[inline]
     pub(crate) fn check(&self, input: &[S]) -> Result<(), InputError> {
         InputError::check_size(self.dimension, input.len())?;
@@ -70,7 +70,8 @@ impl<S: Scalar> Metric<S> {
         }
     }
 
-    /// Whether a prototype can have come from valid inputs: it may miss the limit by roundings.
+    /// Returns whether a prototype can have come from valid inputs: it may miss the limit by
+    /// roundings.
     pub(crate) fn check_prototype(&self, prototype: &[S]) -> Result<(), InputError> {
         let slack = S::from_f64(1.0 + 1e-4);
         let near = Self {
@@ -81,7 +82,7 @@ impl<S: Scalar> Metric<S> {
         near.check(prototype)
     }
 
-    /// Whether `input` can be asked for where `mask` is true.
+    /// Returns whether `input` can be asked for where `mask` is true.
     pub(crate) fn check_masked(&self, input: &[S], mask: &[bool]) -> Result<(), InputError> {
         InputError::check_size(self.dimension, input.len())?;
         if mask.len() != self.dimension {
@@ -129,7 +130,7 @@ impl<S: Scalar> Metric<S> {
     }
 }
 
-/// Two values within ± limit are at most 2 limits apart; prototypes may miss the limit by a
+/// Returns two values within ± limit are at most 2 limits apart; prototypes may miss the limit by a
 /// rounding, so 4.
 fn limit<S: Scalar>(total_weight: f64) -> S {
     S::from_f64(libm::sqrt(S::MAX_SQUARED_DISTANCE / total_weight) / 4.0)

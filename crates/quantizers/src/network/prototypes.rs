@@ -29,7 +29,7 @@ impl<S: Scalar> Prototypes<S> {
         self.dimension
     }
 
-    /// All blocks, each `dimension` rows of lanes.
+    /// Returns all blocks, each `dimension` rows of lanes.
     #[inline(always)]
     pub(crate) fn rows(&self) -> &[[S; LANES]] {
         &self.features

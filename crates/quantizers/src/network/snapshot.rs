@@ -12,7 +12,7 @@ use crate::{Scalar, SnapshotError, UnitId};
 pub struct NetworkSnapshot<S> {
     /// How many features an input has.
     pub dimension: usize,
-    /// The weights of the features in the squared distance; none if all are 1.
+    /// The weights of the features in the squared distance, or `None` if all are 1.
     pub weights: Option<Vec<S>>,
     /// The id that the next unit will get.
     pub next_id: u32,
@@ -33,7 +33,7 @@ pub struct SnapshotUnit<S> {
 }
 
 impl<S: Scalar> Network<S> {
-    /// A copy of the units and edges as they are now.
+    /// Returns a copy of the units and edges as they are now.
     pub fn snapshot(&self) -> NetworkSnapshot<S> {
         let unit = |slot| SnapshotUnit {
             id: self.ids[slot],
@@ -48,8 +48,8 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// The network that the snapshot is a copy of; slots are units in order. Nobody listens to its
-    /// events.
+    /// Returns the network that the snapshot is a copy of; slots are units in order. Nobody listens
+    /// to its events.
     pub(crate) fn from_snapshot(snapshot: &NetworkSnapshot<S>) -> Result<Self, SnapshotError> {
         let mut network = match &snapshot.weights {
             Some(weights) => {

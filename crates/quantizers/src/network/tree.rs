@@ -14,12 +14,11 @@ use super::prototypes::{LANES, Prototypes};
 use super::search::{Best, Candidate, Terms};
 use crate::Scalar;
 
-/// With more features than that, a search visits so many leaves that it might as well visit all
-/// units.
+/// With more features than that, a search visits nearly all leaves.
 pub(crate) const MOST_FEATURES: usize = 4;
 
-/// How many inner nodes may stand on a path to a leaf of a tree of so many units: twice what a
-/// balanced one has, and two.
+/// Returns how many inner nodes may stand on a path to a leaf of a tree of `units` units: twice
+/// what a balanced one has, and two.
 fn steepest(units: usize) -> u32 {
     2 * (units / (LANES / 2)).max(1).ilog2() + 2
 }
@@ -60,7 +59,7 @@ struct Place {
 
 /// An exact index of up to [`MOST_FEATURES`] features.
 ///
-/// It stays balanced by being built anew when a path has become too long or leaves have become too
+/// It stays balanced by being built again when a path has become too long or leaves have become too
 /// empty, which takes many units that came or moved since the last time.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree<S> {
@@ -97,7 +96,7 @@ impl<S: Scalar> Leaf<S> {
 }
 
 impl<S: Scalar> Tree<S> {
-    /// An index of the given slots, all of which are below `highest`.
+    /// Returns an index of the given slots, all of which are below `highest`.
     pub(crate) fn new(
         prototypes: &Prototypes<S>,
         slots: impl Iterator<Item = usize>,
@@ -213,12 +212,12 @@ impl<S: Scalar> Tree<S> {
         }
     }
 
-    /// Whether leaves are so empty that a new tree pays.
+    /// Returns whether leaves are so empty that a new tree pays.
     fn is_sparse(&self) -> bool {
         self.leaves.len() > self.len / 4 + 8
     }
 
-    /// The leaf whose region a unit is in.
+    /// Returns the leaf whose region a unit is in.
     fn leaf_at(&self, slot: usize, prototypes: &Prototypes<S>) -> u32 {
         let (mut node, mut depth) = (0, 0);
         loop {
@@ -252,7 +251,7 @@ impl<S: Scalar> Tree<S> {
         self.divide(leaf, &mut slots, prototypes);
     }
 
-    /// Builds the tree anew.
+    /// Builds the tree again.
     #[cold]
     fn rebuild(&mut self, prototypes: &Prototypes<S>) {
         for leaf in &self.leaves {
@@ -379,7 +378,7 @@ impl<S: Scalar> Tree<S> {
     }
 }
 
-/// The feature in which units are spread most.
+/// Returns the feature in which units are spread most.
 fn widest<S: Scalar>(slots: &[u32], dimension: usize, prototypes: &Prototypes<S>) -> usize {
     let mut widest = (0, S::ZERO - S::INFINITY);
     for feature in 0..dimension {

@@ -107,9 +107,9 @@ impl SoinnConfig {
         }
     }
 
-    /// The dictionary of "Reasoning on SOINN associative memory" (Kawewong, Honda, Tsuboyama,
-    /// Hasegawa), section 4: λ = age_dead = 20. It does not give c; here 1, the value of the paper
-    /// it follows.
+    /// Returns the dictionary of "Reasoning on SOINN associative memory" (Kawewong, Honda,
+    /// Tsuboyama, Hasegawa), section 4: λ = age_dead = 20. It does not give c; here 1, the value of
+    /// the paper it follows.
     pub fn cpm() -> Self {
         Self {
             max_age: 20,

@@ -37,7 +37,7 @@ pub enum SecondThreshold {
     /// second layer is for: where noise joins two of them the smallest distance left is too large,
     /// and they stay together.
     BetweenClusters,
-    /// So many times the mean length of the first layer's edges, which is algorithm 3.3's measure
+    /// A multiple of the mean length of the first layer's edges, which is algorithm 3.3's measure
     /// of how far apart units of one cluster lie, and does not depend on whether clusters are told
     /// apart already.
     WithinClusters {
@@ -73,7 +73,7 @@ impl SecondLayerConfig {
     }
 }
 
-/// Why there can be no second layer.
+/// Reason why there can be no second layer.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SecondLayerError {
@@ -89,7 +89,8 @@ pub enum SecondLayerError {
 }
 
 impl<S: Scalar> Soinn<S> {
-    /// A second layer that has learnt the units of this one. Its clusters are those of the data.
+    /// Returns a second layer that has learnt the units of this one. Its clusters are those of the
+    /// data.
     ///
     /// ```
     /// use rand_chacha::ChaCha8Rng;

@@ -5,7 +5,8 @@ use tolman_quantizers::{ErrorKind, Gng, GngConfig, GrowthGate, Quantizer};
 
 use super::streams::cube;
 
-/// The mean of what an input adds to the errors, over the last inputs, and the number of units.
+/// Returns the mean of what an input adds to the errors, over the last inputs, and the number of
+/// units.
 fn equilibrium(config: GngConfig, dimension: usize, seed: u64) -> (f64, f64) {
     let mut gng = Gng::new(dimension, config).unwrap();
     let inputs = cube(dimension, 40_000, seed);
@@ -31,7 +32,7 @@ proptest! {
     /// not have.
     #[test]
     fn mean_error_ends_growth_where_the_law_says(dimension in 2..4_usize, wanted in 12..50_u32, seed: u64) {
-        // A threshold that asks for about so many units of an evenly filled cube.
+        // A threshold that asks for about `wanted` units of an evenly filled cube.
         let units = f64::from(wanted);
         let mse = dimension as f64 / 12.0 * units.powf(-2.0 / dimension as f64);
         let decay = 0.995;

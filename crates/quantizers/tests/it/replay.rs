@@ -16,8 +16,8 @@ const UNITS: usize = 100;
 /// Makes a stream of some length from a seed.
 type Stream = fn(usize, u64) -> Vec<Vec<f64>>;
 
-/// What a robot with 11 range beams sees that drives through two rooms, joined by a door, and turns
-/// when it meets a wall.
+/// Returns what a robot with 11 range beams sees that drives through two rooms, joined by a door,
+/// and turns when it meets a wall.
 fn rooms(len: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let is_free = |x: f64, y: f64| {
@@ -47,7 +47,7 @@ fn rooms(len: usize, seed: u64) -> Vec<Vec<f64>> {
     (0..len).map(&mut step).collect()
 }
 
-/// A random walk in three dimensions, bent into eleven.
+/// Returns a random walk in three dimensions, bent into eleven.
 fn surface(len: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let bends: Vec<[f64; 4]> = (0..FEATURES)
@@ -64,7 +64,7 @@ fn surface(len: usize, seed: u64) -> Vec<Vec<f64>> {
     (0..len).map(&mut step).collect()
 }
 
-/// Twenty places, one after the other, none visited twice.
+/// Twenty places, one by one, none visited twice.
 fn places(len: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let centres = super::streams::cube(FEATURES, 20, seed);

@@ -593,7 +593,7 @@ fn noisy_lessons_are_learnt_to_their_means() {
         );
         assert_eq!(memory.responses(pattern, 0.5).unwrap().len(), 1);
     }
-    // A ring goes round for ever.
+    // A ring goes round forever.
     let chain = memory.chain(&patterns[0], 1.0).unwrap().take(9);
     for (step, recall) in chain.enumerate() {
         let expected = patterns[(step + 1) % 4];

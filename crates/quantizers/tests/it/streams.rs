@@ -10,7 +10,7 @@ pub(crate) fn cube(dimension: usize, len: usize, seed: u64) -> Vec<Vec<f64>> {
     (0..len).map(|_| point()).collect()
 }
 
-/// The same in `f32`.
+/// Returns the same in `f32`.
 pub(crate) fn narrowed(inputs: &[Vec<f64>]) -> Vec<Vec<f32>> {
     let narrow = |input: &Vec<f64>| input.iter().map(|value| *value as f32).collect();
     inputs.iter().map(narrow).collect()

@@ -72,7 +72,8 @@ pub(super) struct Order {
 }
 
 impl Order {
-    /// The place among the beams, in [0, circle), of a bearing in the world, less the margin.
+    /// Returns the place among the beams, in [0, circle), of a bearing in the world, less the
+    /// margin.
     #[inline(always)]
     pub(super) fn index(&self, bearing: f64) -> f64 {
         let index = (bearing - self.first) * self.density - self.margin;
@@ -81,8 +82,8 @@ impl Order {
         index + if index < 0.0 { self.circle } else { 0.0 }
     }
 
-    /// The chunks of beams between the indices of a wall's ends, first and one past the last;
-    /// twice, for a wall that lies across the seam of the circle.
+    /// Returns the chunks of beams between the indices of a wall's ends, first and one past the
+    /// last; twice, for a wall that lies across the seam of the circle.
     #[inline(always)]
     pub(super) fn between(&self, from: f64, to: f64) -> [(usize, usize); 2] {
         let span = to - from;
@@ -93,7 +94,7 @@ impl Order {
         self.over(from, span + 2.0 * self.margin)
     }
 
-    /// The chunks of beams from index `from` over `span`.
+    /// Returns the chunks of beams from index `from` over `span`.
     #[inline(always)]
     fn over(&self, from: f64, span: f64) -> [(usize, usize); 2] {
         [from, from - self.circle].map(|from| {
@@ -105,8 +106,8 @@ impl Order {
         })
     }
 
-    /// The chunks that hold all beams of a quadrant (0 south-west, then counter-clockwise), and
-    /// some others.
+    /// Returns the chunks that hold all beams of a quadrant (0 south-west, then counter-clockwise),
+    /// and some others.
     #[inline(always)]
     pub(super) fn quadrant(&self, quadrant: u32) -> [(usize, usize); 2] {
         let from = self.index(f64::from(quadrant) * FRAC_PI_2 - PI);
@@ -142,7 +143,7 @@ impl Seen {
         }
     }
 
-    /// How far a beam goes to meet it; infinity if it does not.
+    /// Returns how far a beam goes to meet it; infinity if it does not.
     ///
     /// On which side of the beam an end lies is computed from that end alone, so two walls that
     /// share one agree on it and leave no gap.
@@ -160,7 +161,7 @@ impl Seen {
 }
 
 impl BeamSweep {
-    /// The beams of `ring`, of which there must be one at least.
+    /// Returns the beams of `ring`, of which there must be one at least.
     #[must_use]
     pub fn new(ring: Ring) -> Self {
         let count = ring.beams as usize;
@@ -207,32 +208,32 @@ impl BeamSweep {
         }
     }
 
-    /// The point all beams start from.
+    /// Returns the point all beams start from.
     #[must_use]
     pub fn origin(&self) -> Point {
         self.origin
     }
 
-    /// The ring the beams are of.
+    /// Returns the ring the beams are of.
     #[must_use]
     pub fn ring(&self) -> Ring {
         self.ring
     }
 
-    /// How many beams there are.
+    /// Returns how many beams there are.
     #[must_use]
     pub fn beams(&self) -> usize {
         self.ring.beams as usize
     }
 
-    /// The unit vector of a beam in the world.
+    /// Returns the unit vector of a beam in the world.
     #[must_use]
     pub fn direction(&self, beam: usize) -> Vector {
         let chunk = &self.chunks[beam / LANES];
         Vector::new(chunk.x[beam % LANES], chunk.y[beam % LANES])
     }
 
-    /// How far each beam has got, m.
+    /// Returns how far each beam has got, m.
     pub fn ranges(&self) -> impl Iterator<Item = f64> + '_ {
         self.chunks
             .iter()
@@ -240,7 +241,7 @@ impl BeamSweep {
             .take(self.beams())
     }
 
-    /// How far a beam has got, m.
+    /// Returns how far a beam has got, m.
     #[must_use]
     pub fn range(&self, beam: usize) -> f64 {
         self.chunks[beam / LANES].range[beam % LANES]
@@ -324,7 +325,8 @@ impl BeamSweep {
 /// How far [`bearing`] may be off, rad.
 const BEARING_ERROR: f64 = 2e-5;
 
-/// The direction of a vector to within [`BEARING_ERROR`]: enough to choose which beams to try.
+/// Returns the direction of a vector to within [`BEARING_ERROR`]: enough to choose which beams to
+/// try.
 #[inline(always)]
 pub(super) fn bearing(x: f64, y: f64) -> f64 {
     let (across, along) = (x.abs(), y.abs());

@@ -55,8 +55,8 @@ impl Edges {
         Self { cells, walls }
     }
 
-    /// The walls from `cell` on, or back, on the line `by` lines beyond that which bounds cell
-    /// `from`.
+    /// Returns the walls from `cell` on, or back, on the line `by` lines beyond that which bounds
+    /// cell `from`.
     #[inline(always)]
     fn along<const COUNT: usize>(
         &self,
@@ -132,7 +132,8 @@ struct Quadrant<const COUNT: usize> {
 }
 
 impl LatticeWalk {
-    /// The caster of a world made from a maze or an occupancy grid; none of other worlds.
+    /// Returns the caster of a world made from a maze or an occupancy grid, or `None` of other
+    /// worlds.
     #[must_use]
     pub fn new(world: &World, lanes: Lanes) -> Option<Self> {
         let lattice = Arc::clone(world.lattice()?);
@@ -180,7 +181,7 @@ impl LatticeWalk {
         }
     }
 
-    /// One ray, line by line.
+    /// Returns one ray, line by line.
     fn walk(&self, cell: (usize, usize), origin: Point, direction: Vector, max_range: f64) -> f64 {
         let lattice = &self.lattice;
         let (west, south) = (direction.x < 0.0, direction.y < 0.0);
@@ -214,15 +215,15 @@ impl LatticeWalk {
     }
 }
 
-/// How far a ray goes per metre across the lines, so large where it never crosses that a line at
-/// distance 0 still is one.
+/// Returns how far a ray goes per metre across the lines, so large where it never crosses that a
+/// line at distance 0 still is one.
 #[inline(always)]
 fn reciprocal(component: f64) -> f64 {
     let size = component.abs();
     1.0 / if size > 1e-300 { size } else { 1e-300 }
 }
 
-/// The index `by` steps on, or back; one past all others where there is none.
+/// Returns the index `by` steps on, or back; one past all others where there is none.
 #[inline(always)]
 fn step(from: usize, back: bool, by: usize) -> usize {
     if back {

@@ -15,7 +15,7 @@ pub struct ParryPolyline {
 }
 
 impl ParryPolyline {
-    /// The polyline of `walls`.
+    /// Returns the polyline of `walls`.
     #[must_use]
     pub fn new(walls: &[WallSegment]) -> Self {
         let ends = walls

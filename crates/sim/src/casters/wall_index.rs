@@ -51,7 +51,7 @@ struct Level {
 }
 
 impl WallIndex {
-    /// The index of `walls`, all of them finite.
+    /// Returns the index of `walls`, all of them finite.
     #[must_use]
     pub fn new(walls: &[WallSegment], lanes: Lanes) -> Self {
         let bounds = Bounds::of(walls.iter().flat_map(|wall| [wall.start, wall.end]));
@@ -126,17 +126,13 @@ impl WallIndex {
         }
     }
 
-    /// How far `point` is from the nearest wall, m; infinity if there are no walls.
+    /// Returns how far `point` is from the nearest wall, m; infinity if there are no walls.
     #[must_use]
     pub fn distance(&self, point: Point) -> f64 {
         if self.walls.is_empty() || !(point.x.is_finite() && point.y.is_finite()) {
             return f64::INFINITY;
         }
-        // Nothing is nearer than the bounds.
-        let outside = (self.bounds.min - point)
-            .sup(&(point - self.bounds.max))
-            .sup(&Vector::zeros());
-        let mut reach = outside.norm() + self.levels[0].cell;
+        let mut reach = self.clearance(point) + self.levels[0].cell;
         loop {
             let mut nearest = f64::INFINITY;
             self.near(point, reach, |walls| {
@@ -155,8 +151,8 @@ impl WallIndex {
 }
 
 impl Level {
-    /// The level of `walls` that extend no further than `largest`; appends them to `sorted` in
-    /// order of cells.
+    /// Returns the level of `walls` that extend no further than `largest`; appends them to `sorted`
+    /// in order of cells.
     fn new(mut walls: Vec<WallSegment>, largest: f64, sorted: &mut Vec<WallSegment>) -> Self {
         let cell = 0.5 * largest;
         let middles = Bounds::of(walls.iter().map(middle));
@@ -197,7 +193,7 @@ fn middle(wall: &WallSegment) -> Point {
     nalgebra::center(&wall.start, &wall.end)
 }
 
-/// The first and one past the last of `count` cells that lie within `reach` of `at`.
+/// Returns the first and one past the last of `count` cells that lie within `reach` of `at`.
 #[inline(always)]
 fn span(at: f64, reach: f64, per_metre: f64, count: usize) -> (usize, usize) {
     // The last cell also holds what lies on the far edge of the level.
@@ -236,16 +232,20 @@ struct Walls {
 
 impl Caster for WallIndex {
     /// Looks along the ray piece by piece, so that a long one costs no more than what lies along
-    /// it.
+    /// it. The pieces are counted, so that a ray from anywhere ends.
     fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64 {
         let Some(lowest) = self.levels.first() else {
             return max_range;
         };
         let end = max_range.min(self.farthest(origin));
         let half_piece = 4.0 * lowest.cell;
+        let piece = 2.0 * half_piece;
+        let first = ((self.clearance(origin) / piece).floor() - 1.0).max(0.0);
+        let most = (self.bounds.max - self.bounds.min).norm() / piece + 3.0;
+        let more = (end / piece - first).min(most).max(0.0) as u64;
         let mut range = max_range;
-        let mut from = 0.0;
-        while from <= end {
+        for number in 0..=more {
+            let from = (first + number as f64) * piece;
             let middle = origin + direction * (from + half_piece);
             self.near(middle, half_piece, |walls| {
                 range = walls
@@ -253,9 +253,8 @@ impl Caster for WallIndex {
                     .map(|wall| wall.ray(origin, direction))
                     .fold(range, f64::min);
             });
-            from += 2.0 * half_piece;
             // What was met beyond this piece may have something before it in the next.
-            if range <= from {
+            if range <= from + piece {
                 break;
             }
         }
@@ -271,7 +270,15 @@ impl Caster for WallIndex {
 }
 
 impl WallIndex {
-    /// A range that reaches every wall from `origin`.
+    /// Returns a distance from `origin` nearer than which there is no wall: that of the bounds.
+    fn clearance(&self, origin: Point) -> f64 {
+        (self.bounds.min - origin)
+            .sup(&(origin - self.bounds.max))
+            .sup(&Vector::zeros())
+            .norm()
+    }
+
+    /// Returns a range that reaches every wall from `origin`.
     fn farthest(&self, origin: Point) -> f64 {
         (self.bounds.min - origin)
             .abs()

@@ -54,7 +54,7 @@ pub trait Disturbance<V>: CloneDisturbance<V> + Debug + Send + Sync {
     /// Changes a reading, or takes it away with `None`. Called once for each reading, in the order
     /// of time.
     ///
-    /// `draws` begins anew at every tick. What should outlast a tick belongs into `self`.
+    /// `draws` begins again at every tick. What should outlast a tick belongs into `self`.
     fn disturb(&mut self, value: &mut Option<V>, draws: &mut Draws);
 }
 
@@ -81,7 +81,7 @@ impl<V> Clone for Box<dyn Disturbance<V>> {
 pub type Disturbances<V> = Vec<Box<dyn Disturbance<V>>>;
 
 /// Noise drawn from any distribution of [`rand`] or of the crate `rand_distr`, for each number of a
-/// reading anew.
+/// reading again.
 ///
 /// The bits it draws may differ between platforms and between builds. `rand_distr` takes `exp` and
 /// `ln` from the standard library as soon as any crate of a program switches `num-traits/std` on,

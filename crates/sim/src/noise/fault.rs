@@ -19,7 +19,7 @@ pub enum Fault {
         offset: f64,
     },
     /// An error of which nothing but its bounds is known: `(1 + a) · value + b`, `a` uniform in ±
-    /// `share` and `b` in ± `offset`, drawn anew after every `steps` readings and for all numbers
+    /// `share` and `b` in ± `offset`, drawn again after every `steps` readings and for all numbers
     /// of a reading alike.
     ///
     /// Unlike those of [`Slip`](Self::Slip), these errors do not average out while they hold: with
@@ -32,7 +32,7 @@ pub enum Fault {
         /// For how many readings one draw holds, at least 1.
         steps: u32,
     },
-    /// An error beyond all bounds, now and then: the value times 1 ± `share`, drawn anew after
+    /// An error beyond all bounds, now and then: the value times 1 ± `share`, drawn again after
     /// every `steps` readings.
     Lapse {
         /// How likely a draw is one, 0 … 1.
@@ -73,7 +73,7 @@ pub enum Fault {
         /// How many readings it repeats before it comes free.
         steps: u32,
     },
-    /// Readings that come late. There is none before the first has arrived.
+    /// Readings that come late; no reading comes before the first has arrived.
     Delay {
         /// By how many time steps.
         steps: u32,
@@ -236,7 +236,7 @@ impl<V> Default for Past<V> {
 }
 
 impl<V: Values> Past<V> {
-    /// Two numbers uniform in ± 1, which hold for so many readings.
+    /// Returns two numbers uniform in ± 1, which hold for `steps` readings.
     fn drawn(&mut self, steps: u32, draws: &mut Draws) -> [f64; 2] {
         if self.steps_left == 0 {
             self.drawn = [draws.uniform(), draws.uniform()].map(|draw| 2.0 * draw - 1.0);
@@ -246,7 +246,7 @@ impl<V: Values> Past<V> {
         self.drawn
     }
 
-    /// Repeats the reading that a sensor is stuck at, or lets it get stuck at this one for so many
+    /// Repeats the reading that a sensor is stuck at, or lets it get stuck at this one for `steps`
     /// readings.
     fn stick(&mut self, value: &mut Option<V>, gets_stuck: bool, steps: u32) {
         if self.steps_left > 0 {
@@ -261,7 +261,7 @@ impl<V: Values> Past<V> {
         }
     }
 
-    /// Gives the reading of so many steps before in place of this one.
+    /// Gives the reading of `steps` steps before in place of this one.
     fn delay(&mut self, value: &mut Option<V>, steps: u32) {
         self.values.push_back(value.take());
         if self.values.len() > steps as usize {
@@ -276,7 +276,7 @@ impl<V: Values> Past<V> {
 pub struct FaultError {
     /// Which number.
     pub part: &'static str,
-    /// What it is.
+    /// The value given.
     pub value: f64,
     /// The least that has a sense.
     pub least: f64,

@@ -2,8 +2,8 @@ use super::fault::Past;
 use super::{Disturbance, Disturbances, Fault, Values};
 use crate::{Chance, Channel};
 
-/// Faults of one value, one after the other, each with its memory and its channel; then what comes
-/// from outside.
+/// Faults of one value, one by one, each with its memory and its channel; then what comes from
+/// outside.
 #[derive(Clone, Debug)]
 pub struct Faults<V> {
     each: Vec<(Fault, Past<V>)>,

@@ -35,7 +35,7 @@ impl Gaussian {
         }
     }
 
-    /// A disturbed `value`.
+    /// Returns a disturbed `value`.
     #[must_use]
     pub fn around(&self, value: f64, draws: &mut Draws) -> f64 {
         // Two independent Gaussians add up to one.

@@ -121,7 +121,7 @@ impl Recordable for CameraPioneer {
     }
 }
 
-/// Why a robot with a camera cannot be built.
+/// Reason why a robot with a camera cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CameraPioneerError {

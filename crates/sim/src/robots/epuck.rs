@@ -208,7 +208,7 @@ impl Recordable for Epuck {
     }
 }
 
-/// Why an e-puck cannot be built.
+/// Reason why an e-puck cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum EpuckError {
@@ -224,7 +224,7 @@ pub enum EpuckError {
     /// A fault has no sense.
     #[error(transparent)]
     Fault(#[from] FaultsError),
-    /// The response curve is none.
+    /// The response curve is invalid.
     #[error("`response`: {0}")]
     Response(#[from] ResponseError),
 }

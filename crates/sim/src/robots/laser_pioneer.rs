@@ -92,9 +92,9 @@ pub struct StuckBeam {
 /// the faults. No part of the configuration, since code cannot be written to a file.
 #[derive(Clone, Debug, Default)]
 pub struct LaserPioneerDisturbances {
-    /// Of the turn the motors make, rad; a missing one is none.
+    /// Of the turn the motors make, rad; no error if missing.
     pub motor_turn: Disturbances<f64>,
-    /// Of the distance the motors make, m; a missing one is none.
+    /// Of the distance the motors make, m; no error if missing.
     pub motor_distance: Disturbances<f64>,
     /// Of the scan, m.
     pub scan: Disturbances<Scan>,
@@ -107,8 +107,8 @@ pub struct LaserPioneerDisturbances {
 }
 
 impl LaserPioneerConfig {
-    /// A robot of the paper's proportions with perfect motors and sensors: 72 beams all round that
-    /// reach 2.5 robot units, a robot unit being 0.5 m.
+    /// Returns a robot of the paper's proportions with perfect motors and sensors: 72 beams all
+    /// round that reach 2.5 robot units, a robot unit being 0.5 m.
     #[must_use]
     pub fn noiseless() -> Self {
         Self {
@@ -246,7 +246,7 @@ impl LaserPioneer {
         self
     }
 
-    /// What it was built to.
+    /// Returns what it was built to.
     #[must_use]
     pub fn config(&self) -> &LaserPioneerConfig {
         &self.config
@@ -351,7 +351,7 @@ impl Recordable for LaserPioneer {
     }
 }
 
-/// Why a robot cannot be built.
+/// Reason why a robot cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RobotConfigError {
@@ -363,7 +363,7 @@ pub enum RobotConfigError {
         /// What it says.
         value: f64,
     },
-    /// A beam is stuck that is none of the ring's, or at what it cannot say.
+    /// A stuck beam is not in the ring, or is stuck at a range it cannot read.
     #[error(
         "`faults.stuck_beams`: beam {beam} stuck at {range} m; name a beam of the ring and a range within its own"
     )]

@@ -112,9 +112,9 @@ pub struct Pioneer2dxFaults {
 /// the faults.
 #[derive(Clone, Debug, Default)]
 pub struct Pioneer2dxDisturbances {
-    /// Of the turn the motors make, rad; a missing one is none.
+    /// Of the turn the motors make, rad; no error if missing.
     pub motor_turn: Disturbances<f64>,
-    /// Of the distance the motors make, m; a missing one is none.
+    /// Of the distance the motors make, m; no error if missing.
     pub motor_distance: Disturbances<f64>,
     /// Of the way that the left wheel counts, m; a missing one takes the whole odometry.
     pub left_wheel: Disturbances<f64>,
@@ -127,8 +127,8 @@ pub struct Pioneer2dxDisturbances {
 }
 
 impl Pioneer2dxConfig {
-    /// A robot with perfect motors and sensors in steady light: 0.4 m/s and 115°/s at most, ten
-    /// time steps a second.
+    /// Returns a robot with perfect motors and sensors in steady light: 0.4 m/s and 115°/s at most,
+    /// ten time steps a second.
     #[must_use]
     pub fn noiseless() -> Self {
         Self {
@@ -145,8 +145,8 @@ impl Pioneer2dxConfig {
         }
     }
 
-    /// The paper's robot, as noisy as it says without values: wheels that slip by 2 % a step, noisy
-    /// sonars, changing light.
+    /// Returns the paper's robot, as noisy as it says without values: wheels that slip by 2 % a
+    /// step, noisy sonars, changing light.
     #[must_use]
     pub fn paper() -> Self {
         Self {
@@ -162,7 +162,7 @@ impl Pioneer2dxConfig {
         }
     }
 
-    /// The same robot with wheels that count wrongly by a constant.
+    /// Returns the same robot with wheels that count wrongly by a constant.
     #[must_use]
     pub fn with_wheel_scale(mut self, wheel_scale: WheelScale) -> Self {
         self.wheel_scale = wheel_scale;
@@ -260,8 +260,8 @@ impl Pioneer2dx {
         self
     }
 
-    /// What the wheels say of a motion: each counts its way, and distance and turn follow by the
-    /// nominal track.
+    /// Returns what the wheels say of a motion: each counts its way, and distance and turn follow
+    /// by the nominal track.
     fn rolled(&mut self, motion: Motion, chance: &Chance) -> Option<Odometry> {
         let half_turn = 0.5 * motion.turn * TRACK;
         let scale = self.config.wheel_scale;
@@ -372,7 +372,7 @@ impl Recordable for Pioneer2dx {
     }
 }
 
-/// Why a Pioneer 2-DX cannot be built.
+/// Reason why a Pioneer 2-DX cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Pioneer2dxError {

@@ -11,8 +11,8 @@ use crate::{Chance, Motion, Ray, Surroundings};
 /// column of its image.
 ///
 /// A column sees the colours of walls, shut doors and other robots; where nothing is in reach it is
-/// black. Light comes from everywhere, so that a colour is the same from far and near. Pictures
-/// taken in motion would be blurred: there are none.
+/// black. Light comes from everywhere, so that a colour is the same from far and near. No picture
+/// is taken in motion, as it would be blurred.
 #[derive(Clone, Debug)]
 pub struct ColumnCamera {
     columns: u32,
@@ -23,7 +23,7 @@ pub struct ColumnCamera {
 const RAYS: usize = 5;
 
 impl ColumnCamera {
-    /// A camera with so many columns that sees as far as `reach`, m.
+    /// Returns a camera with `columns` columns that sees as far as `reach`, m.
     ///
     /// # Errors
     /// If it has no columns or too many, or no reach.
@@ -37,7 +37,7 @@ impl ColumnCamera {
         Ok(Self { columns, reach })
     }
 
-    /// The mean red, green and blue of one column.
+    /// Returns the mean red, green and blue of one column.
     fn column(&self, around: &Surroundings<'_>, index: u32) -> [f64; 3] {
         let width = TAU / f64::from(self.columns);
         let rays = core::array::from_fn::<Ray, RAYS, _>(|ray| {
@@ -79,7 +79,7 @@ impl Sensor for ColumnCamera {
     }
 }
 
-/// Why a camera cannot be built.
+/// Reason why a camera cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CameraError {

@@ -20,7 +20,8 @@ pub(super) struct ConeEcho {
 }
 
 impl Cone {
-    /// The cone that begins at `mount` and reaches `half_width` rad, below π/2, to either side.
+    /// Returns the cone that begins at `mount` and reaches `half_width` rad, below π/2, to either
+    /// side.
     pub(super) fn new(mount: Pose, half_width: f64) -> Self {
         let left = mount.heading.turned(half_width).unit();
         let right = mount.heading.turned(-half_width).unit();
@@ -45,7 +46,7 @@ impl Cone {
         })
     }
 
-    /// The part of a wall within the cone, seen from its apex.
+    /// Returns the part of a wall within the cone, seen from its apex.
     fn part(&self, wall: &WallSegment) -> Option<(Vector, Vector)> {
         let whole = (wall.start - self.apex, wall.end - self.apex);
         let [left, right] = self.normals;
@@ -53,7 +54,7 @@ impl Cone {
     }
 }
 
-/// What of a segment lies on the side of a line through the origin that `normal` points to.
+/// Returns what of a segment lies on the side of a line through the origin that `normal` points to.
 fn cut((start, end): (Vector, Vector), normal: Vector) -> Option<(Vector, Vector)> {
     let (from_start, from_end) = (start.dot(&normal), end.dot(&normal));
     if from_start < 0.0 && from_end < 0.0 {
@@ -109,8 +110,8 @@ mod tests {
         heard.map(|way| way.norm()).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether the point that is said to be nearest is on a wall and in the cone: so that nothing
-    /// is heard that is not there.
+    /// Returns whether the point that is said to be nearest is on a wall and in the cone: so that
+    /// nothing is heard that is not there.
     fn is_there(mount: Pose, walls: &[WallSegment], echo: ConeEcho) -> bool {
         let count = 4000;
         let bearings =

@@ -52,7 +52,7 @@ const EPUCK: [(f64, f64, f64); 10] = [
 ];
 
 impl ResponseCurve {
-    /// A curve through these points.
+    /// Returns a curve through these points.
     ///
     /// # Errors
     /// If there are none, their ranges do not grow, or a number has no sense.
@@ -62,7 +62,7 @@ impl ResponseCurve {
         Ok(curve)
     }
 
-    /// The e-puck's, by Webots' table: 4095 at contact, 67 at 7 cm and beyond.
+    /// Returns the e-puck's, by Webots' table: 4095 at contact, 67 at 7 cm and beyond.
     #[must_use]
     pub fn epuck() -> Self {
         Self {
@@ -111,14 +111,14 @@ impl ResponseCurve {
         Ok(())
     }
 
-    /// The range beyond which nothing changes, m.
+    /// Returns the range beyond which nothing changes, m.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.points.last().map_or(0.0, |point| point.range)
     }
 
-    /// What is read at a range, m, and its relative standard deviation: the point of the curve
-    /// there.
+    /// Returns what is read at a range, m, and its relative standard deviation: the point of the
+    /// curve there.
     #[must_use]
     pub fn at(&self, range: f64) -> ResponsePoint {
         let above = self.points.partition_point(|point| point.range < range);
@@ -137,7 +137,7 @@ impl ResponseCurve {
     }
 }
 
-/// Why points are no [`ResponseCurve`].
+/// Reason why points are no [`ResponseCurve`].
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ResponseError {
@@ -151,7 +151,7 @@ pub enum ResponseError {
         index: usize,
         /// Which number of it.
         part: &'static str,
-        /// What it is.
+        /// The value given.
         value: f64,
     },
     /// A point is not farther than the one before.
@@ -175,7 +175,7 @@ impl<const N: usize> Infrared<N> {
     /// Sensors that sit and look as `mounts` say, in the robot's frame.
     ///
     /// # Errors
-    /// If the curve is none.
+    /// If the curve is invalid.
     pub fn new(mounts: [Pose; N], curve: ResponseCurve) -> Result<Self, ResponseError> {
         curve.check()?;
         let rays = mounts.map(|mount| Ray {

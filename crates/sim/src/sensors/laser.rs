@@ -12,7 +12,7 @@ pub struct Laser {
 }
 
 impl Laser {
-    /// A laser with the beams of `ring`.
+    /// Returns a laser with the beams of `ring`.
     ///
     /// # Errors
     /// If the ring has no beams or too many, sweeps more than a full circle, or has no range.
@@ -40,7 +40,7 @@ impl Laser {
         })
     }
 
-    /// The geometry of its beams.
+    /// Returns the geometry of its beams.
     #[must_use]
     pub fn ring(&self) -> Ring {
         self.sweep.ring()
@@ -65,7 +65,7 @@ impl Sensor for Laser {
     }
 }
 
-/// Why a laser cannot be built.
+/// Reason why a laser cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LaserError {

@@ -51,8 +51,8 @@ pub struct Backdrop {
 }
 
 impl PictureCameraConfig {
-    /// The Pioneer 2-DX's camera in steady light: pictures of 80 × 60 pixels without noise of a
-    /// green floor.
+    /// Returns the Pioneer 2-DX's camera in steady light: pictures of 80 × 60 pixels without noise
+    /// of a green floor.
     #[must_use]
     pub const fn noiseless() -> Self {
         Self {
@@ -71,8 +71,9 @@ impl PictureCameraConfig {
         }
     }
 
-    /// The same in daylight from the west, with stains, noise and the 32 levels a colour of a frame
-    /// grabber of 16 bits a pixel. The paper names the noise of the camera and gives no values.
+    /// Returns the same in daylight from the west, with stains, noise and the 32 levels a colour of
+    /// a frame grabber of 16 bits a pixel. The paper names the noise of the camera and gives no
+    /// values.
     #[must_use]
     pub const fn noisy() -> Self {
         let perfect = Self::noiseless();
@@ -126,7 +127,7 @@ impl PictureCameraConfig {
 /// stands behind low ones.
 ///
 /// Each column is one vertical plane: the walls along it, the nearest first, hide what lies behind
-/// them from their base to their height. Pictures taken in motion would be blurred: there are none.
+/// them from their base to their height. No picture is taken in motion, as it would be blurred.
 ///
 /// # Complexity
 /// Walls within reach times columns, and walls in a column times pixels.
@@ -140,7 +141,7 @@ pub struct PictureCamera {
 }
 
 impl PictureCamera {
-    /// A camera for such pictures.
+    /// Returns a camera for such pictures.
     ///
     /// # Errors
     /// If a number of the configuration has no sense.
@@ -235,7 +236,7 @@ impl Sensor for PictureCamera {
 pub struct PictureCameraError {
     /// Which number.
     pub field: &'static str,
-    /// What it is.
+    /// The value given.
     pub value: f64,
     /// The least that has a sense.
     pub least: f64,

@@ -47,14 +47,14 @@ pub struct Misses {
 pub struct CrossTalk {
     /// How likely that is of each reading, 0 … 1.
     pub probability: f64,
-    /// How many sonars fire one after the other: those whose numbers differ by a multiple of it
-    /// fire at once. 0 for all one after the other.
+    /// How many sonars fire one by one: those whose numbers differ by a multiple of it fire at
+    /// once. 0 for all one by one.
     pub slots: u32,
 }
 
 impl SonarConfig {
-    /// The Pioneer 2-DX's cones of 15° from 0.1 to 5 m, which hear the nearest thing in them to the
-    /// last digit.
+    /// Returns the Pioneer 2-DX's cones of 15° from 0.1 to 5 m, which hear the nearest thing in
+    /// them to the last digit.
     #[must_use]
     pub const fn noiseless() -> Self {
         Self {
@@ -74,9 +74,9 @@ impl SonarConfig {
         }
     }
 
-    /// The same with noise: 1 % and 5 mm; from 25° on echoes are missed, at 65° two in five; one
-    /// reading in 200 is that of the sonar that fires at the same time at the robot's other end.
-    /// The paper calls them noisy and gives no values (section 3.2).
+    /// Returns the same with noise: 1 % and 5 mm; from 25° on echoes are missed, at 65° two in
+    /// five; one reading in 200 is that of the sonar that fires at the same time at the robot's
+    /// other end. The paper calls them noisy and gives no values (section 3.2).
     #[must_use]
     pub const fn noisy() -> Self {
         Self {
@@ -159,7 +159,7 @@ impl<const N: usize> Sonars<N> {
         })
     }
 
-    /// What each would hear if nothing went wrong.
+    /// Returns what each would hear if nothing went wrong.
     fn echoes(&mut self, around: &Surroundings<'_>) -> [Option<ConeEcho>; N] {
         let here = around.truth.pose;
         let spread = self.mounts.map(|mount| mount.position.coords.norm());
@@ -200,7 +200,7 @@ impl<const N: usize> Sensor for Sonars<N> {
 }
 
 impl Misses {
-    /// The range of an echo that comes back.
+    /// Returns the range of an echo that comes back.
     fn heard(&self, echo: Option<ConeEcho>, draws: &mut Draws) -> Option<f64> {
         let ConeEcho { range, incidence } = echo?;
         let beyond = incidence - self.from;
@@ -213,7 +213,7 @@ impl Misses {
 }
 
 impl CrossTalk {
-    /// What each sonar takes for its own echo.
+    /// Returns what each sonar takes for its own echo.
     fn taken<const N: usize>(
         &self,
         heard: &[Option<f64>; N],
@@ -238,7 +238,7 @@ impl CrossTalk {
 pub struct SonarError {
     /// Which number.
     pub field: &'static str,
-    /// What it is.
+    /// The value given.
     pub value: f64,
     /// The least that has a sense.
     pub least: f64,

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::{DoorError, PlaceError, StepError, WorldFileError};
 
-/// Why a run was not recorded.
+/// Reason why a run was not recorded.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RecordError {
@@ -31,7 +31,7 @@ pub enum RecordError {
     Door(#[from] DoorError),
 }
 
-/// Why a trace was not read, or not replayed, to its end.
+/// Reason why a trace was not read, or not replayed, to its end.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReplayError {
@@ -54,7 +54,7 @@ pub enum ReplayError {
         found: u32,
     },
     /// A line is broken: cut short, or changed by hand.
-    #[error("line {line}, column {column}: {what}; record the trace anew")]
+    #[error("line {line}, column {column}: {what}; record the trace again")]
     Line {
         /// Which line, from 1.
         line: usize,
@@ -71,7 +71,7 @@ pub enum ReplayError {
     Refused {
         /// Which line, from 1.
         line: usize,
-        /// Why.
+        /// The underlying error.
         source: Box<dyn core::error::Error + Send + Sync>,
     },
     /// A robot was disturbed from outside its configuration, and the one built for the replay is
@@ -119,7 +119,7 @@ pub enum ReplayError {
 }
 
 impl ReplayError {
-    /// What JSON has to say against a line.
+    /// Returns what JSON has to say against a line.
     pub(super) fn of_line(line: usize, error: &serde_json::Error) -> Self {
         // To JSON every line is its line 1.
         let told = error.to_string();

@@ -15,7 +15,7 @@ pub(super) const VERSION: u32 = 1;
 pub(super) struct Header<M: Recordable> {
     pub(super) format: String,
     pub(super) version: u32,
-    /// The seed of all chance.
+    /// The seed of all random numbers.
     pub(super) seed: u64,
     /// The length of a time step, µs.
     pub(super) step_us: u64,

@@ -77,22 +77,22 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
         })
     }
 
-    /// Where it happened.
+    /// Returns where it happened.
     pub const fn world(&self) -> &World {
         &self.world
     }
 
-    /// The seed of all chance.
+    /// Returns the seed of all random numbers.
     pub const fn seed(&self) -> u64 {
         self.header.seed
     }
 
-    /// The length of a time step, µs.
+    /// Returns the length of a time step, µs.
     pub const fn step_us(&self) -> u64 {
         self.header.step_us
     }
 
-    /// What each robot was built to, and where it began.
+    /// Returns what each robot was built to, and where it began.
     pub fn robots(&self) -> impl ExactSizeIterator<Item = (&M::Config, Pose)> {
         self.header
             .robots
@@ -100,7 +100,8 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
             .map(|start| (&start.config, start.pose))
     }
 
-    /// What disturbed each robot from outside its configuration: see [`Recordable::disturbances`].
+    /// Returns what disturbed each robot from outside its configuration: see
+    /// [`Recordable::disturbances`].
     pub fn disturbances(&self) -> impl ExactSizeIterator<Item = &[String]> {
         let robots = self.header.robots.iter();
         robots.map(|start| start.disturbances.as_slice())

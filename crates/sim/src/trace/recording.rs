@@ -90,7 +90,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
         Ok(())
     }
 
-    /// What is written of one robot's step.
+    /// Returns what is written of one robot's step.
     pub(super) fn line(&self, robot: RobotId, command: &M::Command) -> StepRecord<M> {
         let truth = self.simulation.truth(robot);
         let sensing = match self.detail {
@@ -129,7 +129,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
         })
     }
 
-    /// The simulation as it stands.
+    /// Returns the simulation as it stands.
     #[must_use]
     pub fn simulation(&self) -> &Simulation<M> {
         &self.simulation

@@ -11,7 +11,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The smallest rectangle round `points`; inside out if there are none.
+    /// Returns the smallest rectangle round `points`; inside out if there are none.
     #[must_use]
     pub fn of(points: impl IntoIterator<Item = Point>) -> Self {
         let nothing = Self {
@@ -36,7 +36,7 @@ impl Bounds {
         self.max.y - self.min.y
     }
 
-    /// Whether `point` lies inside or on the edge.
+    /// Returns whether `point` lies inside or on the edge.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {
         self.min <= point && point <= self.max

@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use super::WallSegment;
 
-/// Why a world cannot be built.
+/// Reason why a world cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum WorldError {

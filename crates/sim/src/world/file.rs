@@ -161,7 +161,7 @@ impl World {
     }
 }
 
-/// Why a world file cannot be read.
+/// Reason why a world file cannot be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WorldFileError {
@@ -181,7 +181,7 @@ pub enum WorldFileError {
         found: u32,
     },
     /// The parts of its grid do not fit each other.
-    #[error("the sizes within `lattice` or `cells` contradict each other; write the file anew")]
+    #[error("the sizes within `lattice` or `cells` contradict each other; write the file again")]
     Lattice,
     /// It describes no world.
     #[error(transparent)]

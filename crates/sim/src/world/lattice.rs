@@ -68,8 +68,8 @@ impl Axis {
         }
     }
 
-    /// The distance from `at` in cell `cell` to the line that bounds the cell `by` cells further
-    /// on, or back.
+    /// Returns the distance from `at` in cell `cell` to the line that bounds the cell `by` cells
+    /// further on, or back.
     #[inline(always)]
     pub(crate) fn ahead(&self, cell: usize, back: bool, by: usize, at: f64) -> f64 {
         // Lines before the first, which no walk reaches, are as good as the first.
@@ -82,7 +82,7 @@ impl Axis {
         distance.max(0.0)
     }
 
-    /// The cell that holds `value`, if one does.
+    /// Returns the cell that holds `value`, if one does.
     fn cell(&self, value: f64) -> Option<usize> {
         let index = if self.thickness > 0.0 {
             let from_first = value - self.origin + 0.5 * self.thickness;
@@ -206,7 +206,7 @@ impl Lattice {
         }
     }
 
-    /// Whether the parts of a lattice that was read fit each other.
+    /// Returns whether the parts of a lattice that was read fit each other.
     pub(super) fn is_sound(&self) -> bool {
         let (columns, rows) = (&self.columns, &self.rows);
         let axis = |axis: &Axis| {
@@ -233,12 +233,12 @@ impl Lattice {
         }
     }
 
-    /// The cell that holds `point`, if one does: column and row.
+    /// Returns the cell that holds `point`, if one does: column and row.
     pub(crate) fn cell(&self, point: Point) -> Option<(usize, usize)> {
         Some((self.columns.cell(point.x)?, self.rows.cell(point.y)?))
     }
 
-    /// How many lines of one axis a ray of this length crosses at most.
+    /// Returns how many lines of one axis a ray of this length crosses at most.
     pub(crate) fn lines_within(&self, range: f64) -> usize {
         let Axis {
             pitch, thickness, ..
@@ -251,7 +251,7 @@ impl Lattice {
         self.cell(point).is_some_and(|(x, y)| !self.solid.get(y, x))
     }
 
-    /// The walls, those in a row joined.
+    /// Returns the walls, those in a row joined.
     pub(super) fn walls(&self, material: Material) -> Vec<WallSegment> {
         let corner = |x, y| Point::new(self.columns.line(x), self.rows.line(y));
         let wall = |start, end| WallSegment {
@@ -269,8 +269,8 @@ impl Lattice {
     }
 }
 
-/// The walls on the lines before and after so many rows of cells: where one side is solid and the
-/// other is not.
+/// Returns the walls on the lines before and after `rows` rows of cells: where one side is solid
+/// and the other is not.
 fn edges(rows: usize, cells: usize, is_solid: impl Fn(Option<usize>, usize) -> bool) -> BitRows {
     let mut walls = BitRows::new(rows + 1, cells);
     for line in 0..=rows {
@@ -282,8 +282,8 @@ fn edges(rows: usize, cells: usize, is_solid: impl Fn(Option<usize>, usize) -> b
     walls
 }
 
-/// The longest runs of consecutive walls on each line: the line, the first cell and one past the
-/// last.
+/// Returns the longest runs of consecutive walls on each line: the line, the first cell and one
+/// past the last.
 fn runs(lines: &BitRows) -> Vec<(usize, usize, usize)> {
     let mut runs = Vec::new();
     for line in 0..lines.rows() {

@@ -17,7 +17,7 @@ pub struct WallSegment {
 }
 
 impl WallSegment {
-    /// A wall of the default material.
+    /// Returns a wall of the default material.
     #[must_use]
     pub fn between(start: Point, end: Point) -> Self {
         Self {
@@ -27,13 +27,13 @@ impl WallSegment {
         }
     }
 
-    /// The distance from `point`, m.
+    /// Returns the distance from `point`, m.
     #[must_use]
     pub fn distance(&self, point: Point) -> f64 {
         (point - self.nearest(point)).norm()
     }
 
-    /// The point of the wall nearest to `point`.
+    /// Returns the point of the wall nearest to `point`.
     #[must_use]
     pub fn nearest(&self, point: Point) -> Point {
         let along = self.end - self.start;
@@ -47,7 +47,8 @@ impl WallSegment {
         }
     }
 
-    /// How far a ray meets the wall, m; infinity if it does not. `direction` is a unit vector.
+    /// Returns how far a ray meets the wall, m; infinity if it does not. `direction` is a unit
+    /// vector.
     ///
     /// Two walls that share an end leave no gap: on which side of the ray an end lies is computed
     /// from that end alone, so both walls say the same.
@@ -75,7 +76,7 @@ impl WallSegment {
         f64::INFINITY
     }
 
-    /// What is wrong with this wall, if anything is.
+    /// Returns what is wrong with this wall, if anything is.
     pub(super) fn check(&self) -> Result<(), &'static str> {
         let numbers = [
             self.start.x,

@@ -27,7 +27,7 @@ pub enum Area {
 }
 
 impl Area {
-    /// Whether `point` lies in it or on its edge.
+    /// Returns whether `point` lies in it or on its edge.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {
         match self {
@@ -38,7 +38,7 @@ impl Area {
 }
 
 impl Zone {
-    /// The zone that `areas` make up together.
+    /// Returns the zone that `areas` make up together.
     #[must_use]
     pub fn new(name: impl Into<String>, areas: Vec<Area>) -> Self {
         Self {
@@ -59,19 +59,19 @@ impl Zone {
         Self::new(name, cells.iter().map(area).collect())
     }
 
-    /// What it is called.
+    /// Returns what it is called.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// What it is made up of.
+    /// Returns what it is made up of.
     #[must_use]
     pub fn areas(&self) -> &[Area] {
         &self.areas
     }
 
-    /// Whether `point` lies in it or on its edge.
+    /// Returns whether `point` lies in it or on its edge.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {
         self.areas.iter().any(|area| area.contains(point))

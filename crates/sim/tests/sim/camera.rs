@@ -20,7 +20,7 @@ fn config() -> CameraPioneerConfig {
     }
 }
 
-/// A red wall in the east, a blue one in the north.
+/// Returns a red wall in the east, a blue one in the north.
 fn corner() -> World {
     let wall = |start: (f64, f64), end: (f64, f64), colour| WallSegment {
         start: Point::new(start.0, start.1),
@@ -42,7 +42,7 @@ fn robot(config: CameraPioneerConfig, heading: Heading) -> Solo<CameraPioneer> {
     Solo::new(corner(), robot, Pose::new(Point::origin(), heading), 1).unwrap()
 }
 
-/// The columns in hundredths of full light.
+/// Returns the columns in hundredths of full light.
 fn percent(solo: &Solo<CameraPioneer>) -> Vec<[u8; 3]> {
     let columns = &solo.sensing().image.as_ref().unwrap().columns;
     columns

@@ -232,3 +232,22 @@ proptest! {
         prop_assert!(sweep.range(0) <= to_joint.norm() + CLOSE);
     }
 }
+
+#[test]
+fn rays_from_anywhere_end() {
+    let wall = WallSegment::between(Point::new(0.0, -1.0), Point::new(0.0, 1.0));
+    let index = WallIndex::new(&[wall], Lanes::Baseline);
+    let west = Vector::new(-1.0, 0.0);
+    for away in [1e3, 1e6] {
+        let range = index.cast(Point::new(away, 0.5), west, f64::INFINITY);
+        assert!((range - away).abs() < CLOSE * away, "{range}");
+    }
+    for x in [1e17, 1e200, 1e308, f64::INFINITY, f64::NAN] {
+        for max_range in [5.0, 1e17, f64::INFINITY] {
+            // What it reads does not matter; a range that is not a number would.
+            let range = index.cast(Point::new(x, 0.5), west, max_range);
+            assert!(range >= 0.0, "{range} from {x}");
+            assert!(index.cast(Point::new(3.0, 0.5), Vector::new(x, x), max_range) >= 0.0);
+        }
+    }
+}

@@ -29,7 +29,7 @@ fn quiet() -> EpuckConfig {
     config
 }
 
-/// A room of 1 m square round the origin.
+/// Returns a room of 1 m square round the origin.
 fn room(material: Material) -> World {
     let corner =
         [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, y)| Point::new(x, y));

@@ -30,8 +30,8 @@ struct Ray {
     dy: i128,
 }
 
-/// The ranges a ray may read, in cells; `f64::INFINITY` if it may meet nothing within 32 lines.
-/// One, unless it passes lattice points closely: then one for each side it may pass them on.
+/// Returns the ranges a ray may read, in cells; `f64::INFINITY` if it may meet nothing within 32
+/// lines. One, unless it passes lattice points closely: then one for each side it may pass them on.
 fn exact(maze: &Maze, ray: Ray) -> Vec<f64> {
     let (column, row) = (ray.x.div_euclid(GRAIN), ray.y.div_euclid(GRAIN));
     let mut ranges = Vec::new();

@@ -17,7 +17,7 @@ fn at(x: f64, y: f64, degrees: f64) -> Pose {
     Pose::new(Point::new(x, y), Heading::from_degrees(degrees))
 }
 
-/// One wall across, at x = 3.
+/// Returns one wall across, at x = 3.
 fn wall() -> World {
     World::from_segments(vec![WallSegment::between(
         Point::new(3.0, -2.0),

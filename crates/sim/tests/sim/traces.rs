@@ -37,7 +37,7 @@ fn robot() -> LaserPioneer {
     .unwrap()
 }
 
-/// Two robots that drive about a room with a door, one of which is lifted.
+/// Returns two robots that drive about a room with a door, one of which is lifted.
 fn record(detail: Detail) -> String {
     let maze = Maze::open(Grid::new(4, 3));
     let world = World::from_maze(&maze, &CorridorSize::thin(0.95)).unwrap();

@@ -54,7 +54,7 @@ pub(crate) fn occupancy() -> impl Strategy<Value = Occupancy> {
         })
 }
 
-/// A number between −5 and 5, half of the time a multiple of 1/4.
+/// Returns a number between −5 and 5, half of the time a multiple of 1/4.
 fn coordinate() -> impl Strategy<Value = f64> {
     prop_oneof![
         -5.0..5.0,
@@ -66,7 +66,7 @@ pub(crate) fn point() -> impl Strategy<Value = Point> {
     (coordinate(), coordinate()).prop_map(|(x, y)| Point::new(x, y))
 }
 
-/// A share of something, half of the time a whole number of 24ths.
+/// Returns a share of something, half of the time a whole number of 24ths.
 fn share() -> impl Strategy<Value = f64> {
     prop_oneof![
         0.0..1.0,
@@ -74,12 +74,12 @@ fn share() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// A world and a point within its bounds that touches no wall: where sensors are.
+/// Returns a world and a point within its bounds that touches no wall: where sensors are.
 pub(crate) fn world_and_point() -> impl Strategy<Value = (World, Point)> {
     with_point(world())
 }
 
-/// One of these worlds and a point that touches no wall of it.
+/// Returns one of these worlds and a point that touches no wall of it.
 pub(crate) fn with_point(
     world: impl Strategy<Value = World>,
 ) -> impl Strategy<Value = (World, Point)> {
@@ -91,7 +91,7 @@ pub(crate) fn with_point(
     })
 }
 
-/// A few polylines, so that many walls share an end.
+/// Returns a few polylines, so that many walls share an end.
 pub(crate) fn free_walls() -> impl Strategy<Value = Vec<WallSegment>> {
     let polyline =
         (prop::collection::vec(point(), 2..8), any::<bool>()).prop_map(|(points, closed)| {

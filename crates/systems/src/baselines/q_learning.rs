@@ -4,15 +4,15 @@ use rand::{Rng, RngExt};
 
 /// What is to be learned: the cheapest way from the start to a goal.
 pub trait LearningTask {
-    /// The state each episode begins in.
+    /// Returns the state each episode begins in.
     fn start(&self) -> usize;
-    /// How many states there are.
+    /// Returns how many states there are.
     fn states(&self) -> usize;
-    /// How many actions a state has, at least 1.
+    /// Returns how many actions a state has, at least 1.
     fn actions(&self, state: usize) -> u32;
-    /// What an action leads to.
+    /// Returns what an action leads to.
     fn act(&self, state: usize, action: u32) -> Transition;
-    /// Whether an episode ends in a state.
+    /// Returns whether an episode ends in a state.
     fn is_goal(&self, state: usize) -> bool;
 }
 
@@ -88,7 +88,7 @@ pub struct QLearner<T> {
 }
 
 impl<T: LearningTask> QLearner<T> {
-    /// A learner at the start that knows nothing.
+    /// Returns a learner at the start that knows nothing.
     #[must_use]
     pub fn new(config: QLearningConfig, task: T) -> Self {
         let values = (0..task.states()).map(|state| vec![0.0; task.actions(state) as usize]);
@@ -100,7 +100,7 @@ impl<T: LearningTask> QLearner<T> {
         }
     }
 
-    /// One action, and what came of it; after the goal the learner is at the start again.
+    /// Returns one action, and what came of it; after the goal the learner is at the start again.
     pub fn step(&mut self, rng: &mut impl Rng) -> Transition {
         let (state, action) = (self.at, self.action(rng));
         let outcome = self.task.act(state, action);
@@ -139,7 +139,7 @@ impl<T: LearningTask> QLearner<T> {
         self.best(self.at)
     }
 
-    /// The action of greatest value; of equals the first.
+    /// Returns the action of greatest value; of equals the first.
     fn best(&self, state: usize) -> u32 {
         let values = &self.values[state];
         let mut best = 0;
@@ -151,8 +151,8 @@ impl<T: LearningTask> QLearner<T> {
         best as u32
     }
 
-    /// What the way from the start to a goal costs that what is learned leads over, none if it
-    /// leads to none.
+    /// Returns what the way from the start to a goal costs that what is learned leads over, or
+    /// `None` if it leads to none.
     #[must_use]
     pub fn greedy_cost(&self) -> Option<u32> {
         let (mut at, mut cost) = (self.task.start(), 0);

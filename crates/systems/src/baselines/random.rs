@@ -6,7 +6,7 @@ use tolman_robot::Mapper;
 
 use crate::{Brain, TimeStep};
 
-/// The floor: any of the four directions, each time anew. Not in the paper.
+/// The floor: any of the four directions, each time again. Not in the paper.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Random;
 

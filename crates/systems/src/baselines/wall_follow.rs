@@ -33,7 +33,7 @@ pub struct WallFollow {
 const WATCHED: f64 = PI / 12.0;
 
 impl WallFollow {
-    /// A wall follower in corridors `corridor_width` metres wide.
+    /// Returns a wall follower in corridors `corridor_width` metres wide.
     #[must_use]
     pub fn new(corridor_width: f64) -> Self {
         Self {
@@ -43,8 +43,8 @@ impl WallFollow {
         }
     }
 
-    /// Whether the laser sees a wall beside the robot in the direction of `heading`. What it cannot
-    /// see it takes for an opening, and tries.
+    /// Returns whether the laser sees a wall beside the robot in the direction of `heading`. What
+    /// it cannot see it takes for an opening, and tries.
     fn wall_towards(&self, heading: Heading) -> bool {
         let Some((scan, robot)) = &self.view else {
             return false;

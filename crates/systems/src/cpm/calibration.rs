@@ -4,7 +4,7 @@ use tolman_robot::epuck::{EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds, WheelT
 /// axes.
 ///
 /// What the encoders say of a turn and what the walls say differ by what each wheel rolls more or
-/// less than it counts: a full turn on the spot tells the sum of both errors, a straight way their
+/// less than it counts: a full turn in place tells the sum of both errors, a straight way their
 /// difference. A Kalman filter over the heading and both errors (Kalman 1960).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WheelCalibration {
@@ -41,7 +41,7 @@ pub(super) struct Reading {
 /// What slipping wheels add to the variance of the heading, rad² a metre that both of them roll.
 const SLIP: f64 = 2e-3;
 
-/// A reading that is off by more standard deviations is none of these walls.
+/// A reading that is off by more standard deviations than this is of another wall.
 const ODD: f64 = 4.0;
 
 impl WheelCalibration {
@@ -144,8 +144,8 @@ mod tests {
     use super::*;
     use core::f64::consts::{FRAC_PI_2, TAU};
 
-    /// A robot that turns round once and drives 25 cm, again and again, and reads the walls after
-    /// each: a turn tells the sum of the errors, a way their difference.
+    /// Returns a robot that turns round once and drives 25 cm, again and again, and reads the walls
+    /// after each: a turn tells the sum of the errors, a way their difference.
     fn calibrated(errors: [f64; 2], rounds: u32) -> WheelCalibration {
         let mut calibration = WheelCalibration::UNKNOWN;
         // By how much its heading is more than it believes.

@@ -40,10 +40,10 @@ pub fn soinn() -> SoinnConfig {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Lesson {
-    /// Until it has so many observations; the paper's simulated robot had 1000 (section 5).
+    /// Until it has this many observations; the paper's simulated robot had 1000 (section 5).
     Observations(usize),
-    /// So many seconds, and to the end of the fragment that it is on then; the paper's real robot
-    /// had 5400 (section 7).
+    /// For this many seconds, and then to the end of the fragment that it is on then; the paper's
+    /// real robot had 5400 (section 7).
     Seconds(f64),
 }
 
@@ -137,8 +137,8 @@ impl CommonPatterns {
         })
     }
 
-    /// Those of a robot that has been nowhere yet: of landmarks alone. It [learns](Self::learn_on)
-    /// the others on its way.
+    /// Returns those of a robot that has been nowhere yet: of landmarks alone. It
+    /// [learns](Self::learn_on) the others on its way.
     ///
     /// # Errors
     /// As of [`Dictionary::learn`].
@@ -148,9 +148,9 @@ impl CommonPatterns {
         Ok(Self::restored(dictionary, 0, 0))
     }
 
-    /// The patterns of observations, of which those that are farther than `tolerance` from all that
-    /// are known become patterns themselves: "the CPs must be learned incrementally" (section 8).
-    /// What was written with earlier ones stays as it is.
+    /// Returns the patterns of observations, of which those that are farther than `tolerance` from
+    /// all that are known become patterns themselves: "the CPs must be learned incrementally"
+    /// (section 8). What was written with earlier ones stays as it is.
     ///
     /// # Errors
     /// If an observation or the tolerance is no number, or the tolerance is negative.
@@ -176,7 +176,7 @@ impl CommonPatterns {
         Ok(patterns)
     }
 
-    /// What was learned before, from its dictionary and the counts of SOINN.
+    /// Returns what was learned before, from its dictionary and the counts of SOINN.
     #[must_use]
     pub fn restored(dictionary: Dictionary, unit_count: u32, cluster_count: u32) -> Self {
         let patterns = (0..dictionary.len() as u32).map(PatternId);
@@ -194,8 +194,8 @@ impl CommonPatterns {
         }
     }
 
-    /// The common pattern that stands for a feature: that of the nearest unit ("classified to the
-    /// corresponded CP").
+    /// Returns the common pattern that stands for a feature: that of the nearest unit ("classified
+    /// to the corresponded CP").
     #[must_use]
     pub fn pattern(&self, feature: &[f64; FEATURES]) -> PatternId {
         let distance = |unit: &[f64; FEATURES]| {
@@ -209,7 +209,7 @@ impl CommonPatterns {
         nearest.map_or(PatternId(0), |(_, pattern)| *pattern)
     }
 
-    /// The patterns of observations.
+    /// Returns the patterns of observations.
     #[must_use]
     pub fn patterns(&self, observations: &[Observation]) -> Vec<PatternId> {
         let each = observations.iter();
@@ -217,19 +217,19 @@ impl CommonPatterns {
             .collect()
     }
 
-    /// The patterns as the map knows them.
+    /// Returns the patterns as the map knows them.
     #[must_use]
     pub const fn dictionary(&self) -> &Dictionary {
         &self.dictionary
     }
 
-    /// How many units SOINN has.
+    /// Returns how many units SOINN has.
     #[must_use]
     pub const fn unit_count(&self) -> u32 {
         self.unit_count
     }
 
-    /// How many clusters they make.
+    /// Returns how many clusters they make.
     #[must_use]
     pub const fn cluster_count(&self) -> u32 {
         self.cluster_count
@@ -244,7 +244,7 @@ fn learn_landmark(dictionary: &mut Dictionary) -> Result<(), DictionaryError> {
     Ok(())
 }
 
-/// Why no patterns were learned.
+/// Reason why no patterns were learned.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LearnPatternsError {

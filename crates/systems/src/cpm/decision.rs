@@ -31,12 +31,12 @@ pub struct Leg {
     pub turn: Turn,
     /// The end of the fragment it enters, if that is on the map.
     pub known: Option<End>,
-    /// After so many observations without an end of the fragment, turn round and come back; for
-    /// ever on if none.
+    /// Number of observations without an end of the fragment after which the robot turns round and
+    /// comes back; `None` for never.
     pub give_up_after: Option<u32>,
 }
 
-/// Why there is nothing more to do.
+/// Reason why there is nothing more to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Done {
     /// The aim is reached.

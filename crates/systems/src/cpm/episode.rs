@@ -5,7 +5,7 @@ use super::walker::Walker;
 /// What became of an episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EpisodeSummary {
-    /// Why it ended.
+    /// Reason why it ended.
     pub done: Done,
     /// How long it took, s.
     pub seconds: f64,

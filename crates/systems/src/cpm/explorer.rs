@@ -45,8 +45,8 @@ impl Explorer {
         Ok(Self { config, mapper })
     }
 
-    /// What to do here. Asking changes nothing but the generator. O(fragments · log fragments);
-    /// [`Aim::WayBack`] and [`Aim::Shortest`] junctions times that.
+    /// Returns what to do here. Asking changes nothing but the generator. O(fragments · log
+    /// fragments); [`Aim::WayBack`] and [`Aim::Shortest`] junctions times that.
     pub fn decide(&self, aim: Aim, rng: &mut impl Rng) -> JunctionDecision {
         if let Some(done) = self.is_done(aim) {
             return JunctionDecision::Done(done);
@@ -81,13 +81,13 @@ impl Explorer {
         self.mapper.map()
     }
 
-    /// The number of the port behind the robot, and the junction it stands at.
+    /// Returns the number of the port behind the robot, and the junction it stands at.
     fn here(&self) -> Option<(u32, &Junction)> {
         let Port { junction, number } = self.mapper.at();
         Some((number, self.map().junction(junction)?))
     }
 
-    /// The first leg of the shortest known way to a landmark.
+    /// Returns the first leg of the shortest known way to a landmark.
     fn towards(&self, landmark: Landmark) -> Option<Leg> {
         self.first_leg(|id| self.map().has(id, landmark))
     }
@@ -125,7 +125,7 @@ impl Explorer {
         }
     }
 
-    /// A port at random, but not the one behind; out of a dead end there is no other.
+    /// Returns a port at random, but not the one behind; out of a dead end there is no other.
     fn wander(&self, rng: &mut impl Rng) -> Option<Leg> {
         let (behind, here) = self.here()?;
         let turn = match here.degree() {
@@ -161,7 +161,7 @@ impl Explorer {
         }
     }
 
-    /// An unknown port here that may lead to a shorter way between start and goal.
+    /// Returns an unknown port here that may lead to a shorter way between start and goal.
     fn shortcut(&self, from: Landmark, rng: &mut impl Rng) -> Option<Leg> {
         let room = self.room(self.mapper.at().junction, from)?;
         let ports = (0..).zip(&self.here()?.1.ports);
@@ -172,9 +172,9 @@ impl Explorer {
         self.leg_to(choose(&helpful, rng)?, Some(room))
     }
 
-    /// How many observations an unknown fragment at a junction has to stay below to shorten the way
-    /// between start and goal, of which the part on this side of it begins at one of them; none if
-    /// none can. Where no way is known, all may.
+    /// Returns how many observations an unknown fragment at a junction has to stay below to shorten
+    /// the way between start and goal, of which the part on this side of it begins at one of them,
+    /// or `None` if none can. Where no way is known, all may.
     fn room(&self, junction: JunctionId, from: Landmark) -> Option<u32> {
         let is_goal = |id| self.map().has(id, Landmark::Goal);
         // A start in a corridor may be on the map twice; the first is where the robot will be put
@@ -192,7 +192,7 @@ impl Explorer {
         known.checked_sub(near).filter(|room| *room > 1)
     }
 
-    /// The nearest unknown port that may lead to a shorter way between start and goal.
+    /// Returns the nearest unknown port that may lead to a shorter way between start and goal.
     fn towards_helpful(&self, rng: &mut impl Rng) -> Option<Leg> {
         if let Some(leg) = self.shortcut(Landmark::Start, rng) {
             return Some(leg);

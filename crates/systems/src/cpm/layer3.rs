@@ -70,7 +70,7 @@ pub struct FragmentStep {
     pub leg: Leg,
     /// What the robot met.
     pub walked: Walked,
-    /// What the arrival taught; none where the robot turned back.
+    /// What the arrival taught, or `None` where the robot turned back.
     pub arrival: Option<MapUpdate>,
 }
 

@@ -22,7 +22,7 @@ pub struct MapFile {
     pub map: CpMap,
 }
 
-/// Why a file holds no map.
+/// Reason why a file holds no map.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
@@ -45,7 +45,7 @@ struct Body {
 }
 
 impl MapFile {
-    /// The text of the file, with a line end.
+    /// Returns the text of the file, with a line end.
     ///
     /// # Errors
     /// If the map was learned with other patterns, or cannot be written.

@@ -58,7 +58,7 @@ impl CpmOfSites {
         })
     }
 
-    /// What becomes a common pattern; `None` where not two ways are seen.
+    /// Returns what becomes a common pattern; `None` where not two ways are seen.
     fn seen(&self, around: &Scan) -> Option<Observation> {
         let curve = &self.walker.pilot.curve;
         let value = |range: &f64| curve.value(range / self.measures.scale() - BODY_RADIUS);
@@ -89,7 +89,7 @@ impl OfSites for CpmOfSites {
     }
 }
 
-/// The ways out of a place, counter-clockwise from that by which the robot came.
+/// Returns the ways out of a place, counter-clockwise from that by which the robot came.
 fn ways(site: &Site) -> impl Iterator<Item = usize> + '_ {
     let quarters = (0..4).map(|turned| (site.came_by + turned) % 4);
     quarters.filter(|quarter| site.open[*quarter])

@@ -19,8 +19,8 @@ const CONFIG: LocalizerConfig = LocalizerConfig {
 /// is, and where (section 8, "the start point is changed").
 ///
 /// It comes to the place ahead by its approach and then, at random, along further fragments that
-/// its maps have. It ends when it is sure, or has come to so many places after the first. The
-/// paper's robot begins to observe at that first place; ours does at once.
+/// its maps have. It ends when it is sure, or has come to a set number of places after the first.
+/// The paper's robot begins to observe at that first place; ours does at once.
 #[derive(Clone, Debug)]
 pub struct Relocalization {
     patterns: CommonPatterns,
@@ -125,7 +125,7 @@ impl Relocalization {
     }
 }
 
-/// What is known when a place comes into sight.
+/// Returns what is known when a place comes into sight.
 fn take_in(
     localizer: &mut Localizer,
     prospect: &Prospect,
@@ -142,7 +142,8 @@ fn is_sure(localizer: &Localizer) -> bool {
     localizer.location().probability > SURE
 }
 
-/// A turn at random among those that its maps most likely know: by others it would learn nothing.
+/// Returns a turn at random among those that its maps most likely know: by others it would learn
+/// nothing.
 fn onward(localizer: &Localizer, degree: u32, rng: &mut impl Rng) -> Turn {
     let turns = || (1..degree).map(Turn);
     let best = turns()

@@ -271,7 +271,7 @@ mod tests {
         }
     }
 
-    /// A wall straight across, `ahead` m before a robot that has turned by `turned`.
+    /// Returns a wall straight across, `ahead` m before a robot that has turned by `turned`.
     fn wall(ahead: f64, turned: f64) -> Scan {
         let mut scan = Scan::clear(Ring::full(72, 2.0));
         for beam in 0..scan.ring.beams {

@@ -50,7 +50,7 @@ pub struct Cpm {
     standing: Stance,
     /// Maps that it gave up since they could not be.
     given_up: u32,
-    /// Walks, one after the other, in which its map could not be.
+    /// Walks, one by one, in which its map could not be.
     doubtful: u32,
     rng: ChaCha8Rng,
 }
@@ -73,10 +73,10 @@ const MOST_PLACES: u32 = 12;
 /// Two places of corridors are not nearer to each other than this, in corridors' widths.
 const APART: f64 = 0.5;
 
-/// A map that could not be for so many walks is given up.
+/// Number of walks in a row that contradict a map before it is given up.
 const MOST_DOUBTFUL: u32 = 50;
 
-/// So many maps are given up before the robot does.
+/// Number of maps that are given up before the robot gives up.
 const MOST_MAPS: u32 = 2;
 
 impl Cpm {
@@ -299,7 +299,7 @@ impl Cpm {
         self.explorer()?.mapper.doubt(self.apart())
     }
 
-    /// How far apart two places are at least, m.
+    /// Returns how far apart two places are at least, m.
     fn apart(&self) -> f64 {
         APART * self.walker.corridor_width
     }

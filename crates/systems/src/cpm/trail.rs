@@ -1,7 +1,7 @@
 use tolman_maps::cpm::{CpMap, MapUpdate, Port, Turn};
 
 /// The walks of a robot, which tell where it has been as its map has it now: a map that is
-/// understood anew, or of which two places become one, has other names for them.
+/// understood again, or of which two places become one, has other names for them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Trail {
     /// Places that it came to before a map that it has given up.
@@ -33,7 +33,7 @@ impl Trail {
         self.bases = vec![Base { at, walks }];
     }
 
-    /// How many places the robot came to on its map.
+    /// Returns how many places the robot came to on its map.
     fn count(&self) -> usize {
         self.bases.iter().map(|base| 1 + base.walks.len()).sum()
     }
@@ -67,7 +67,7 @@ impl Trail {
     }
 }
 
-/// Where a turn leads from a port that lies behind the robot.
+/// Returns where a turn leads from a port that lies behind the robot.
 fn beyond(map: &CpMap, at: Port, turn: Turn) -> Option<Port> {
     let exit = turn.exit(at.number, map.degree(at.junction)).ok()?;
     map.beyond(at.junction.port(exit))

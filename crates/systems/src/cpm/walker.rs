@@ -121,7 +121,7 @@ struct Course {
     left: Option<Landmark>,
     track: Track,
     strides: u32,
-    /// So many of them are driven without looking.
+    /// Number of them that are driven without looking.
     skip: u32,
 }
 
@@ -147,8 +147,8 @@ struct Seen {
 /// Where the robot looked on its way, and what it saw, if it saw the path.
 type Track = Vec<(Point, Option<Observation>)>;
 
-/// Where no two ways were seen counts as the nearest place before or behind where they were: left
-/// out, it would shift all that follows.
+/// Returns where no two ways were seen counts as the nearest place before or behind where they
+/// were: left out, it would shift all that follows.
 fn filled(track: &Track) -> Vec<Observation> {
     let seen = |index: usize| track.get(index).and_then(|(_, seen)| seen.clone());
     (0..track.len())
@@ -169,8 +169,8 @@ fn count_from(direction: f64, ways: &mut [f64]) {
     }
 }
 
-/// How far ways are turned out of the robot's axes, rad, where they lead along two axes: what tells
-/// in the middle of a crossing, which has no walls. `None` of fewer than three.
+/// Returns how far ways are turned out of the robot's axes, rad, where they lead along two axes:
+/// what tells in the middle of a crossing, which has no walls. `None` of fewer than three.
 fn askew_of(segments: &Segments) -> Option<f64> {
     let (mut sine, mut cosine, mut count) = (0.0, 0.0, 0.0);
     for way in segments.spaces() {
@@ -201,7 +201,7 @@ const APART: f64 = 0.5;
 /// than half, as before a wall the lower layers turn in the middle.
 const TO_LANDMARK: f64 = 0.4;
 
-/// No way leads back to the place where it began within so many corridors' widths.
+/// Within this distance, in corridor widths, no way leads back to the place where it began.
 const ROUND: f64 = 2.0;
 
 /// How far from the middle of a place on fragments are written down, in corridors' widths: nearer
@@ -211,7 +211,7 @@ const TRIMMED: f64 = 0.8;
 /// A junction is seen from there on, in corridors' widths before its middle.
 const IN_SIGHT: f64 = 0.5;
 
-/// Of so many strides one is kept back for looking: two walks along one fragment differ by less.
+/// One stride in this many is kept back for looking: two walks along one fragment differ by less.
 const SPREAD: u32 = 20;
 
 /// A wall that reads more than this on average is nearer than any beside the middle of a corridor:
@@ -227,7 +227,7 @@ const MOST_TURNS: u32 = 12;
 const NEAR: f64 = 0.015;
 
 impl<B: CpmRobot> Walker<B> {
-    /// A walker that stands where its body stands.
+    /// Returns a walker that stands where its body stands.
     pub fn new(body: B, config: WalkerConfig) -> Self {
         let resting = RestingWalker {
             memory: Memory::default(),
@@ -271,22 +271,22 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// The body.
+    /// Returns the body.
     pub const fn body(&self) -> &B {
         &self.pilot.robot().body
     }
 
-    /// The body, to be lifted.
+    /// Returns the body, to be lifted.
     pub const fn body_mut(&mut self) -> &mut B {
         &mut self.pilot.robot_mut().body
     }
 
-    /// Where it believes to be, in the frame in which it began.
+    /// Returns where it believes to be, in the frame in which it began.
     pub const fn pose(&self) -> Pose {
         self.pilot.robot().pose
     }
 
-    /// What is known of how its wheels roll.
+    /// Returns what is known of how its wheels roll.
     fn wheels(&self) -> WheelCalibration {
         let calibrated = &self.pilot.robot().calibrated;
         calibrated.map_or(WheelCalibration::UNKNOWN, |calibrated| calibrated.wheels)
@@ -309,30 +309,30 @@ impl<B: CpmRobot> Walker<B> {
         self.pilot.robot().steps
     }
 
-    /// How many observations it has made.
+    /// Returns how many observations it has made.
     pub const fn observations(&self) -> u32 {
         self.memory.observations
     }
 
-    /// Where it looked when it had turned into the fragment that it walked last.
+    /// Returns where it looked when it had turned into the fragment that it walked last.
     pub const fn departed(&self) -> Pose {
         self.memory.departed
     }
 
-    /// Which of the poses after every step is that in which it had turned into the fragment that it
-    /// walked last.
+    /// Returns the pose in `path`, one pose per step, at which the robot had turned into the
+    /// fragment that it walked last.
     pub fn departed_at(&self, path: &[Pose]) -> Option<Pose> {
         let step = self.memory.departed_us / self.config.pilot.step_us;
         path.get(usize::try_from(step).ok()?).copied()
     }
 
-    /// The branches of the place it stands at, rad, relative to its heading: counter-clockwise from
-    /// the way it came by.
+    /// Returns the branches of the place it stands at, rad, relative to its heading:
+    /// counter-clockwise from the way it came by.
     pub fn branches(&self) -> &[f64] {
         &self.memory.branches
     }
 
-    /// How far it drove so far, m.
+    /// Returns how far it drove so far, m.
     pub const fn driven(&self) -> f64 {
         self.pilot.robot().driven
     }
@@ -345,7 +345,7 @@ impl<B: CpmRobot> Walker<B> {
         Ok(self.look()?.profile)
     }
 
-    /// How it observes.
+    /// Returns how it observes.
     pub const fn config(&self) -> &WalkerConfig {
         &self.config
     }
@@ -448,7 +448,7 @@ impl<B: CpmRobot> Walker<B> {
         (self.memory.departed_us, self.memory.departed) = (self.time_us(), self.pose());
     }
 
-    /// A course from a place with its middle there, or from amid a fragment.
+    /// Returns a course from a place with its middle there, or from amid a fragment.
     fn course(&mut self, origin: Option<Point>, skip: u32) -> Course {
         let here = self.pose().position;
         self.memory.trail.clear();
@@ -482,8 +482,8 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// One stride along a fragment, and a look, unless it is one to skip: at what comes into sight,
-    /// or at the path.
+    /// Returns one stride along a fragment, and a look, unless it is one to skip: at what comes
+    /// into sight, or at the path.
     fn stride(&mut self, course: &mut Course) -> WalkResult<Option<Ahead>, B> {
         if course.strides >= self.config.longest_fragment {
             return Err(WalkError::Endless {
@@ -526,14 +526,14 @@ impl<B: CpmRobot> Walker<B> {
         Ok(None)
     }
 
-    /// Whether a landmark that is seen beyond the place with the same one is that of another place.
-    /// Ours: the paper's robot has one goal.
+    /// Returns whether a landmark that is seen beyond the place with the same one is that of
+    /// another place. Ours: the paper's robot has one goal.
     fn tells_neighbours(&self) -> bool {
         self.config.heading == HeadingBy::Walls
     }
 
-    /// Whether the place that a course leads from lies more than so many corridors' widths back,
-    /// where the robot has driven so far, m.
+    /// Returns whether the place that a course leads from lies more than `widths` corridor widths
+    /// back, where the robot has driven so far, m.
     fn is_beyond(&self, course: &Course, driven: f64, widths: f64) -> bool {
         course.origin.is_none() || driven - course.begun > widths * self.config.corridor_width
     }
@@ -547,7 +547,7 @@ impl<B: CpmRobot> Walker<B> {
         })
     }
 
-    /// Goes into what is in sight; none if it is no place, seen from its middle.
+    /// Goes into what is in sight, or `None` if it is no place, seen from its middle.
     fn enter(&mut self, course: &mut Course, ahead: Ahead) -> WalkResult<Option<Seen>, B> {
         match ahead {
             Ahead::Landmark(landmark) => {
@@ -577,7 +577,7 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// What is known of a fragment before the place at its end, which has its middle there.
+    /// Returns what is known of a fragment before the place at its end, which has its middle there.
     fn prospect(&self, course: &Course, ahead: &Ahead, middle: Point) -> Prospect {
         let (glimpse, landmark) = match ahead {
             Ahead::Landmark(landmark) => (None, Some(*landmark)),
@@ -590,7 +590,8 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Where the middle of what is in sight seems to be, in the frame in which the robot began.
+    /// Returns where the middle of what is in sight seems to be, in the frame in which the robot
+    /// began.
     fn middle_ahead(&self, ahead: &Ahead) -> Point {
         self.pose().transform(match ahead {
             Ahead::Landmark(_) => Point::new(TO_LANDMARK * self.config.corridor_width, 0.0),
@@ -618,7 +619,7 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// What was seen before the robot came to the place with this middle.
+    /// Returns what was seen before the robot came to the place with this middle.
     fn up_to(&self, mut track: Track, middle: Point) -> Vec<Observation> {
         let trimmed = TRIMMED * self.config.corridor_width;
         while track
@@ -628,13 +629,13 @@ impl<B: CpmRobot> Walker<B> {
         filled(&track)
     }
 
-    /// Where the middle of the junction that it sees seems to be, in its own frame.
+    /// Returns where the middle of the junction that it sees seems to be, in its own frame.
     fn middle_of(&self, view: &View) -> Point {
         view.profile
             .meet_point(&self.config.pilot.curve, &self.config.meet_point)
     }
 
-    /// Drives to the middle of the place that it has seen, and looks what it is.
+    /// Drives to the middle of the place that it has seen, and looks at what kind it is.
     fn settle(&mut self, mut view: View, landmark: Option<Landmark>) -> WalkResult<Seen, B> {
         let glimpse = self.glimpse(&view);
         for _ in 0..ROUNDS {
@@ -666,7 +667,7 @@ impl<B: CpmRobot> Walker<B> {
         Ok(Seen { glimpse, sighting })
     }
 
-    /// Where the ways that it sees lead from the middle of the place ahead.
+    /// Returns where the ways that it sees lead from the middle of the place ahead.
     fn glimpse(&self, view: &View) -> Option<Bearings> {
         let middle = self.middle_of(view);
         let entry = self.entry(self.pose().transform(middle))?;
@@ -681,16 +682,16 @@ impl<B: CpmRobot> Walker<B> {
         Bearings::of_directions(&ways).ok()
     }
 
-    /// The ways out of the place where it stands, counted from the one by which it came; none
-    /// before it has come to one.
+    /// Returns the ways out of the place where it stands, counted from the one by which it came,
+    /// or `None` before it has come to one.
     pub fn bearings(&self) -> Option<Bearings> {
         // Branches are found counter-clockwise.
         Bearings::of_directions(&self.memory.branches).ok()
     }
 
-    /// The direction of the way by which it came to a place, rad, relative to its heading: where it
-    /// was before it came into it. Behind a bend the robot may stand askew in the middle of a
-    /// junction, so that another branch is nearer to behind it.
+    /// Returns the direction of the way by which it came to a place, rad, relative to its heading:
+    /// where it was before it came into it. Behind a bend the robot may stand askew in the middle
+    /// of a junction, so that another branch is nearer to behind it.
     fn entry(&self, place: Point) -> Option<f64> {
         let width = self.config.corridor_width;
         let mut before = self.memory.trail.iter().rev();
@@ -700,14 +701,15 @@ impl<B: CpmRobot> Walker<B> {
         Some(libm::atan2(back.y, back.x))
     }
 
-    /// Whether the only way out is the one it came by, and the wall across the path is near.
+    /// Returns whether the only way out is the one it came by, and the wall across the path is
+    /// near.
     fn is_before_a_wall(&self, segments: &Segments, widths: f64) -> bool {
         let near = widths * self.config.corridor_width;
         // In a bend, too, the robot may see no way but the one behind it for a moment.
         segments.spaces().all(|space| space.abs() > FRAC_PI_2) && self.pilot.is_enclosed(near)
     }
 
-    /// The middle of a dead end: half a corridor's width before the wall ahead.
+    /// Returns the middle of a dead end: half a corridor's width before the wall ahead.
     fn before_the_wall(&self) -> Point {
         let ahead = self.pilot.ahead().unwrap_or(self.config.corridor_width);
         Point::new(ahead - self.config.corridor_width / 2.0, 0.0)
@@ -755,8 +757,8 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// How many strides lead from the middle of a place to within sight of the next where so many
-    /// observations were written down between.
+    /// Returns how many strides lead from the middle of a place to within sight of the next where
+    /// `observations` observations were written down in between.
     #[must_use]
     pub fn strides(&self, observations: u32) -> u32 {
         // Between neighbouring places nothing is written down, and how far apart they are is not
@@ -778,7 +780,7 @@ impl<B: CpmRobot> Walker<B> {
 /// What a walk of the body `B` brings, or why it ends early.
 pub type WalkResult<T, B> = Result<T, WalkError<<B as Robot>::Error>>;
 
-/// Why a walk came to no end.
+/// Reason why a walk came to no end.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WalkError<E> {
@@ -791,7 +793,7 @@ pub enum WalkError<E> {
     /// A sweep cannot be segmented.
     #[error(transparent)]
     Segments(#[from] SegmentError),
-    /// The place has not so many branches.
+    /// The place does not have that many branches.
     #[error("branch {number} of a place of {branches}: count from 0, the way the robot came by")]
     NoBranch {
         /// Which was asked for.

@@ -35,8 +35,7 @@ pub struct WalkerConfig {
     pub stride_s: f64,
     /// What dead reckoning takes headings from.
     pub heading: HeadingBy,
-    /// The end of all patience: so many observations of one fragment, of which the paper says
-    /// nothing.
+    /// Maximum number of observations of one fragment before the robot gives up (not in the paper).
     pub longest_fragment: u32,
 }
 

@@ -24,15 +24,15 @@ pub struct Whereabouts {
     pub has_turned_round: bool,
     /// What it believed at each place it came to: the fragment it came by, and the port behind it.
     pub at_places: Vec<Location>,
-    /// What it believed before each of them, when it first saw it ahead; none if it had observed
-    /// nothing at all, and so does not know.
+    /// What it believed before each of them, when it first saw it ahead, or `None` if it had
+    /// observed nothing at all, and so does not know.
     pub under_way: Vec<Option<Location>>,
     /// What it saw along each fragment it walked whole, from end to end.
     pub walks: Vec<Vec<Observation>>,
 }
 
 impl Whereabouts {
-    /// Where it believes to be in the end: at the place to which that fragment has led it.
+    /// Returns where it believes to be in the end: at the place to which that fragment has led it.
     #[must_use]
     pub fn here(&self) -> Option<Location> {
         self.at_places.last().copied()

@@ -30,7 +30,7 @@ impl RoutineConfig {
             .is_some_and(|doorway| width < 0.5 * (self.corridor_width + doorway))
     }
 
-    /// Whether there is an opening on the left, one on the right, and a doorway.
+    /// Returns whether there is an opening on the left, one on the right, and a doorway.
     fn beside(&self, view: View) -> [bool; 3] {
         let [left, right] = [view.left, view.right].map(|range| self.is_open(range));
         [left, right, self.is_narrow(view)]

@@ -24,8 +24,8 @@ use super::{
 ///   gives up a map that has contradicted itself for 20 moves, or has not been folded for five
 ///   moves for each of its places, at most 300; and one during which the robot was carried
 ///   elsewhere, so that it no longer sees what it saw where it stopped.
-/// - **Reach** a place: the map's plan, made anew after every routine. It gives up if the map knows
-///   no way.
+/// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
+///   knows no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
 ///   robot explores. Landmarks are sensed at places alone, not on the way between two.
 /// - **Localize**: the planner's walk, until one hypothesis is confident and no other. With a map
@@ -61,7 +61,7 @@ pub struct DiktiometerConfig {
 }
 
 impl DiktiometerConfig {
-    /// Returns a configuration that heeds advice in 30 % of the cases, as the paper has it.
+    /// Returns a configuration that follows advice in 30 % of the cases, as the paper has it.
     #[must_use]
     pub const fn paper(routines: RoutineConfig, mapper: Config) -> Self {
         Self {
@@ -72,7 +72,7 @@ impl DiktiometerConfig {
     }
 }
 
-/// Why a [`Diktiometer`] cannot go on.
+/// Reason why a [`Diktiometer`] cannot go on.
 #[derive(Debug, ThisError)]
 #[non_exhaustive]
 pub enum DiktiometerError<E: Error + 'static> {
@@ -84,7 +84,7 @@ pub enum DiktiometerError<E: Error + 'static> {
     Map(#[from] MapError<RoutineError<E>>),
 }
 
-/// Why a [`Diktiometer`] refuses a move of a log.
+/// Reason why a [`Diktiometer`] refuses a move of a log.
 #[derive(Clone, Debug, PartialEq, ThisError)]
 #[non_exhaustive]
 pub enum RefusedMove {
@@ -195,8 +195,8 @@ impl<E> Mapper for Diktiometer<E> {
     }
 }
 
-/// The bytes that standing places, links and frames take, but for the grids of where the robot has
-/// been.
+/// Returns the bytes that standing places, links and frames take, but for the grids of where the
+/// robot has been.
 fn bytes(map: &Diktiometry) -> usize {
     let place = |place: &Place| {
         let histories = place.histories.iter();

@@ -5,7 +5,7 @@ use tolman_geom::IntervalError;
 use tolman_maps::diktiometry::SignatureError;
 use tolman_maze::Direction;
 
-/// Why a control routine cannot be carried out.
+/// Reason why a control routine cannot be carried out.
 #[derive(Debug, ThisError)]
 #[non_exhaustive]
 pub enum RoutineError<E: Error + 'static> {
@@ -16,10 +16,10 @@ pub enum RoutineError<E: Error + 'static> {
     #[error(transparent)]
     Sense(#[from] SenseError),
     /// A reading is no number.
-    #[error("odometry is no number")]
+    #[error("odometry is not a number")]
     Reading(#[from] IntervalError),
     /// What the robot sees is no signature.
-    #[error("the image is no signature")]
+    #[error("the image gives no signature")]
     Signature(#[from] SignatureError),
     /// No place came in sight.
     #[error("after {steps} time steps the way {direction} has led to no place: lower the noise")]
@@ -31,7 +31,7 @@ pub enum RoutineError<E: Error + 'static> {
     },
 }
 
-/// Why the routines cannot use a sensor.
+/// Reason why the routines cannot use a sensor.
 #[derive(Clone, Copy, Debug, PartialEq, ThisError)]
 #[non_exhaustive]
 pub enum SenseError {

@@ -30,15 +30,15 @@ pub(super) struct Guide {
     is_carried: bool,
 }
 
-/// The map is asked what speaks against it after every so many moves.
+/// Moves between two checks of what speaks against the map.
 const CHECKED: u32 = 10;
 
-/// A map that has not been folded for so many moves for each of its places is given up, and for so
-/// many at the most: nearly all that fold do sooner.
+/// Moves per place, and moves at most, without folding after which a map is given up: nearly all
+/// that fold do so sooner.
 const PATIENCE: u32 = 5;
 const MOST_PATIENCE: u32 = 300;
 
-/// A map that has contradicted itself for so many moves is given up: bounds that hold mend none.
+/// Moves for which a map may contradict itself before it is given up: bounds that hold repair none.
 const MOST_CONTRADICTED: u32 = 20;
 
 /// What is known of where the rover stands.

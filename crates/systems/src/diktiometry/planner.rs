@@ -4,7 +4,7 @@ use rand::{Rng, RngExt};
 use tolman_maps::diktiometry::{Observer, Opportunity};
 use tolman_maze::Direction;
 
-/// The paper's planner: an essentially random walk that now and then heeds the map's advice.
+/// The paper's planner: an essentially random walk that now and then follows the map's advice.
 ///
 /// "The use of exploration scripts were tested by randomly executing them when
 /// applicable (generally 30% of the time)."
@@ -23,7 +23,7 @@ pub struct PlannedMove {
     pub reason: Reason,
 }
 
-/// Why a robot goes somewhere.
+/// Reason why a robot goes somewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
     /// At random.
@@ -58,7 +58,8 @@ impl Planner {
         exits: &[bool; 4],
         rng: &mut impl Rng,
     ) -> Option<PlannedMove> {
-        // As many draws in any case, so that runs that heed and runs that do not walk alike.
+        // As many draws in any case, so that runs that follow scripts and runs that do not draw the
+        // same numbers.
         let heeds = rng.random_range(0.0..1.0) < self.heed;
         let mut open = Vec::from(Direction::ALL);
         open.retain(|direction| exits[direction.index()]);

@@ -23,7 +23,7 @@ pub struct RoutineConfig {
     pub compass_bound: f64,
 }
 
-/// Why no routine can be carried out with a configuration.
+/// Reason why no routine can be carried out with a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("the routines' `{field}` is {value}; give {expected}")]
 pub struct RoutineConfigError {

@@ -30,7 +30,7 @@ pub struct MappedMove {
     pub report: StepReport,
 }
 
-/// Why a rover cannot be mapped any further.
+/// Reason why a rover cannot be mapped any further.
 #[derive(Debug, ThisError)]
 #[non_exhaustive]
 pub enum MapError<E: Error + 'static> {

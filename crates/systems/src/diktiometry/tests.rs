@@ -57,7 +57,7 @@ impl Scripted {
         robot
     }
 
-    /// The range along a heading: from cell to cell until a wall stands.
+    /// Returns the range along a heading: from cell to cell until a wall stands.
     fn range(&self, heading: f64) -> f64 {
         let (sin, cos) = heading.sin_cos();
         let ahead = [
@@ -162,7 +162,8 @@ where
     Standing::UnderWay
 }
 
-/// Whether the places of a map are those of the ring, as seen from where place 0 truly lies.
+/// Returns whether the places of a map are those of the ring, as seen from where place 0 truly
+/// lies.
 fn is_the_ring(map: &MapView, origin: Point) -> bool {
     let drawn = |place: &tolman_robot::MapPlace| place.position.map(|at| origin + at.coords);
     let places: Vec<Point> = map.places.iter().filter_map(drawn).collect();
@@ -244,7 +245,7 @@ fn another_goes_on_with_the_map_and_knows_where_it_is() {
     let standing = pursue(&mut again, &mut robot, Task::Localize);
     assert_eq!(standing, Standing::Done);
     let moves = again.observer().unwrap().moves() - known;
-    assert_eq!(moves, 10, "confidence rests on so many");
+    assert_eq!(moves, 10, "confidence rests on this many");
     let Position::Place(id) = again.belief()[0].at else {
         panic!("a place");
     };
@@ -277,7 +278,7 @@ fn a_robot_that_is_carried_off_while_it_learns_says_so_and_stops() {
     }
 }
 
-/// Fails once, after so many time steps.
+/// Fails once, after a number of time steps.
 struct Failing(Scripted, Option<u32>);
 
 impl Robot for Failing {
@@ -344,7 +345,7 @@ fn what_cannot_be_driven_is_refused_by_name() {
     assert!(told.contains("NotRound"), "{told}");
 }
 
-/// A map of the ring, and the place on it where the goal is.
+/// Returns a map of the ring, and the place on it where the goal is.
 fn known_ring() -> (Observer, Option<PlaceId>) {
     let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.0), at_the_end);
     let mut learner = system(2);

@@ -30,7 +30,7 @@ pub struct Wayfinder<E> {
     finder: RouteFinder,
 }
 
-/// Why a [`Wayfinder`] cannot go on.
+/// Reason why a [`Wayfinder`] cannot go on.
 #[derive(Debug, ThisError)]
 #[non_exhaustive]
 pub enum WayfinderError<E: Error + 'static> {

@@ -8,7 +8,7 @@ use tolman_robot::{Sounding, Soundings};
 
 use super::route::Target;
 
-/// Each place is asked whether the floor goes on in so many directions.
+/// Number of directions in which each place is checked for more floor.
 const DIRECTIONS: u32 = 48;
 
 /// Points near which the robot has nothing more to look for lie this near, m.
@@ -49,14 +49,14 @@ pub(super) fn frontiers(map: &PlaceGraph, lane: Lane, tried: &[Point]) -> Vec<Ta
     found
 }
 
-/// Whether nothing that is seen or heard from a place stands in the lane.
+/// Returns whether nothing that is seen or heard from a place stands in the lane.
 fn is_clear(outline: &Outline, ahead: Vector, lane: Lane) -> bool {
     let seen = outline.points.iter().map(|point| point.position);
     let heard = outline.arcs.iter().map(end);
     !seen.chain(heard).any(|point| lane.holds(ahead, point))
 }
 
-/// Where what a sensor met stands, as far as it tells.
+/// Returns where what a sensor met stands, as far as it tells.
 fn end(sounding: &Sounding) -> Point {
     sounding.mount.transform(Point::new(sounding.range, 0.0))
 }
@@ -88,7 +88,7 @@ pub(super) fn ways_on(sensing: &impl Soundings, lane: Lane) -> Vec<f64> {
 const BACK: f64 = 2.3;
 
 impl Lane {
-    /// Whether a point stands in the lane that leads into a direction, a unit vector.
+    /// Returns whether a point stands in the lane that leads into a direction, a unit vector.
     fn holds(self, ahead: Vector, point: Point) -> bool {
         let along = point.coords.dot(&ahead);
         let across = point.coords.perp(&ahead);
@@ -109,7 +109,8 @@ mod tests {
         apart: 0.6,
     };
 
-    /// A corridor 1 m wide that runs east and west; the robot stands amid it, turned by `heading`.
+    /// Returns a corridor 1 m wide that runs east and west; the robot stands amid it, turned by
+    /// `heading`.
     fn corridor(heading: f64) -> LaserSensing {
         let ring = Ring::full(72, 2.0);
         let mut scan = Scan::clear(ring);

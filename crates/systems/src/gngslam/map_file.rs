@@ -25,7 +25,7 @@ pub struct MapFile {
     pub sites: Vec<Point>,
 }
 
-/// Why a file holds no map.
+/// Reason why a file holds no map.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
@@ -33,7 +33,7 @@ pub enum MapFileError {
     #[error(transparent)]
     File(#[from] FileError),
     /// A landmark was sensed at a place that is not there.
-    #[error("a landmark was sensed at place {place}, and there are {places}: learn the map anew")]
+    #[error("a landmark was sensed at place {place}, and there are {places}: learn the map again")]
     Sighting {
         /// The place.
         place: u32,
@@ -41,7 +41,7 @@ pub enum MapFileError {
         places: usize,
     },
     /// Not as many places were watched as there are.
-    #[error("{found} places were watched, and there are {places}: learn the map anew")]
+    #[error("{found} places were watched, and there are {places}: learn the map again")]
     Sites {
         /// How many were watched.
         found: usize,
@@ -60,7 +60,7 @@ struct Body {
 }
 
 impl MapFile {
-    /// The text of the file, with a line end.
+    /// Returns the text of the file, with a line end.
     ///
     /// # Errors
     /// [`MapFileError::File`] if it cannot be written.

@@ -54,7 +54,8 @@ impl OfSites for PlaceGraphOfSites {
     }
 }
 
-/// What the wheels of a robot would have rolled that made a step: a turn, a straight way, a turn.
+/// Returns what the wheels of a robot would have rolled that made a step: a turn, a straight way, a
+/// turn.
 fn rolled(step: &SiteStep) -> [Odometry; 3] {
     let Pose { position, heading } = step.moved;
     let distance = position.coords.norm();
@@ -80,7 +81,7 @@ fn rolled(step: &SiteStep) -> [Odometry; 3] {
     [turn(first), straight, turn(last)]
 }
 
-/// What a laser reads that looks all round, turned against the robot by `turned`, rad.
+/// Returns what a laser reads that looks all round, turned against the robot by `turned`, rad.
 fn snapshot(around: &Scan, turned: f64) -> Snapshot {
     let sounding = |(beam, range): (u32, &f64)| Sounding {
         mount: Pose::new(

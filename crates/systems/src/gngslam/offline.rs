@@ -49,7 +49,7 @@ impl OfflineSlamConfig {
     }
 }
 
-/// Why the records make no map.
+/// Reason why the records make no map.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OfflineSlamError {
@@ -61,7 +61,7 @@ pub enum OfflineSlamError {
     Map(#[from] PlaceMapError),
 }
 
-/// Why an [`OfflineSlam`] cannot go on.
+/// Reason why an [`OfflineSlam`] cannot go on.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OfflineSlamFailure<R> {
@@ -100,8 +100,8 @@ struct Learned {
 const MAP_STREAM: u64 = 1;
 
 impl OfflineSlam {
-    /// Returns a system without a map, whose robot has just been put down. `seed` is that of all
-    /// chance.
+    /// Returns a system without a map, whose robot has just been put down. `seed` seeds all random
+    /// numbers.
     #[must_use]
     pub fn new(config: OfflineSlamConfig, seed: u64) -> Self {
         Self {

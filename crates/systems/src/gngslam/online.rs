@@ -28,12 +28,12 @@ pub struct OnlineSlamConfig {
     pub drive: UntilNearConfig,
     /// It turns by no more than this before it looks again, rad.
     pub turn_piece: f64,
-    /// So many looks round where it is put down come first.
+    /// Number of looks round the place where it is put down, before it drives.
     pub first_looks: u32,
     /// Where it goes to explore.
     pub explore: ExplorationPolicy,
-    /// It has explored all when so many looks in a row have shown no new place, and no place is
-    /// left from where the floor goes on.
+    /// It has explored everything when this many looks in a row have shown no new place, and no
+    /// place is left from where the floor goes on.
     pub quiet_looks: u32,
     /// The floor goes on where nothing stands in a lane of half this width, m. It is narrower than
     /// the robot, since places are seldom in the middle of a corridor.
@@ -100,7 +100,7 @@ pub enum ExplorationPolicy {
     ToTheUnknown,
 }
 
-/// Why an [`OnlineSlam`] cannot go on.
+/// Reason why an [`OnlineSlam`] cannot go on.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OnlineSlamError<R> {
@@ -171,7 +171,7 @@ const PATIENCE: u32 = 60;
 /// How often points that it could not come to are tried again.
 const RETRIES: u32 = 2;
 
-/// What counts as so many pieces: that something was in the way.
+/// Pieces that a blocked way counts as.
 const BLOCKED: u32 = 20;
 
 /// It goes this much farther beyond a place than it has to, m.
@@ -270,12 +270,13 @@ impl OnlineSlam {
         self.rolled.clear();
     }
 
-    /// Whether it goes where the floor goes on: once it has looked round.
+    /// Returns whether it goes where the floor goes on: once it has looked round.
     fn goes_beyond(&self) -> bool {
         self.config.explore == ExplorationPolicy::ToTheUnknown && self.looks_round == 0
     }
 
-    /// Whether it has looked for long without finding a place, and knows of nowhere else to look.
+    /// Returns whether it has looked for long without finding a place, and knows of nowhere else to
+    /// look.
     fn has_explored(&self) -> bool {
         let is_quiet = self.quiet >= self.config.quiet_looks;
         is_quiet && (self.ends_here || self.config.explore == ExplorationPolicy::ByChance)
@@ -314,7 +315,7 @@ impl OnlineSlam {
         if self.rng.random() { angle } else { -angle }
     }
 
-    /// What it needs to go on beyond a place.
+    /// Returns what it needs to go on beyond a place.
     fn lane(&self) -> Lane {
         let apart = self.config.map.place_distance;
         Lane {
@@ -409,7 +410,7 @@ impl OnlineSlam {
         }
     }
 
-    /// Where a goal lies on the map.
+    /// Returns where a goal lies on the map.
     fn target(&self, goal: Goal) -> Option<Target> {
         match goal {
             Goal::Place(place) => {
@@ -423,7 +424,7 @@ impl OnlineSlam {
 
     /// It is where it was to sense the goal and does not sense it: it goes where else the goal was
     /// sensed, and when it has been everywhere it is not where it believes to be, and looks for
-    /// itself anew.
+    /// itself again.
     fn miss(&mut self, goal: Goal, place: u32) {
         self.route = None;
         self.tried.push(place);

@@ -37,14 +37,14 @@ impl PlacePilotConfig {
     }
 }
 
-/// Why a [`PlacePilot`] cannot go on.
+/// Reason why a [`PlacePilot`] cannot go on.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PlacePilotError<E> {
     /// No record came, or the robot failed.
     #[error(transparent)]
     Robot(#[from] WandererError<E>),
-    /// The record is none that the map knows.
+    /// The map does not know the record.
     #[error("the map cannot tell where the robot is")]
     Map(#[from] PlaceMapError),
 }

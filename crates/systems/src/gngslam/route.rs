@@ -41,8 +41,8 @@ impl Obstacles {
         1.0 + Self::DETOUR * f64::from(times.copied().unwrap_or_default())
     }
 
-    /// The links of a map, each as long as its places lie apart, mm, and longer where something was
-    /// in the way. O(links).
+    /// Returns the links of a map, each as long as its places lie apart, mm, and longer where
+    /// something was in the way. O(links).
     fn links(&self, map: &PlaceGraph) -> Arcs {
         let poses = map.poses().poses();
         let position = |place: u32| poses.get(place as usize).map(|pose| pose.position);

@@ -32,8 +32,8 @@ pub struct WandererConfig {
 }
 
 impl WandererConfig {
-    /// The paper's way of gathering data (section 3.2) on the Pioneer 2-DX; the values that it
-    /// leaves open are ours.
+    /// Returns the paper's way of gathering data (section 3.2) on the Pioneer 2-DX; the values that
+    /// it leaves open are ours.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -46,9 +46,9 @@ impl WandererConfig {
         }
     }
 
-    /// The same, but for every record it goes up to things as near as chance has it: 0.22 to 1.1 m.
-    /// So it gets to the edge of the floor, where the paper's limits let no robot go but along it.
-    /// Ours.
+    /// Returns the same, but for every record it goes up to things as near as chance has it: 0.22
+    /// to 1.1 m. So it gets to the edge of the floor, where the paper's limits let no robot go but
+    /// along it. Ours.
     #[must_use]
     pub const fn near_and_far() -> Self {
         Self {
@@ -57,8 +57,8 @@ impl WandererConfig {
         }
     }
 
-    /// The same on a robot of other rates: fractions of the full speed and of the full turn rate, 0
-    /// … 1.
+    /// Returns the same on a robot of other rates: fractions of the full speed and of the full turn
+    /// rate, 0 … 1.
     #[must_use]
     pub const fn with_rates(mut self, translate: f64, turn: f64) -> Self {
         self.drive = self.drive.with_rates(translate, turn);
@@ -66,7 +66,7 @@ impl WandererConfig {
     }
 }
 
-/// Why there is no record of a place.
+/// Reason why there is no record of a place.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum WandererError<E> {

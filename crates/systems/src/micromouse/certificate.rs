@@ -11,7 +11,7 @@ use super::SIDE;
 /// looked at.
 ///
 /// The run shows that it can be driven. That none is shorter is shown by a number for every cell:
-/// at most so many steps fewer than the run has are needed from here. Goals have 0, and no step
+/// at most that many steps fewer than the run has are needed from here. Goals have 0, and no step
 /// over walls that are open or unknown leads to a cell whose number is smaller by more than one. So
 /// from a cell with number *k* the goal is at least *k* steps away, and all there is to check are
 /// single steps: no search.

@@ -20,8 +20,8 @@ enum Explorer {
 }
 
 impl Certify {
-    /// A search in a maze of the size of `grid`, for runs from `start`, by a mouse that has seen
-    /// nothing; with rollouts or without.
+    /// Returns a search in a maze of the size of `grid`, for runs from `start`, by a mouse that has
+    /// seen nothing; with rollouts or without.
     ///
     /// # Errors
     /// If a weight is out of its range.
@@ -47,8 +47,8 @@ impl Certify {
 }
 
 impl Certify {
-    /// The same with rollouts, but it stops as soon as the rest of the proof is expected to cost
-    /// more than it gains.
+    /// Returns the same with rollouts, but it stops as soon as the rest of the proof is expected to
+    /// cost more than it gains.
     ///
     /// # Errors
     /// If a weight is out of its range.

@@ -68,7 +68,7 @@ pub struct RunLeg {
     pub time_ms: u16,
 }
 
-/// Why a maze cannot be explored.
+/// Reason why a maze cannot be explored.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ExploreError {
@@ -229,7 +229,7 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
     }
 }
 
-/// What sensors see that look no farther than the walls of their own cell.
+/// Returns what sensors see that look no farther than the walls of their own cell.
 fn rays(open: [bool; 4]) -> [CellRay; 4] {
     Direction::ALL.map(|side| match open[side.index()] {
         true => CellRay::out_of_range(side, 1),

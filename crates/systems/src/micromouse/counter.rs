@@ -21,7 +21,7 @@ pub struct CounterSearch {
 }
 
 impl CounterSearch {
-    /// A search that ends once `threshold_percent` of the cells were visited, and a goal.
+    /// Returns a search that ends once `threshold_percent` of the cells were visited, and a goal.
     #[must_use]
     pub const fn new(threshold_percent: u32, rng: ChaCha8Rng) -> Self {
         Self {
@@ -52,7 +52,7 @@ impl Search for CounterSearch {
     }
 }
 
-/// One of some leaps by chance.
+/// Returns one of some leaps by chance.
 pub(super) fn pick(leaps: &[Leap], rng: &mut impl Rng) -> Option<Leap> {
     let count = u32::try_from(leaps.len()).ok().filter(|count| *count > 0)?;
     leaps.get(rng.random_range(0..count) as usize).copied()

@@ -40,7 +40,7 @@ pub struct SearchView<'a> {
 pub enum Next {
     /// Drive there.
     Drive(Leap),
-    /// Turn on the spot.
+    /// Turn in place.
     Turn,
     /// End the first run.
     Reset,
@@ -57,7 +57,7 @@ pub struct Driver<S> {
     brief: Brief,
     at: Cell,
     heading: Direction,
-    /// The second run, what is left of it last first; none in the first.
+    /// The second run, what is left of it last first, or `None` in the first.
     plan: Option<Vec<Leap>>,
     certificate: Option<Certificate>,
 }
@@ -82,7 +82,7 @@ impl<S: Search> Driver<S> {
         })
     }
 
-    /// What the mouse knows.
+    /// Returns what the mouse knows.
     pub const fn map(&self) -> &WallMap<SIDE> {
         &self.map
     }
@@ -122,7 +122,7 @@ impl<S: Search> Driver<S> {
         Ok(Order::RESET)
     }
 
-    /// What to do next, in view of what the sensors see now. Called once a step.
+    /// Returns what to do next, in view of what the sensors see now. Called once a step.
     ///
     /// # Errors
     /// If the mouse is at a loss.
@@ -149,7 +149,7 @@ impl<S: Search> Driver<S> {
         }
     }
 
-    /// The proof that no second run is shorter, once the mouse has one.
+    /// Returns the proof that no second run is shorter, once the mouse has one.
     pub const fn certificate(&self) -> Option<&Certificate> {
         self.certificate.as_ref()
     }

@@ -17,7 +17,7 @@ pub struct Sight {
     pub right: u16,
 }
 
-/// Why a mouse does not know what to do.
+/// Reason why a mouse does not know what to do.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MouseError {

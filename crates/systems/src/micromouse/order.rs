@@ -59,7 +59,7 @@ impl Order {
         movement: Movement::Reset(Reset::Reset),
     };
 
-    /// A rotation in degrees and a movement in cells.
+    /// Returns a rotation in degrees and a movement in cells.
     #[must_use]
     pub const fn new(degrees: i32, cells: i32) -> Self {
         Self {

@@ -17,7 +17,7 @@ pub enum RunTwo {
 }
 
 impl RunTwo {
-    /// The leaps from `start` to a goal, none where no way leads to one.
+    /// Returns the leaps from `start` to a goal, or `None` where no way leads to one.
     #[must_use]
     pub fn plan(self, known: &Passages<SIDE>, start: Cell, goals: &[Cell]) -> Option<Vec<Leap>> {
         match self {

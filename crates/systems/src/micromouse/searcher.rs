@@ -42,7 +42,7 @@ impl Searcher {
         Self::Random,
     ];
 
-    /// The name, as a command line takes it.
+    /// Returns the name, as a command line takes it.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -56,7 +56,7 @@ impl Searcher {
         }
     }
 
-    /// Whether the search makes the same run each time.
+    /// Returns whether the search makes the same run each time.
     #[must_use]
     pub const fn is_deterministic(self) -> bool {
         matches!(

@@ -17,7 +17,7 @@ pub struct TargetSearch {
 }
 
 impl TargetSearch {
-    /// A search that has not been anywhere.
+    /// Returns a search that has not been anywhere.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
@@ -50,7 +50,7 @@ impl Search for TargetSearch {
     }
 }
 
-/// The path to the nearest of the cells of largest uncertainty.
+/// Returns the path to the nearest of the cells of largest uncertainty.
 fn path_to_target(view: &SearchView<'_>) -> Result<Vec<Direction>, TooLarge> {
     let hoped = Passages::<SIDE>::new(view.map, Unknown::Open)?;
     let steps = StepMap::new(&hoped, [view.at]);
@@ -74,8 +74,8 @@ fn leap(view: &SearchView<'_>, path: &[Direction]) -> Result<Option<Leap>, TooLa
     Ok(leaps.map(|(leap, _)| leap).last())
 }
 
-/// A shortest path to the nearest of `targets`, straight on where it can: the sides by which it
-/// leaves its cells.
+/// Returns a shortest path to the nearest of `targets`, straight on where it can: the sides by
+/// which it leaves its cells.
 fn path(passages: &Passages<SIDE>, from: Cell, targets: &[Cell]) -> Vec<Direction> {
     let steps = StepMap::new(passages, targets.iter().copied());
     let mut path = Vec::new();

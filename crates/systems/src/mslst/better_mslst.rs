@@ -50,6 +50,16 @@ impl BetterMslst {
         }
     }
 
+    /// Returns why its map is unfinished or doubtful, in a sentence without a full stop; `None` if
+    /// nothing speaks against it.
+    #[must_use]
+    pub fn doubt(&self) -> Option<&'static str> {
+        match &self.phase {
+            Phase::Exploration(explorer) | Phase::Explored(explorer, _) => explorer.doubt(),
+            Phase::Navigation(navigator) => navigator.chart().doubt(),
+        }
+    }
+
     /// Returns how many places it knows.
     #[must_use]
     pub fn place_count(&self) -> usize {
@@ -61,7 +71,7 @@ impl BetterMslst {
         }
     }
 
-    /// The phase under way.
+    /// Returns the phase under way.
     fn brain(&self) -> &dyn Brain<Observation = RolledStep, Error = core::convert::Infallible> {
         match &self.phase {
             Phase::Exploration(explorer) | Phase::Explored(explorer, _) => &**explorer,
@@ -134,6 +144,18 @@ impl Mapper for BetterMslst {
 
     fn belief(&self) -> Vec<Guess> {
         self.brain().belief()
+    }
+
+    fn visits(&self) -> Vec<Option<u32>> {
+        self.brain().visits()
+    }
+
+    fn visit_count(&self) -> usize {
+        self.brain().visit_count()
+    }
+
+    fn certainty(&self) -> Option<f64> {
+        self.brain().certainty()
     }
 
     fn map_bytes(&self) -> Option<usize> {

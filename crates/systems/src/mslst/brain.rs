@@ -66,7 +66,7 @@ impl Mslst {
         }
     }
 
-    /// The phase under way.
+    /// Returns the phase under way.
     fn brain(&self) -> &dyn Brain<Observation = TimeStep, Error = Infallible> {
         match &self.phase {
             Phase::Scans(scans) => scans,

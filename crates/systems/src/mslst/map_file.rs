@@ -20,18 +20,18 @@ pub struct MapFile {
     pub learned: Learned,
 }
 
-/// Why a file holds no map.
+/// Reason why a file holds no map.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
     /// The header or the JSON is not sound, or names another system.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The states are none.
-    #[error("its states are none")]
+    /// The states are invalid.
+    #[error("its states are invalid; learn the map again")]
     States(#[from] StatesError),
-    /// The graph is none.
-    #[error("its nodes are no graph")]
+    /// The graph is invalid.
+    #[error("its nodes do not form a graph")]
     Graph(#[from] GraphError),
     /// A node's state is not among the states.
     #[error("node {node}: there is no state {state}, only {count} of them")]
@@ -68,7 +68,7 @@ struct SavedNode {
 }
 
 impl MapFile {
-    /// The text of the file, with a line end.
+    /// Returns the text of the file, with a line end.
     ///
     /// # Errors
     /// [`MapFileError::File`] if it cannot be written.

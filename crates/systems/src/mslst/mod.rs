@@ -9,8 +9,8 @@
 //! - [`Topology`] is Phase II: the graph of the states, an action at a time. Both leave an
 //!   [`MslstMap`].
 //! - [`Navigator`] is Phase III: the brain that navigates by one.
-//! - [`Mslst`] is all three, one after the other.
-//! - [`better`] explores and navigates otherwise; [`BetterMslst`] is both, one after the other.
+//! - [`Mslst`] is all three, one by one.
+//! - [`better`] explores and navigates otherwise; [`BetterMslst`] is both, one by one.
 //! - [`MapFile`] keeps a map.
 //!
 //! ```no_run

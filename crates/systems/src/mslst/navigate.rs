@@ -107,7 +107,7 @@ impl Navigator {
         self.map.states.nearest(&north_scan(seen)?).ok()
     }
 
-    /// What the graph suggests.
+    /// Returns what the graph suggests.
     fn consult(&mut self) -> NavigationState {
         if self.doubts_left > 0 {
             self.doubts_left -= 1;
@@ -128,9 +128,9 @@ impl Navigator {
         }
     }
 
-    /// The path to the nearest destination node, "fully simplified": compressed, after which "if
-    /// the first action in the path is one the robot just failed at, we remove it from the path and
-    /// begin with the next action".
+    /// Returns the path to the nearest destination node, "fully simplified": compressed, after
+    /// which "if the first action in the path is one the robot just failed at, we remove it from
+    /// the path and begin with the next action".
     fn path_from(&self, node: u32) -> Option<Vec<Direction>> {
         let path = self.map.graph.path_to_destination(node, &self.failed)?;
         let path = compressed(&path, |action| action.opposite());

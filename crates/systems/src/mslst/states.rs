@@ -1,7 +1,7 @@
 use thiserror::Error;
 use tolman_quantizers::{Gng, GngConfig, InputError, Quantizer, QuantizerConfigError};
 
-/// Why there are no states.
+/// Reason why there are no states.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StatesError {
@@ -16,7 +16,7 @@ pub enum StatesError {
     Scan {
         /// Its number, from 0.
         scan: usize,
-        /// Why.
+        /// The underlying error.
         source: InputError,
     },
 }
@@ -34,7 +34,7 @@ impl States {
     /// states." The scans are shown once, in the order they were recorded.
     ///
     /// # Errors
-    /// If there are none, or they differ in length or hold what is no number.
+    /// If there are no scans, their lengths differ, or one holds NaN.
     pub fn learn(scans: &[Vec<f64>], threshold: f64) -> Result<Self, StatesError> {
         let beams = scans.first().ok_or(StatesError::NoScans)?.len();
         let mut gng = Gng::new(beams, GngConfig::mslst(threshold))?;
@@ -69,7 +69,7 @@ impl States {
         Ok(self.quantizer.nearest(scan)?.id.0)
     }
 
-    /// The model scans, robot units, beam 0 to the north.
+    /// Returns the model scans, robot units, beam 0 to the north.
     #[must_use]
     pub fn models(&self) -> &[Vec<f64>] {
         &self.models

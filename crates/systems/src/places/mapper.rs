@@ -11,11 +11,11 @@ use super::place::ways_on;
 use super::site_way::{middle_of, ring};
 use super::{PlacesConfig, Site, SiteKind, SitePlace, SiteStep, SiteWay};
 
-/// Why a map of places cannot be made, or refuses a step.
+/// Reason why a map of places cannot be made, or refuses a step.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlacesError {
-    /// The corridors are none.
+    /// The corridor width is invalid.
     #[error("the corridors cannot be told from junctions")]
     Corridors(#[from] RingError),
     /// A scan cannot be matched.
@@ -146,7 +146,7 @@ impl PlacesMapper {
         })
     }
 
-    /// Where the middle of a place lies by the poses.
+    /// Returns where the middle of a place lies by the poses.
     fn middle(&self, visit: &Visit) -> Point {
         self.pose(visit.keyframe).transform(visit.middle)
     }
@@ -289,7 +289,7 @@ impl PlacesMapper {
         steps.map(|step| step.norm()).sum()
     }
 
-    /// The axes of the building, as a compass has them.
+    /// Returns the axes of the building, as a compass has them.
     fn axis(&self) -> Heading {
         self.matching.axis().unwrap_or(Heading::EAST)
     }
@@ -342,7 +342,7 @@ impl PlacesMapper {
         Ok(())
     }
 
-    /// The places that a keyframe may be at, the nearest first.
+    /// Returns the places that a keyframe may be at, the nearest first.
     fn near(&self, keyframe: usize) -> Vec<usize> {
         let here = self.pose(keyframe).position;
         let reach = self.config.apart + self.matching.doubt(keyframe);

@@ -3,7 +3,7 @@ use tolman_robot::{Ring, Scan};
 /// A place of a map of places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SitePlace {
-    /// What it is.
+    /// Kind of place.
     pub kind: SiteKind,
     /// The keyframe in its middle, by its number.
     pub keyframe: usize,
@@ -24,7 +24,7 @@ pub enum SiteKind {
     Junction,
 }
 
-/// A way leads on if the nearest thing in it is so many corridor widths away.
+/// A way leads on if the nearest thing in it is at least this many corridor widths away.
 const OPEN_WIDTHS: f64 = 1.25;
 
 impl SiteKind {
@@ -48,7 +48,7 @@ pub(super) fn ways_on(scan: &Scan, width: f64) -> [bool; 4] {
     [0, 1, 2, 3].map(|quarter| is_open(&scan.ranges, &scan.ring, quarter, width))
 }
 
-/// Whether the middle half of a quarter's beams see nothing near in the mean.
+/// Returns whether the middle half of a quarter's beams see nothing near in the mean.
 fn is_open(ranges: &[f64], ring: &Ring, quarter: u32, width: f64) -> bool {
     let beams = ring.beams as usize;
     let spread = beams / 36;

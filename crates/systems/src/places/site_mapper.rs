@@ -11,7 +11,7 @@ use super::{PlacesConfig, PlacesError, PlacesMapper, Site, SiteWay};
 pub trait OfSites {
     /// The mapper that is told.
     type Mapper: Mapper;
-    /// Why it cannot begin.
+    /// Reason why it cannot begin.
     type Error;
 
     /// Returns a map of the first place.
@@ -24,11 +24,11 @@ pub trait OfSites {
     fn observation(&self, way: &SiteWay) -> <Self::Mapper as Mapper>::Observation;
 }
 
-/// Why a mapper of places cannot go on with a log.
+/// Reason why a mapper of places cannot go on with a log.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SiteMapperError<B, M> {
-    /// A scan is none.
+    /// A scan is invalid.
     #[error(transparent)]
     Places(#[from] PlacesError),
     /// The mapper cannot begin.
@@ -39,7 +39,7 @@ pub enum SiteMapperError<B, M> {
     Way {
         /// Counted from 0.
         visit: usize,
-        /// Why.
+        /// The underlying error.
         source: M,
     },
 }
@@ -193,7 +193,7 @@ impl<O: OfSites> Mapper for SiteMapper<O> {
     }
 }
 
-/// The place of a map that lies nearest to a point.
+/// Returns the place of a map that lies nearest to a point.
 fn nearest(map: &MapView, point: Point) -> Option<u32> {
     let places = map.places.iter();
     let off = places.filter_map(|place| Some(((place.position? - point).norm(), place.id)));

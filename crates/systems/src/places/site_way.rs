@@ -12,7 +12,7 @@ pub struct Site {
     pub keyframe: usize,
     /// Where its middle lies: that of the free ground about it, to which one comes from all sides.
     pub middle: Point,
-    /// What it is.
+    /// Kind of place.
     pub kind: SiteKind,
     /// Which of the four ways along the building's axes lead on, counter-clockwise from the first
     /// axis.
@@ -60,7 +60,8 @@ impl Site {
     }
 }
 
-/// The ring of what is around a place: the paper's 72 beams, that see so many corridor widths far.
+/// Returns the ring of what is around a place: the paper's 72 beams, whose reach follows from the
+/// corridor width.
 #[must_use]
 pub(super) fn ring(corridor_width: f64) -> Ring {
     Ring::full(BEAMS, REACH_WIDTHS * corridor_width)

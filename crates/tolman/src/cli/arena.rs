@@ -16,6 +16,7 @@ use tolman_arena::contest::{
     Condition, Contest, ContestError, ContestRecord, ContestRobot, Contestant, LearnRecord,
     LocateOutcome, Located, Schooling,
 };
+use tolman_experiment::choices;
 use tolman_papers::arena::{ArenaWorld, DrawnWorld};
 
 use super::{App, Failure, OrBadInput};
@@ -26,7 +27,7 @@ use super::{App, Failure, OrBadInput};
 Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam, gng-slam-better, micromouse; random, avoid,
 wall-follow, oracle and unlocalized-oracle go home alone. `tolman maze generate --list` names the families. The same in tables: tolman experiment arena
 
-Conditions: as-made; wheels-1, wheels-2 and wheels-5 (each wheel off by a constant of up to so many percent), compass-offset, constant-odometry,
+Conditions: as-made; wheels-1, wheels-2 and wheels-5 (each wheel off by a constant of up to this many percent), compass-offset, constant-odometry,
 fresh-odometry, doors, kidnapping, drop-outs.
 
 Example:
@@ -65,7 +66,7 @@ pub(super) struct Arguments {
     /// the goal
     #[arg(long, value_name = "N", default_value_t = 1)]
     starts: u32,
-    /// What all chance follows from
+    /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Write a line of JSON for each world instead of the table
@@ -180,7 +181,7 @@ pub(super) fn carry_out(
     table(&contestants, robot, &worlds, &held, out)
 }
 
-/// What learning costs each system: the means over the worlds in which it drove.
+/// Returns what learning costs each system: the means over the worlds in which it drove.
 fn costs(
     contestants: &[Contestant],
     worlds: &[DrawnWorld],
@@ -222,8 +223,8 @@ fn contestants(name: &str) -> Result<Vec<Contestant>, Failure> {
     let named = Contestant::named(name).ok_or_else(|| {
         let names = Contestant::ALL.map(|one| one.name().to_lowercase().replace(' ', "-"));
         anyhow!(
-            "there is no system {name} in the arena; choose all, or one of: {}",
-            names.join(", ")
+            "there is no system {name} in the arena; {}, all",
+            choices(name, names.iter().map(String::as_str))
         )
     });
     Ok(vec![named.or_bad_input()?])
@@ -233,8 +234,8 @@ fn condition(name: &str) -> Result<Condition, Failure> {
     let named = Condition::named(name).ok_or_else(|| {
         let names = Condition::ALL.map(|one| one.name().replace(' ', "-"));
         anyhow!(
-            "there is no condition {name} in the arena; choose one of: {}",
-            names.join(", ")
+            "there is no condition {name} in the arena; {}",
+            choices(name, names.iter().map(String::as_str))
         )
     });
     named.or_bad_input()
@@ -302,7 +303,7 @@ fn line<'a>(
     }
 }
 
-/// A row for each system.
+/// Returns a row for each system.
 fn table(
     contestants: &[Contestant],
     robot: ContestRobot,
@@ -371,7 +372,7 @@ fn table(
     Ok(why_not(contestants, worlds, held, out)?)
 }
 
-/// Why each system abstained, once.
+/// Returns why each system abstained, once.
 fn why_not(
     contestants: &[Contestant],
     worlds: &[DrawnWorld],

@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use tolman_experiment::Program;
 use tolman_experiment::shell::quoted;
 
 static PROGRAM: OnceLock<&str> = OnceLock::new();
@@ -12,11 +13,21 @@ pub(super) fn set(program: &'static str) {
     let _ = PROGRAM.set(program);
 }
 
-/// The command line as it can be pasted again.
+/// Returns the command line as it can be pasted again.
 pub(super) fn command() -> String {
+    let program = PROGRAM.get().copied().unwrap_or("tolman");
+    behind(program)
+}
+
+/// [`command`] of an experiment, which `cargo xtask` may have started.
+pub(super) fn experiment() -> String {
+    let program = PROGRAM.get().copied().unwrap_or("tolman");
+    behind(Program::current(program).command())
+}
+
+fn behind(program: &str) -> String {
     let arguments = std::env::args_os().skip(1);
     let quoted = arguments.map(|argument| quoted(&argument.to_string_lossy()));
-    let program = PROGRAM.get().copied().unwrap_or("tolman");
     let words: Vec<String> = [program.to_owned()].into_iter().chain(quoted).collect();
     words.join(" ")
 }

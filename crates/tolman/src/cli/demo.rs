@@ -4,41 +4,87 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
-use tolman_arena::cast::{Agent, Cast};
-use tolman_arena::course::Course;
-use tolman_arena::episode::{self, Trial, random_start};
-use tolman_arena::pioneer::{body, calibrated};
-use tolman_papers::Recorder;
-use tolman_replay::Fact;
+use tolman_arena::contest::{
+    Condition, Contest, ContestRobot, Contestant, LocateOutcome, Moment, Schooling, ShowRecord,
+};
+use tolman_maze::{Maze, MazeFile};
+use tolman_papers::Film;
+use tolman_replay::{Chapter, Mark, Marks, Replay, moving_picture};
 
-use super::Failure;
 use super::replay_file::{self, Overwrite};
+use super::{Failure, OrBadInput, file, maze};
 
-/// Runs a robot through the Large maze and leaves a replay to open in a browser
+/// Lets a robot explore an unknown maze, puts it down elsewhere, and lets it find out where it is
+/// and drive to the goal; leaves a replay to open in a browser
 #[derive(clap::Args)]
 #[command(after_help = "\
-The file is tolman-demo.html in the current folder, or tolman-demo-2.html … where that is taken.
+Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better,
+gng-slam, gng-slam-better (or gngslam), micromouse. Exit code 1 says that the robot did not
+find itself or did not come to the goal: another --seed tries it again.
+
+The file is tolman-demo.html in the current folder, or tolman-demo-2.html … where
+that is taken.
 
 Examples:
   tolman demo
-  tolman demo --out /tmp/demo.html")]
+  tolman demo --system cpm-better
+  tolman demo --system micromouse --out mouse.html
+  tolman demo --maze mazes/forks.maze --seed 3 --svg forks.svg")]
 pub(super) struct Arguments {
+    /// Which system drives
+    #[arg(long, value_name = "NAME", default_value = "mslst-better")]
+    system: String,
+    /// The maze, which marks a goal [default: one that comes with the program]
+    #[arg(long, value_name = "FILE")]
+    maze: Option<PathBuf>,
+    /// The seed of all noise and of where the robot is put down [default: one that shows the
+    /// system well]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
     /// The file to write
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Overwrite the file even if it is no replay
     #[arg(long, requires = "out")]
     force: bool,
+    /// Write a moving picture, too
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
 }
 
-/// The maze comes with the program, so that it runs in any folder.
-const MAZE: &str = include_str!("../../../../mazes/large-hard.maze");
+/// The mazes come with the program, so that it runs in any folder.
+const MAZE: &str = include_str!("../../../../mazes/demo.maze");
+/// For who maps a large maze slowly, or does not find itself in it.
+const SMALL: &str = include_str!("../../../../mazes/star.maze");
 
-/// What the robot does.
-const AGENT: Agent = Agent::WallFollow;
+/// Returns the contestant of a name as `tolman arena` or `tolman systems` has it.
+fn contestant(name: &str) -> Result<Contestant, Failure> {
+    // What `tolman learn` calls so is the better one.
+    if name == "gngslam" {
+        return Ok(Contestant::GngSlamBetter);
+    }
+    let plain = |name: &str| name.to_lowercase().replace(' ', "-");
+    let learning = || Contestant::ALL.into_iter().filter(|one| one.learns());
+    let named = learning().find(|one| plain(one.name()) == plain(name));
+    let named = named.ok_or_else(|| {
+        let names = learning().map(|one| one.name().to_lowercase().replace(' ', "-"));
+        anyhow!(
+            "there is no system {name} in the demo; choose one of: {}",
+            names.collect::<Vec<_>>().join(", ")
+        )
+    });
+    named.or_bad_input()
+}
 
-/// A start from which the robot sees much of the maze before it arrives.
-const SEED: u64 = 7;
+/// Returns the maze and the seed that show a system well.
+const fn usual(contestant: Contestant) -> (&'static str, u64) {
+    match contestant {
+        Contestant::Mslst => (SMALL, 42),
+        Contestant::GngSlam | Contestant::GngSlamBetter => (SMALL, 1),
+        Contestant::MslstBetter => (MAZE, 8),
+        _ => (MAZE, 1),
+    }
+}
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let overwrite = Overwrite::if_forced(arguments.force);
@@ -47,36 +93,159 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         None => free_name()?,
     };
     replay_file::check(&path, overwrite)?;
-    let maze = tolman_maze::read(MAZE).context("the maze of this program")?;
-    let robot = calibrated();
-    let course = Course::for_body("Large", &maze, &body()).context("the maze of this program")?;
-    let trial = Trial {
-        course: &course,
-        robot: robot.clone(),
-        start: random_start(&course, &body(), SEED),
-        step_limit: 10 * course.step_limit(),
-        seed: SEED,
+    let contestant = contestant(&arguments.system)?;
+    let (usual, seed) = usual(contestant);
+    let (name, maze) = match &arguments.maze {
+        Some(path) => {
+            let file = maze::read(path)?;
+            (maze::world_name(path, &file), file.maze)
+        }
+        None => named(tolman_maze::read(usual).context("the maze of this program")?),
     };
-    let mut mind = Cast::default().mind(AGENT, &course, &robot)?;
-    let mut recorder = Recorder::new(&trial);
-    let episode = episode::run(&trial, &mut mind, |step| recorder.see(step))?;
-    let mut replay = recorder.finish("A wall follower in the Large maze", &episode);
-    replay.facts.insert(1, Fact::new("brain", AGENT.name()));
-    replay_file::write(&path, replay, overwrite)?;
-    let steps = episode.steps;
-    if !episode.reached {
-        return Err(Failure::Failed(anyhow!(
-            "the robot did not find the destination of the Large maze in {steps} steps"
-        )));
+    let contest = Contest {
+        contestant,
+        robot: ContestRobot::Own,
+        maze: &maze,
+        name: &name,
+        condition: Condition::AsMade,
+        starts: 1,
+        seed: arguments.seed.unwrap_or(seed),
+        stopwatch: None,
+    };
+    let (record, replay) = shown(&contest)?;
+    if let Some(path) = &arguments.svg {
+        file::write(path, moving_picture(&replay, &chapters(&record, &replay)))?;
     }
-    writeln!(
-        out,
-        "A robot that keeps to the wall on its right found the destination of the Large maze in {steps} steps."
-    )?;
-    Ok(writeln!(out, "replay: {}", replay_file::address(&path))?)
+    replay_file::write(&path, replay, overwrite)?;
+    tell(&contest, &record, out)?;
+    writeln!(out, "replay: {}", replay_file::address(&path))?;
+    match failure(&record) {
+        None => Ok(()),
+        Some(why) => Err(Failure::Failed(anyhow!("{why}; try another --seed"))),
+    }
 }
 
-/// A name that nothing has yet.
+/// What a moving picture shows in turn.
+fn chapters(record: &ShowRecord, replay: &Replay) -> Vec<Chapter> {
+    let chapter = |from, caption: &str, seconds| Chapter {
+        from,
+        caption: caption.to_owned(),
+        seconds,
+    };
+    let mut chapters = vec![chapter(
+        0,
+        "It explores an unknown maze, and its map (blue) grows over the walls",
+        9.0,
+    )];
+    let lifts = replay.tracks.iter().flat_map(|track| &track.lifts);
+    chapters.extend(lifts.map(|lift| {
+        let caption = "Put down elsewhere, its belief (pink) collapses to one place";
+        chapter(*lift, caption, 3.0)
+    }));
+    let home = record.found.step as u32 + 1;
+    chapters.push(chapter(
+        home,
+        "It knows where it is, and drives to the goal",
+        4.0,
+    ));
+    chapters
+}
+
+fn named(file: MazeFile) -> (String, Maze) {
+    (file.name.unwrap_or_default(), file.maze)
+}
+
+/// Shows the contestant, and returns what came of it with the replay.
+fn shown(contest: &Contest<'_>) -> Result<(ShowRecord, Replay), Failure> {
+    let mut film: Option<Film> = None;
+    let mut replay = None;
+    let record = contest.show(&Schooling::default(), |outing, moment| {
+        let film = film.get_or_insert_with(|| {
+            let laid = contest.contestant.world_from_map(outing.path()[0]);
+            Film::laid_at(outing, laid)
+        });
+        match moment {
+            Moment::Begun => {}
+            Moment::Acted => film.see(outing),
+            Moment::PutDown => film.lifted(outing),
+            Moment::Over => {
+                let title = format!("{} in the maze {}", contest.contestant.name(), contest.name);
+                replay = Some(core::mem::replace(film, Film::new(outing)).replay(outing, title));
+            }
+        }
+    });
+    let record = record.map_err(anyhow::Error::from).or_bad_input()?;
+    let mut replay = replay.context("the demo ended before it was over")?;
+    let found = &record.found;
+    if let (LocateOutcome::Right, Some(track)) = (&found.outcome, replay.tracks.first_mut()) {
+        let known = [found.step as u32];
+        track
+            .marks
+            .push(Marks::new(Mark::Event, "found itself", known));
+    }
+    let replay = replay.fact("seed", contest.seed.to_string());
+    Ok((record, replay))
+}
+
+/// What happened, in lines of at most 80 columns.
+fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Result<(), Failure> {
+    let ShowRecord {
+        learned,
+        explored,
+        found,
+        home,
+        shortest,
+        ..
+    } = record;
+    let name = contest.contestant.name();
+    writeln!(
+        out,
+        "{name} explored the maze {}: {explored:.1} m driven, {} places on its map.",
+        contest.name, learned.places
+    )?;
+    match (&found.outcome, found.was_put_down) {
+        (_, false) => writeln!(
+            out,
+            "It follows its robot, so it is not put down elsewhere."
+        )?,
+        (LocateOutcome::Right, true) => writeln!(
+            out,
+            "Put down elsewhere, it found out where it is after {} moves, {:.1} m.",
+            found.actions, found.metres
+        )?,
+        (LocateOutcome::Wrong, true) => writeln!(
+            out,
+            "Put down elsewhere, it took itself to be where it is not."
+        )?,
+        (LocateOutcome::Abstained { .. }, true) => {
+            writeln!(out, "Put down elsewhere, it did not find out where it is.")?;
+        }
+    }
+    match home {
+        Some(home) => writeln!(
+            out,
+            "It drove to the goal in {home:.1} m; the shortest way is {shortest:.1} m."
+        )?,
+        None => writeln!(out, "It did not come to the goal.")?,
+    }
+    Ok(())
+}
+
+/// Why the demo did not show what it is to show.
+fn failure(record: &ShowRecord) -> Option<String> {
+    let found = &record.found;
+    match (&found.outcome, record.home) {
+        (LocateOutcome::Wrong, _) => Some("it did not find itself".to_owned()),
+        (LocateOutcome::Abstained { why }, _) if found.was_put_down => {
+            Some(format!("it did not find itself: {why}"))
+        }
+        (_, None) if record.gave_up.is_empty() => Some("it did not come to the goal".to_owned()),
+        (_, None) => Some(format!("it did not come to the goal: {}", record.gave_up)),
+        _ => None,
+    }
+}
+
+/// Returns a name that nothing has yet.
 fn free_name() -> Result<PathBuf, Failure> {
     let names = (1..1000).map(|number| match number {
         1 => "tolman-demo.html".to_owned(),

@@ -18,7 +18,7 @@ use crate::system::MapText;
 /// Puts a robot down in a maze or a world and sends it to the goal by a learned map; exits 1 if it
 /// does not arrive
 ///
-/// It finds out where it is, goes, and plans anew where something is not as the map has it. Of the
+/// It finds out where it is, goes, and plans again where something is not as the map has it. Of the
 /// maps of several mazes it finds out which is that of this one.
 #[derive(clap::Args)]
 #[command(after_help = "\
@@ -111,7 +111,7 @@ pub(super) fn carry_out(
         return Ok(());
     }
     Err(Failure::Failed(anyhow!(
-        "{told}: the robot is not at the goal of {}; give it more --steps, another --seed, or learn the map anew",
+        "{told}: the robot is not at the goal of {}; give it more --steps, another --seed, or learn the map again",
         setup.world
     )))
 }

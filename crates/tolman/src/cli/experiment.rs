@@ -1,20 +1,24 @@
 //! `tolman experiment`: runs papers' tables and shows them beside the papers'.
 
+mod tour;
+
 use alloc::sync::Arc;
+use core::sync::atomic::Ordering;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use tolman_experiment::{
-    Error, Measured, Metric, Options, Program, Table, Terminal, VerdictTally, compare, execute,
-    open, tables_as_text, write_replay,
+    Error, ExperimentOutcome, Measured, Metric, Options, Program, Table, Terminal, VerdictTally,
+    compare, execute, open, tables_as_text, verify, write_replay,
 };
 
-use super::{App, Failure, ink, interrupt};
+use super::{App, Failure, called, ink, interrupt};
 
-/// Runs an experiment, shows its tables beside the paper's, and writes a folder of results
+/// Runs an experiment, shows its tables beside the paper's, and writes a folder of results; without
+/// NAME and --all it is a tour of all experiments in about a minute
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(group(clap::ArgGroup::new("which").args(["name", "all"])), after_help = "\
 The folder holds report.html (opens anywhere), summary.json, runs.jsonl (one line a run),
 figures/*.svg and config.toml. An interrupted experiment goes on where it stopped.
 
@@ -23,40 +27,21 @@ Examples:
   tolman experiment baselines --quick --out one
   tolman experiment baselines --quick --jobs 1 --out two
   tolman experiment --compare one two
+  tolman experiment baselines --quick --verify one
   tolman experiment baselines --maze mazes/grid/braided-2.txt --maze mazes/j.maze --runs 100
   tolman experiment diktiometry --table 3b --runs 2
   tolman experiment baselines --replay '2 (J)' Avoid 137")]
 pub(super) struct Arguments {
-    /// The experiment; all of them one after the other when left out
+    /// The experiment; a tour of the main tables of all when left out
     name: Option<String>,
+    /// All experiments in turn, with the papers' own counts
+    #[arg(long)]
+    all: bool,
     /// List the experiments and do nothing else
     #[arg(long)]
     list: bool,
-    /// The master seed: the same one gives the same results
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-    /// Runs of each row, 100000 at most, instead of the paper's number
-    #[arg(long, value_name = "N")]
-    runs: Option<u32>,
-    /// Fill this table alone; may be given several times
-    #[arg(long = "table", value_name = "TABLE", requires = "name")]
-    tables: Vec<String>,
-    /// Runs at a time, 256 at most, instead of one a core; results do not depend on it
-    #[arg(long, value_name = "N")]
-    jobs: Option<u32>,
-    /// A maze file of any format in place of the experiment's own; may be given several times
-    #[arg(long = "maze", value_name = "FILE")]
-    mazes: Vec<PathBuf>,
-    /// Time steps after which a run in a maze has failed, in place of the experiment's own
-    /// (baselines, mslst)
-    #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..))]
-    limit: Option<u32>,
-    /// The folder of results, instead of results/NAME; without NAME, the folder of those folders
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Few runs, for a first look
-    #[arg(long)]
-    quick: bool,
+    #[command(flatten)]
+    choice: Choice,
     /// Play one run again and write its replay to replays/ in the folder, and nothing else
     #[arg(long, num_args = 3, value_names = ["TABLE", "ROW", "RUN"], requires = "name")]
     #[arg(allow_hyphen_values = true, conflicts_with_all = ["check", "json", "list"])]
@@ -65,13 +50,51 @@ pub(super) struct Arguments {
     /// if any do
     #[arg(long, num_args = 2, value_names = ["DIR", "DIR"], exclusive = true)]
     compare: Vec<PathBuf>,
+    /// Play one run of each row of a folder of results again, or --runs of them, and nothing else;
+    /// exit with 1 if a value differs in a bit, a line has another checksum, or the summary is not
+    /// that of the runs
+    #[arg(long, value_name = "DIR", requires = "name")]
+    #[arg(conflicts_with_all = ["check", "json", "list", "out", "replay"])]
+    verify: Option<PathBuf>,
     /// Exit with 3 if a table disagrees with the paper, or none of the paper's values could be
     /// judged
-    #[arg(long)]
+    #[arg(long, requires = "which")]
     check: bool,
     /// Write each summary.json on standard output instead of the tables
-    #[arg(long)]
+    #[arg(long, requires = "which")]
     json: bool,
+}
+
+/// What is run, and how.
+#[derive(clap::Args)]
+pub(super) struct Choice {
+    /// The master seed: the same one gives the same results
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Runs of each row, 100000 at most, instead of the paper's number
+    #[arg(long, value_name = "N", requires = "which")]
+    runs: Option<u32>,
+    /// Fill this table alone; may be given several times
+    #[arg(long = "table", value_name = "TABLE", requires = "name")]
+    tables: Vec<String>,
+    /// Runs at a time, 256 at most, instead of one a core; results do not depend on it
+    #[arg(long, value_name = "N")]
+    jobs: Option<u32>,
+    /// A maze file of any format in place of the experiment's own; may be given several times
+    #[arg(long = "maze", value_name = "FILE", requires = "which")]
+    mazes: Vec<PathBuf>,
+    /// Time steps after which a run in a maze has failed, in place of the experiment's own
+    /// (baselines, mslst)
+    #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(requires = "which")]
+    limit: Option<u32>,
+    /// The folder of results, instead of results/NAME, or of results/tour for the tour; with
+    /// --all, the folder of those folders
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Few runs, for a first look
+    #[arg(long, requires = "which")]
+    quick: bool,
 }
 
 pub(super) fn carry_out(
@@ -95,20 +118,33 @@ pub(super) fn carry_out(
     if let [table, row, run] = &arguments.replay[..] {
         return replay(app, arguments, table, row, run, out);
     }
+    if let Some(folder) = &arguments.verify {
+        return verified(app, arguments, folder, out);
+    }
+    if arguments.name.is_none() && !arguments.all {
+        return tour::carry_out(app, &arguments.choice.options(app), out);
+    }
     // The first Ctrl-C lets the runs that are being played finish.
     let stop = interrupt::flag()?;
     let mut disagreements = Vec::new();
-    for (name, options) in arguments.chosen(app) {
+    let chosen = arguments.chosen(app);
+    let all = chosen.len();
+    for (number, (name, options)) in (1..).zip(chosen) {
         let experiment = open(&app.catalogue.experiments, name, &options).map_err(classify)?;
+        if arguments.all && !arguments.json {
+            let head = heading(number, all, experiment.entry.title);
+            writeln!(out, "{head}\n")?;
+        }
         let progress = Terminal::new(Arc::clone(&stop));
         let outcome = execute(&experiment, &options, app.build, &progress).map_err(classify)?;
         if arguments.json {
             let summary = outcome.summary.to_json().map_err(classify)?;
             out.write_all(summary.as_bytes())?;
         } else {
-            let tables = tables_as_text(&outcome.analysis, ink());
-            let report = outcome.folder.join("report.html");
-            writeln!(out, "{tables}\nThe report: {}", report.display())?;
+            show(&outcome, out)?;
+            if number < all {
+                writeln!(out)?;
+            }
         }
         // The next experiment takes its time: show what there is.
         out.flush()?;
@@ -126,6 +162,39 @@ pub(super) fn carry_out(
     Ok(())
 }
 
+/// Shows the tables, and where the report lies.
+pub(super) fn show(outcome: &ExperimentOutcome, out: &mut dyn Write) -> Result<(), Failure> {
+    let tables = tables_as_text(&outcome.analysis, ink());
+    let report = outcome.folder.join("report.html");
+    Ok(writeln!(out, "{tables}\nThe report: {}", report.display())?)
+}
+
+/// Plays a sample of a folder's runs again.
+fn verified(
+    app: &App<'_>,
+    arguments: &Arguments,
+    folder: &Path,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let stop = interrupt::flag()?;
+    for (name, options) in arguments.chosen(app) {
+        let experiment = open(&app.catalogue.experiments, name, &options).map_err(classify)?;
+        let progress = Terminal::new(Arc::clone(&stop));
+        let found = verify(&experiment, &options, app.build, folder, &progress);
+        let found = found.map_err(classify)?;
+        if !found.faults.is_empty() {
+            return Err(Failure::Failed(anyhow!("{found}")));
+        }
+        if stop.load(Ordering::Relaxed) {
+            return Err(Failure::Interrupted(anyhow!(
+                "interrupted; until then, {found}"
+            )));
+        }
+        writeln!(out, "{found}")?;
+    }
+    Ok(())
+}
+
 /// Writes the replay of one run.
 fn replay(
     app: &App<'_>,
@@ -137,7 +206,7 @@ fn replay(
 ) -> Result<(), Failure> {
     let run = run.parse().map_err(|_| {
         Failure::BadInput(anyhow!(
-            "{run:?} is no index of a run; give a whole number from 0 on"
+            "{run:?} is not the index of a run; give a whole number from 0 on"
         ))
     })?;
     for (name, options) in arguments.chosen(app) {
@@ -148,10 +217,36 @@ fn replay(
     Ok(())
 }
 
+/// The line above an experiment that is one of several.
+fn heading(number: usize, all: usize, title: &str) -> String {
+    format!("{number} of {all} · {title}")
+}
+
 impl Arguments {
-    /// The experiments asked for, each with its options.
+    /// Returns the experiments asked for, each with its options.
     fn chosen<'a>(&'a self, app: &App<'a>) -> Vec<(&'a str, Options)> {
-        let options = Options {
+        let options = self.choice.options(app);
+        if let Some(name) = &self.name {
+            return vec![(name, options)];
+        }
+        let names = app.catalogue.experiments.iter().map(|entry| entry.name);
+        let chosen = names.map(|name| {
+            let out = options.out.as_ref().map(|out| out.join(name));
+            let options = options.clone();
+            (name, Options { out, ..options })
+        });
+        chosen.collect()
+    }
+
+    /// The one experiment that a command names, with its options.
+    pub(super) fn named(&self, app: &App<'_>) -> Option<(&str, Options)> {
+        Some((self.name.as_deref()?, self.choice.options(app)))
+    }
+}
+
+impl Choice {
+    pub(super) fn options(&self, app: &App<'_>) -> Options {
+        Options {
             seed: self.seed,
             runs: self.runs,
             jobs: self.jobs,
@@ -161,21 +256,15 @@ impl Arguments {
             out: self.out.clone(),
             quick: self.quick,
             program: Program::current(app.catalogue.program),
-        };
-        if let Some(name) = &self.name {
-            return vec![(name, options)];
         }
-        let names = app.catalogue.experiments.iter().map(|entry| entry.name);
-        let chosen = names.map(|name| {
-            let out = self.out.as_ref().map(|out| out.join(name));
-            let options = options.clone();
-            (name, Options { out, ..options })
-        });
-        chosen.collect()
     }
 }
 
-fn classify(error: Error) -> Failure {
+pub(super) fn classify(mut error: Error) -> Failure {
+    // The caller's own command goes on, whichever of its experiments was at work.
+    if let Error::Interrupted { command, .. } = &mut error {
+        *command = called::experiment();
+    }
     let failure = match error {
         Error::Interrupted { .. } => Failure::Interrupted,
         _ if error.is_bad_input() => Failure::BadInput,
@@ -184,7 +273,7 @@ fn classify(error: Error) -> Failure {
     failure(error.into())
 }
 
-/// Why nothing of an experiment that has a paper was judged; `None` if something was.
+/// Returns why nothing of an experiment that has a paper was judged; `None` if something was.
 fn unjudged(tally: VerdictTally) -> Option<String> {
     match (tally.all(), tally.judged()) {
         (0, _) => Some("its tables have no value of a paper, so nothing was judged".to_owned()),
@@ -195,7 +284,7 @@ fn unjudged(tally: VerdictTally) -> Option<String> {
     }
 }
 
-/// A value that does not match the paper's.
+/// Returns a value that does not match the paper's.
 fn told((table, metric, measured): (&Table, &Metric, &Measured)) -> Option<String> {
     let verdict = measured.verdict.as_ref()?;
     let (paper, accepted) = (measured.paper.as_ref()?, verdict.accepted?);

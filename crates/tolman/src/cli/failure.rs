@@ -11,7 +11,7 @@ use clap::builder::styling::{AnsiColor, Style};
 
 use super::interrupt::INTERRUPTED;
 
-/// Why a verb did not do what it was asked for.
+/// Reason why a verb did not do what it was asked for.
 #[derive(Debug)]
 pub(super) enum Failure {
     /// Whoever called is to give something else.
@@ -35,7 +35,7 @@ impl Failure {
         })
     }
 
-    /// Whether the reader of our output went away.
+    /// Returns whether the reader of our output went away.
     pub(super) fn is_closed_pipe(&self) -> bool {
         let broken = |cause: &(dyn core::error::Error + 'static)| {
             let error = cause.downcast_ref::<io::Error>();
@@ -73,8 +73,8 @@ pub(super) fn note(what: &str) {
     let _ = writeln!(anstream::stderr(), "note: {what}");
 }
 
-/// An error and the causes behind it in one line, each told once: some errors tell their cause
-/// themselves.
+/// Returns an error and the causes behind it in one line, each told once: some errors tell their
+/// cause themselves.
 fn told(error: &anyhow::Error) -> String {
     let mut told = String::new();
     for cause in error.chain().map(ToString::to_string) {

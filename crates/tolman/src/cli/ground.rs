@@ -9,6 +9,7 @@ use tolman_formats::{MapCell, RosMap};
 use tolman_geom::Point;
 use tolman_sim::{Area, Occupancy, World, Zone};
 
+use super::kind::Kind;
 use super::{Failure, OrBadInput, maze};
 
 /// Where robots are sent.
@@ -106,13 +107,15 @@ impl Ground {
 
 /// Reads a world of either kind.
 fn world(path: &Path) -> Result<World, Failure> {
-    let world = match is_yaml(path) {
-        true => RosMap::read(path)
-            .map_err(Error::from)
-            .and_then(|map| Ok(World::from_occupancy(&occupancy(map))?)),
-        false => World::from_json(&maze::text(path)?).map_err(Error::from),
-    };
-    world.with_context(|| maze::name(path)).or_bad_input()
+    if is_yaml(path) {
+        let read = RosMap::read(path).map_err(Error::from);
+        let world = read.and_then(|map| Ok(World::from_occupancy(&occupancy(map))?));
+        return world.with_context(|| maze::name(path)).or_bad_input();
+    }
+    let text = maze::text(path)?;
+    World::from_json(&text)
+        .map_err(|error| Kind::World.explain(&text, &maze::name(path), error))
+        .or_bad_input()
 }
 
 const DESTINATION: &str = "destination";
@@ -122,7 +125,7 @@ fn is_yaml(path: &Path) -> bool {
     matches!(extension, Some("yaml" | "yml"))
 }
 
-/// A map of ROS as a grid for the simulator. What nobody has seen is not to be driven on.
+/// Returns a map of ROS as a grid for the simulator. What nobody has seen is not to be driven on.
 fn occupancy(map: RosMap) -> Occupancy {
     Occupancy {
         width: map.width,
@@ -163,7 +166,7 @@ impl core::str::FromStr for Goal {
     }
 }
 
-/// The width of a corridor.
+/// Returns the width of a corridor.
 fn width(text: &str) -> Result<f64, String> {
     let width = number(text)?;
     match width > 0.0 {
@@ -175,7 +178,7 @@ fn width(text: &str) -> Result<f64, String> {
 fn number(text: &str) -> Result<f64, String> {
     let number = text.trim().parse::<f64>().ok();
     let number = number.filter(|number| number.is_finite());
-    number.ok_or_else(|| format!("`{text}` is no finite number"))
+    number.ok_or_else(|| format!("`{text}` is not a finite number"))
 }
 
 #[cfg(test)]

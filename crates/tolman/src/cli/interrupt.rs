@@ -11,8 +11,8 @@ use super::Failure;
 /// The exit code by which shells know a program that Ctrl-C ended.
 pub(super) const INTERRUPTED: u8 = 130;
 
-/// A flag that the first Ctrl-C raises, as `kill` does; the second ends the program, and so does
-/// the first when the flag is up already.
+/// Returns a flag that the first Ctrl-C raises, as `kill` does; the second ends the program, and so
+/// does the first when the flag is up already.
 pub(super) fn flag() -> Result<Arc<AtomicBool>, Failure> {
     let asked = Arc::new(AtomicBool::new(false));
     for (signal, code) in [(SIGINT, INTERRUPTED), (SIGTERM, 143)] {

@@ -127,5 +127,5 @@ pub(super) fn carry_out(
     }
 }
 
-/// So many lines of a map are told; `tolman map show` tells all.
+/// Number of lines of a map that are printed; `tolman map show` prints all.
 const MOST_LINES: usize = 4;

@@ -35,7 +35,7 @@ pub(super) enum Live {
 }
 
 impl Live {
-    /// A view of the run that is about to be made.
+    /// Returns a view of the run that is about to be made.
     pub(super) fn open(scene: Scene) -> Result<Self, Failure> {
         let limit = scene.step_limit;
         if on_terminal() {
@@ -99,7 +99,7 @@ impl Live {
     }
 }
 
-/// Whether stdout is a terminal large and able enough to draw on.
+/// Returns whether stdout is a terminal large and able enough to draw on.
 fn on_terminal() -> bool {
     // Unix names its terminals; one without a name can do as little as a dumb one.
     let able = std::env::var_os("TERM").map_or(cfg!(windows), |terminal| terminal != "dumb");

@@ -51,7 +51,7 @@ impl Looks {
         }
     }
 
-    /// Whether a run is to be looked at.
+    /// Returns whether a run is to be looked at.
     pub(super) const fn any(&self) -> bool {
         self.live || self.svg.is_some() || self.trace.is_some() || self.replay.is_some()
     }
@@ -59,7 +59,7 @@ impl Looks {
     /// Returns what the replay may overwrite, before the work is done.
     ///
     /// # Errors
-    /// Bad input if its file is there and is no replay.
+    /// Bad input if its file exists and is not a replay.
     pub(super) fn overwrite(&self) -> Result<Overwrite, Failure> {
         let overwrite = Overwrite::if_forced(self.force);
         if let Some(path) = &self.replay {

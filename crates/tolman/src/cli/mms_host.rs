@@ -1,14 +1,16 @@
 //! `tolman mms-host`: hosts a mouse that speaks the protocol of mms, and scores it.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use core::sync::atomic::Ordering;
 use core::time::Duration;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use serde_json::json;
+use tolman_arena::foreign::{Launch, Log};
 use tolman_arena::micromouse::SideSeen;
-use tolman_arena::mms::{Exchange, Hosted, Limits, Log, MouseExit, host};
+use tolman_arena::mms::{Exchange, Hosted, Limits, MouseExit, host};
 use tolman_geom::{Heading, Pose};
 use tolman_maze::{Cell, Direction, Grid, Maze};
 
@@ -16,7 +18,7 @@ use super::looks::Looks;
 use super::maze::Collection;
 use super::mouse::{Came, Way, WayStep, half_cells};
 use super::send::tell_replay;
-use super::{Failure, OrBadInput, maze};
+use super::{Failure, OrBadInput, interrupt, keep, maze};
 
 /// Hosts a mouse that speaks the protocol of the simulator mms, without a window, and scores it
 #[derive(clap::Args)]
@@ -28,6 +30,9 @@ better, 2000 is a maze unsolved. The code of mms measures in half-steps, its REA
 --live, --svg, --trace and --replay are of one maze, whose cells are drawn 0.18 m wide, and of what the mouse did when it was hosted. A line of
 --trace has a move or turn, what it was answered, where it led, and which walls the mouse had asked for before it. --json writes one
 object a maze and line.
+
+A mouse is ended with all processes that it started, however this program ends (on Linux). Ctrl-C ends the
+mice and tells the scores until then.
 
 Examples:
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/braided-2.txt
@@ -43,10 +48,10 @@ pub(super) struct Arguments {
     /// Stop a mouse after so much time in a maze
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
-    /// Stop a mouse after so many moves, turns and crashes in a maze
+    /// Stop a mouse after this many moves, turns and crashes in a maze
     #[arg(long, value_name = "N", default_value_t = 100_000)]
     move_limit: u64,
-    /// Press the reset button after so many moves and turns
+    /// Press the reset button after this many moves and turns
     #[arg(long, value_name = "N")]
     reset_after: Option<u64>,
     /// Mazes at a time, instead of one a core
@@ -70,35 +75,48 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         .or_bad_input()?;
     let limits = arguments.limits()?;
     let Collection { mazes, unsound } = Collection::read(&arguments.maze)?;
-    let log = if arguments.log {
-        Log::Shown
-    } else {
-        Log::Dropped
+    let stop = interrupt::flag()?;
+    let keeper = keep::keeper();
+    let mouse = Launch {
+        words: &words,
+        keeper: &keeper,
+        log: match arguments.log {
+            true => Log::Shown,
+            false => Log::Dropped,
+        },
+        stop: &stop,
     };
     let looks = &arguments.looks;
     looks.of_one(&arguments.maze, mazes.len() + unsound.len())?;
     looks.overwrite()?;
     let hosted = maze::each(&mazes, arguments.jobs, |file, maze| {
+        if stop.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
         let mut watched = match looks.any() {
             true => Some(Watched::new(arguments, file, maze)?),
             false => None,
         };
-        let hosted = host(&words, maze, &limits, log, |exchange| {
+        let hosted = host(&mouse, maze, &limits, |exchange| {
             if let Some(watched) = &mut watched {
                 watched.hear(exchange);
             }
         });
-        Ok((hosted.or_bad_input()?, watched))
+        Ok(Some((hosted.or_bad_input()?, watched)))
     })?;
-    let (hosted, watched): (Vec<Hosted>, Vec<Option<Watched>>) = hosted.into_iter().unzip();
-    for (((file, _), hosted), watched) in mazes.iter().zip(&hosted).zip(watched) {
+    let mut tried: Vec<(&Path, Hosted)> = Vec::new();
+    for ((file, _), hosted) in mazes.iter().zip(hosted) {
+        let Some((hosted, watched)) = hosted else {
+            continue;
+        };
         if let Some(watched) = watched {
-            watched.way.show(looks, &outcome(hosted))?;
+            watched.way.show(looks, &outcome(&hosted))?;
         }
-        arguments.tell(file, hosted, out)?;
+        arguments.tell(file, &hosted, out)?;
+        tried.push((file, hosted));
     }
-    if hosted.len() > 1 && !looks.json {
-        writeln!(out, "{}", summary(&hosted))?;
+    if tried.len() > 1 && !looks.json {
+        writeln!(out, "{}", summary(&tried))?;
     }
     if !looks.json {
         tell_replay(looks, out)?;
@@ -106,8 +124,15 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     // What was hosted stands before what could not be, wherever the two streams end up.
     out.flush()?;
     unsound.complain(mazes.len())?;
-    let tried = mazes.iter().zip(&hosted);
-    maze::all_solved(tried.map(|((file, _), hosted)| (file.as_path(), hosted.solved)))
+    if stop.load(Ordering::Relaxed) {
+        let interrupted = |(_, hosted): &&(&Path, Hosted)| hosted.ended != MouseExit::Interrupted;
+        let whole = tried.iter().filter(interrupted).count();
+        return Err(Failure::Interrupted(anyhow!(
+            "interrupted after {whole} of {} mazes",
+            mazes.len()
+        )));
+    }
+    maze::all_solved(tried.iter().map(|(file, hosted)| (*file, hosted.solved)))
 }
 
 impl Arguments {
@@ -173,8 +198,8 @@ impl Watched {
     }
 }
 
-/// A maze as mms has it, whatever else it says: the mouse starts in the south-west, and the goal is
-/// the middle.
+/// Returns a maze as mms has it, whatever else it says: the mouse starts in the south-west, and the
+/// goal is the middle.
 fn of_mms(maze: &Maze) -> Maze {
     let mut maze = maze.clone();
     maze.set_start(Some((Cell::new(0, 0), Direction::North)));
@@ -182,7 +207,7 @@ fn of_mms(maze: &Maze) -> Maze {
     maze
 }
 
-/// A movement as it is shown.
+/// Returns a movement as it is shown.
 fn way_step(exchange: &Exchange, sensed: &[SideSeen]) -> WayStep {
     let Exchange {
         line,
@@ -216,7 +241,7 @@ fn way_step(exchange: &Exchange, sensed: &[SideSeen]) -> WayStep {
     }
 }
 
-/// What became of a mouse, in words.
+/// Returns what became of a mouse, in words.
 fn outcome(hosted: &Hosted) -> String {
     let came = if hosted.solved {
         "solved"
@@ -246,14 +271,19 @@ fn how(ended: MouseExit) -> &'static str {
         MouseExit::OutOfTime => "out of time",
         MouseExit::OutOfMovements => "out of movements",
         MouseExit::LineTooLong => "wrote a line that no command can be",
+        MouseExit::TooMuchOutput => "wrote more than a mouse has to say",
+        MouseExit::ClosedOutput => "closed its stdout and ran on",
+        MouseExit::Interrupted => "interrupted",
         _ => "stopped",
     }
 }
 
-fn summary(hosted: &[Hosted]) -> String {
+fn summary(hosted: &[(&Path, Hosted)]) -> String {
     let count = hosted.len() as f32;
-    let mean = |score: fn(&Hosted) -> f32| hosted.iter().map(score).sum::<f32>() / count;
-    let solved = hosted.iter().filter(|hosted| hosted.solved).count();
+    let mean = |score: fn(&Hosted) -> f32| {
+        hosted.iter().map(|(_, hosted)| score(hosted)).sum::<f32>() / count
+    };
+    let solved = hosted.iter().filter(|(_, hosted)| hosted.solved).count();
     format!(
         "{solved} of {} solved, mean score {:.1} ({:.1} in cells)",
         hosted.len(),

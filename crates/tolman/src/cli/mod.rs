@@ -16,12 +16,15 @@ mod file;
 mod former;
 mod ground;
 mod interrupt;
+mod keep;
+mod kind;
 mod learn;
 mod live;
 mod looks;
 mod man;
 mod map;
 mod maze;
+mod merge;
 mod mms_host;
 mod mouse;
 mod picture;
@@ -36,6 +39,7 @@ mod sent_out;
 mod share;
 mod stdout;
 mod systems;
+mod trial;
 mod words;
 
 use std::io::Write;
@@ -45,6 +49,7 @@ use anyhow::anyhow;
 use clap::{Parser, Subcommand};
 use failure::{Failure, OrBadInput};
 use stdout::{Stdout, ink};
+use tolman_experiment::choices;
 
 use crate::system::{MapText, SystemEntry};
 use crate::{Build, Catalogue, Family};
@@ -98,8 +103,12 @@ enum Verb {
     Race(race::Arguments),
     MmsHost(mms_host::Arguments),
     Experiment(experiment::Arguments),
+    Trial(trial::Arguments),
+    Merge(merge::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
+    #[command(hide = true)]
+    Keep(keep::Arguments),
     #[command(hide = true)]
     Solve(former::Arguments),
     #[command(hide = true)]
@@ -115,7 +124,7 @@ struct App<'a> {
 }
 
 impl App<'_> {
-    /// The system of that name.
+    /// Returns the system of that name.
     ///
     /// # Errors
     /// Bad input if there is none.
@@ -123,35 +132,30 @@ impl App<'_> {
         let mut systems = self.catalogue.systems.iter();
         let named = systems.find(|system| system.name() == name);
         named.copied().ok_or_else(|| {
-            let names: Vec<&str> = self
-                .catalogue
-                .systems
-                .iter()
-                .map(|system| system.name())
-                .collect();
+            let names = self.catalogue.systems.iter().map(|system| system.name());
             Failure::BadInput(anyhow!(
-                "there is no system {name}; choose one of: {}",
-                names.join(", ")
+                "there is no system {name}; {}",
+                choices(name, names)
             ))
         })
     }
 
-    /// The family of worlds of that name.
+    /// Returns the family of worlds of that name.
     ///
     /// # Errors
     /// Bad input if there is none.
     fn family(&self, name: &str) -> Result<&Family, Failure> {
         let families = &self.catalogue.families;
         Family::named(families, name).ok_or_else(|| {
-            let names: Vec<&str> = families.iter().map(|family| family.name).collect();
+            let names = families.iter().map(|family| family.name);
             Failure::BadInput(anyhow!(
-                "there is no family {name}; choose one of: {}",
-                names.join(", ")
+                "there is no family {name}; {}",
+                choices(name, names)
             ))
         })
     }
 
-    /// The system that learned a map.
+    /// Returns the system that learned a map.
     ///
     /// # Errors
     /// Bad input if it is unknown.
@@ -168,8 +172,8 @@ impl App<'_> {
     }
 }
 
-/// The command: parses the command line, does what it says by what `catalogue` knows, and returns
-/// the exit code. `build` is what reports say they were made by.
+/// Returns the command: parses the command line, does what it says by what `catalogue` knows, and
+/// returns the exit code. `build` is what reports say they were made by.
 #[must_use]
 pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
     called::set(catalogue.program);
@@ -211,6 +215,9 @@ impl Verb {
             Self::Race(arguments) => race::carry_out(&arguments, out),
             Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
             Self::Experiment(arguments) => experiment::carry_out(app, &arguments, out),
+            Self::Trial(arguments) => trial::carry_out(app, &arguments, out),
+            Self::Merge(arguments) => merge::carry_out(app, &arguments, out),
+            Self::Keep(arguments) => keep::carry_out(&arguments),
             Self::Completions(arguments) => completions::carry_out(&arguments, out),
             Self::Man(arguments) => man::carry_out(&arguments, out),
             Self::Solve(_) => Err(former::refuse("solve", "drive")),

@@ -62,7 +62,7 @@ pub(super) struct Arguments {
     /// What the chance of the searches that have any follows from
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Draw so many of the mazes with the worst score above the floor
+    /// Draw this many of the mazes with the worst score above the floor
     #[arg(long, value_name = "N", default_value_t = 1)]
     worst: usize,
     /// Mazes at a time, instead of one a core
@@ -139,7 +139,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
 }
 
 impl Arguments {
-    /// How to explore under the paper's rules.
+    /// Returns how to explore under the paper's rules.
     ///
     /// # Errors
     /// Bad input if that is not done under them.
@@ -205,7 +205,7 @@ impl Arguments {
         Ok((tried, way))
     }
 
-    /// The way that the mouse is about to go.
+    /// Returns the way that the mouse is about to go.
     fn way(&self, search: Searcher, file: &Path, maze: &Maze) -> Result<Way, Failure> {
         let header = json!({
             "rules": "Plot and Navigate a Virtual Maze",
@@ -218,7 +218,7 @@ impl Arguments {
 }
 
 impl Tried<'_> {
-    /// The outcome in words.
+    /// Returns the outcome in words.
     fn outcome(&self) -> String {
         let judgement = &self.judgement;
         match (judgement.run_1, judgement.run_2, judgement.score) {
@@ -235,7 +235,7 @@ impl Tried<'_> {
     }
 }
 
-/// A step as it is shown.
+/// Returns a step as it is shown.
 fn way_step(step: &RefereedStep, pose: Pose) -> WayStep {
     let RefereedStep { sight, order, .. } = *step;
     let line = json!({
@@ -256,7 +256,7 @@ fn way_step(step: &RefereedStep, pose: Pose) -> WayStep {
     }
 }
 
-/// An order in words: "left, 3 cells".
+/// Returns an order in words: "left, 3 cells".
 fn in_words(order: Order) -> String {
     let turn = match order.rotation {
         Rotation::Degrees(-90) => "left",
@@ -271,7 +271,7 @@ fn in_words(order: Order) -> String {
     }
 }
 
-/// Those that did not finish first, then by how far they are above the floor.
+/// Returns those that did not finish first, then by how far they are above the floor.
 fn draw_worst(tried: &[Tried<'_>], count: usize, out: &mut dyn Write) -> Result<(), Failure> {
     let mut order: Vec<&Tried<'_>> = tried.iter().collect();
     order.sort_by(|a, b| {

@@ -7,12 +7,12 @@ use tolman_geom::{Point, Pose};
 /// Width of the picture, user units.
 const WIDTH: f64 = 640.0;
 
-/// The SVG text of the maze with the robot's way through it; `told` says the outcome.
+/// Returns the SVG text of the maze with the robot's way through it; `told` says the outcome.
 pub(super) fn of(course: &Course, path: &[Pose], told: &str) -> String {
     of_runs(course, &[path], told)
 }
 
-/// The same of several ways; the last is in the first colour and over the others.
+/// Returns the same of several ways; the last is in the first colour and over the others.
 pub(super) fn of_runs(course: &Course, paths: &[&[Pose]], told: &str) -> String {
     let mut plan = tolman_papers::plan_of_course(course, WIDTH);
     let paths = paths.iter().filter(|path| !path.is_empty());

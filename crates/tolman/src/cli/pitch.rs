@@ -1,6 +1,5 @@
 //! `tolman pitch`: the arenas of the place map, and the data that is gathered in them.
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -11,6 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use serde_json::json;
 use tolman_arena::gngslam::{DataSet, Pitch, PlaceScorer, gather};
 use tolman_draw::{Figure, FloorPlan, GraphNode, GraphPicture, NodeMark, Series};
+use tolman_formats::input;
 use tolman_maps::place_map::{
     ColourSpace, FeatureChoice, FeatureTable, ImageFeature, ImageForm, PlaceMap, PlaceMapConfig,
     PlaceRecord,
@@ -60,7 +60,7 @@ pub(super) struct Gather {
     /// How many records; the paper has 1006
     #[arg(long, value_name = "N", default_value_t = 1006)]
     records: usize,
-    /// What all chance follows from
+    /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// By which share each wheel may count wrongly at most
@@ -98,10 +98,10 @@ Example:
 pub(super) struct Score {
     /// The data set, made by `tolman pitch gather`
     file: PathBuf,
-    /// What all chance follows from
+    /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// λ: a node for so many records; if not given, the middle of the paper's range
+    /// λ: one new node per this many records; if not given, the middle of the paper's range
     #[arg(long, value_name = "RECORDS", value_parser = clap::value_parser!(u32).range(1..))]
     growth_period: Option<u32>,
     /// Write the figures as JSON
@@ -147,7 +147,7 @@ fn gathered(arguments: &Gather, out: &mut dyn Write) -> Result<(), Failure> {
 /// Bad input with the file's name.
 fn read(path: &Path) -> Result<DataSet, Failure> {
     let name = path.display();
-    let text = fs::read_to_string(path)
+    let text = input::text(path)
         .with_context(|| {
             format!("cannot read {name}; give a file that `tolman pitch gather` wrote")
         })
@@ -157,13 +157,13 @@ fn read(path: &Path) -> Result<DataSet, Failure> {
         .or_bad_input()
 }
 
-/// The number of records whose cell was written down wrongly.
+/// Returns the number of records whose cell was written down wrongly.
 fn mislabelled(data: &DataSet) -> usize {
     let records = data.records.iter();
     records.filter(|record| record.label != record.cell).count()
 }
 
-/// How far the odometry is from the truth at the last record, m: both begin at the first.
+/// Returns how far the odometry is from the truth at the last record, m: both begin at the first.
 fn drift(data: &DataSet) -> f64 {
     let (Some(first), Some(last)) = (data.records.first(), data.records.last()) else {
         return 0.0;
@@ -214,7 +214,7 @@ fn show(arguments: &Show, out: &mut dyn Write) -> Result<(), Failure> {
 /// Width of the picture, user units.
 const WIDTH: f64 = 640.0;
 
-/// The places of the records in their arena; those that show the goals are filled.
+/// Returns the places of the records in their arena; those that show the goals are filled.
 fn picture(data: &DataSet) -> Result<String, Failure> {
     let pitch = Pitch::named(&data.arena).or_bad_input()?;
     let mut plan = FloorPlan::of_world(&pitch.world, WIDTH);

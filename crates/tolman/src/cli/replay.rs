@@ -1,14 +1,15 @@
 //! `tolman replay`: traces made visible.
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use serde_json::Value;
+use tolman_formats::input;
 use tolman_replay::{Portrait, Replay, Trace, TraceComparison};
 use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer, Pioneer2dx};
 
+use super::kind::Kind;
 use super::replay_file::{self, Overwrite};
 use super::{Failure, OrBadInput, maze};
 
@@ -71,7 +72,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
 }
 
 impl Arguments {
-    /// Where the replay goes.
+    /// Returns where the replay goes.
     fn path(&self) -> Result<PathBuf, Failure> {
         match (&self.out, self.traces.first()) {
             (Some(path), _) => Ok(path.clone()),
@@ -82,7 +83,7 @@ impl Arguments {
         }
     }
 
-    /// The name of a trace without its folder, unless another one has the same.
+    /// Returns the name of a trace without its folder, unless another one has the same.
     fn short_name(&self, path: &Path) -> String {
         let file_name = path.file_name();
         let same = |other: &PathBuf| other.file_name() == file_name && other != path;
@@ -93,7 +94,7 @@ impl Arguments {
     }
 }
 
-/// The replay of traces of one kind of robot.
+/// Returns the replay of traces of one kind of robot.
 fn of<M: Portrait>(
     arguments: &Arguments,
     texts: &[(&PathBuf, String)],
@@ -101,7 +102,8 @@ fn of<M: Portrait>(
     let mut traces = Vec::new();
     for (path, text) in texts {
         let trace = Trace::<M>::read(arguments.short_name(path), text.as_bytes());
-        traces.push(trace.with_context(|| maze::name(path)).or_bad_input()?);
+        let trace = trace.map_err(|error| Kind::Trace.explain(text, &maze::name(path), error));
+        traces.push(trace.or_bad_input()?);
     }
     Replay::of_traces(&traces).or_bad_input()
 }
@@ -109,9 +111,9 @@ fn of<M: Portrait>(
 /// Reads the trace at `path`.
 fn text(path: &Path) -> Result<String, Failure> {
     let text = if path.as_os_str() == "-" {
-        std::io::read_to_string(std::io::stdin().lock())
+        input::text_of(std::io::stdin().lock())
     } else {
-        fs::read_to_string(path)
+        input::text(path)
     };
     text.with_context(|| format!("cannot read {}; give the path of a trace", maze::name(path)))
         .or_bad_input()

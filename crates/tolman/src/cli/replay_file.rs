@@ -19,7 +19,7 @@ pub(super) enum Overwrite {
 }
 
 impl Overwrite {
-    /// What `--force` says.
+    /// Returns what `--force` says.
     pub(super) const fn if_forced(force: bool) -> Self {
         if force { Self::Anything } else { Self::Replays }
     }
@@ -28,7 +28,7 @@ impl Overwrite {
 /// Writes a replay to the file at `path`, whole or not at all.
 ///
 /// # Errors
-/// Bad input if the file is there and is no replay; a failure if it cannot be written.
+/// Bad input if the file exists and is not a replay; a failure if it cannot be written.
 pub(super) fn write(path: &Path, replay: Replay, overwrite: Overwrite) -> Result<(), Failure> {
     check(path, overwrite)?;
     let replay = replay.fact("made by", called::command());
@@ -36,7 +36,7 @@ pub(super) fn write(path: &Path, replay: Replay, overwrite: Overwrite) -> Result
     file::write(path, &page)
 }
 
-/// Checks before the work is done that the file at `path` is none, or a replay.
+/// Checks before the work is done that the file at `path` does not exist yet, or is a replay.
 ///
 /// # Errors
 /// Bad input if it is anything else.
@@ -53,12 +53,12 @@ pub(super) fn check(path: &Path, overwrite: Overwrite) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::BadInput(anyhow!(
-        "{} is there and is no replay; give another name, or --force to overwrite it",
+        "{} exists and is not a replay; give another name, or --force to overwrite it",
         path.display()
     )))
 }
 
-/// The address at which a browser opens the file.
+/// Returns the address at which a browser opens the file.
 pub(super) fn address(path: &Path) -> String {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/-_.~:".contains(&byte);

@@ -137,7 +137,7 @@ fn tell_aligned(as_json: bool, score: &AlignedScore, out: &mut dyn Write) -> Res
     )?)
 }
 
-/// A number of things in words.
+/// Returns a number of things in words.
 fn counted(count: usize, thing: &str) -> String {
     match count {
         1 => format!("1 {thing}"),

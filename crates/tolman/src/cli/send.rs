@@ -106,7 +106,7 @@ fn scene(outing: &dyn Outing, setup: &Setup<'_>, word: &str) -> Scene {
     }
 }
 
-/// The outcome in words.
+/// Returns the outcome in words.
 fn told(ended: &Ended, outing: &dyn Outing, word: &str) -> String {
     let end = match &ended.end {
         TaskEnd::Done => "is done",
@@ -143,7 +143,7 @@ pub(super) fn check_origin(map: &MapText, outing: &dyn Outing) -> Result<(), Fai
     };
     let error = if !world && origin.world == course.name {
         anyhow!(
-            "{} has been drawn anew since the map in {} was learned; learn it again, or add --anyway",
+            "{} has been drawn again since the map in {} was learned; learn it again, or add --anyway",
             course.name,
             map.name
         )

@@ -12,7 +12,7 @@ use crate::system::{Settings, Setup};
 pub(super) struct SentOut {
     #[command(flatten)]
     ground: Ground,
-    /// What all chance follows from
+    /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// The robot, if the system can drive several
@@ -29,7 +29,7 @@ pub(super) struct SentOut {
     /// from east
     #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
     start: Option<Start>,
-    /// Give up after so many time steps
+    /// Give up after this many time steps
     #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
     steps: Option<u32>,
 }

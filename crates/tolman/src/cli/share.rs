@@ -1,6 +1,6 @@
 //! Shares and similarities on the command line.
 
-/// A number within 0 … 1, for `value_parser`.
+/// Returns a number within 0 … 1, for `value_parser`.
 ///
 /// # Errors
 /// Anything else.

@@ -30,7 +30,7 @@ fn named(error: &io::Error) -> io::Error {
     )
 }
 
-/// Whether colours are wanted there.
+/// Returns whether colours are wanted there.
 pub(super) fn ink() -> Ink {
     match anstream::AutoStream::choice(&io::stdout()) {
         anstream::ColorChoice::Never => Ink::Plain,

@@ -13,6 +13,6 @@ pub(super) fn words<T: Clone + Send + Sync + 'static, const N: usize>(
         let meant = words.iter().find(|(word, ..)| *word == given);
         meant
             .map(|(.., value)| value.clone())
-            .ok_or("this word is none of them")
+            .ok_or("this word is not one of them")
     })
 }

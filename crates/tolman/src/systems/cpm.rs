@@ -44,7 +44,7 @@ const PRESETS: [(&str, &str); 3] = [
     ),
 ];
 
-/// What each preset stands for.
+/// Returns what each preset stands for.
 fn modes() -> [Mode; 3] {
     [
         Mode::Reckoned(CpmConfig::robust()),
@@ -160,7 +160,7 @@ impl Ground {
         })
     }
 
-    /// The common patterns that its robot learns in the learning maze (section 4.1).
+    /// Returns the common patterns that its robot learns in the learning maze (section 4.1).
     fn patterns(&self, seed: u64) -> Result<CommonPatterns, Error> {
         match self.robot {
             EPUCK => patterns_of_epuck(seed),
@@ -240,7 +240,7 @@ fn patient(course: &Course) -> u32 {
     }
 }
 
-/// In a free world it may make so many times the steps of a run to the goal.
+/// Limit of its time steps in a free world, as a multiple of those of a run to the goal.
 const FREE_STEPS: u32 = 500;
 
 fn walker(robot: &str, width: f64) -> Result<WalkerConfig, Error> {
@@ -254,14 +254,14 @@ fn epuck_at(course: &Course, start: Pose, seed: u64) -> Result<SimulatedEpuck, E
     Ok(course.robot_at(start, Epuck::new(epuck())?, seed)?)
 }
 
-/// The laser Pioneer as an e-puck.
+/// Returns the laser Pioneer as an e-puck.
 fn ring_at(course: &Course, start: Pose, seed: u64) -> Result<RingAsEpuck<CoursePioneer>, Error> {
     let pioneer = pioneer_at(course, start, seed)?;
     let measures = ring_measures(&calibrated(), course.corridor_width);
     Ok(RingAsEpuck::new(pioneer, measures)?)
 }
 
-/// The common patterns that the e-puck learns in the learning maze (section 4.1).
+/// Returns the common patterns that the e-puck learns in the learning maze (section 4.1).
 pub(crate) fn patterns_of_epuck(seed: u64) -> Result<CommonPatterns, Error> {
     let course = epuck_course("learning", tolman_maze::read(LEARNING_MAZE)?)?;
     Ok(learn(&course, seed)?)
@@ -280,18 +280,17 @@ fn keep(cpm: &cpm::Cpm, mode: Mode, origin: &Origin) -> Result<Option<String>, B
     Ok(Some(file.to_json()?))
 }
 
-/// Why a map of a free world is unfinished, as far as it knows itself: nobody has counted what is
-/// there.
+/// Returns why a map of a free world is unfinished, as far as it knows itself: nobody has counted
+/// what is there.
 fn unfinished(map: &CpMap) -> Option<String> {
     let open = map.open_ports().count();
     (open > 0).then(|| {
-        format!(
-            "nobody has been through {open} of its ports: give it more --steps, or another --seed"
-        )
+        format!("{open} of its ports are unexplored: give it more --steps, or another --seed")
     })
 }
 
-/// Why a map is not that of the whole maze, where the robot began as the maze says or elsewhere.
+/// Returns why a map is not that of the whole maze, where the robot began as the maze says or
+/// elsewhere.
 fn complaint(map: &CpMap, maze: &Maze, at_start: bool) -> Option<String> {
     let (found, there_are) = (map.fragments().len(), TrueFragments::of(maze).count());
     if found != there_are as usize {
@@ -334,7 +333,7 @@ impl LearnedMap for MapFile {
                 patterns.cluster_count()
             ),
             format!(
-                "{} fragments, {} junctions, {} ports nobody has been through",
+                "{} fragments, {} junctions, {} unexplored ports",
                 map.fragments().len(),
                 map.junctions().len(),
                 map.open_ports().count()
@@ -426,7 +425,7 @@ impl LearnedMap for MapFile {
     }
 }
 
-/// The maze that a map was learned in, made ready for the robot that learned it.
+/// Returns the maze that a map was learned in, made ready for the robot that learned it.
 fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, Error> {
     Ok(match &*file.origin.robot {
         EPUCK => epuck_course_on(&file.origin.world, terrain)?,

@@ -465,7 +465,7 @@ fn direction(link: &Link) -> String {
     way(link.action)
 }
 
-/// What an action of a survey's map is called.
+/// Returns what an action of a survey's map is called.
 fn way(Action(action): Action) -> String {
     let direction = Direction::ALL.get(action as usize);
     direction.map_or_else(|| format!("action {action}"), ToString::to_string)

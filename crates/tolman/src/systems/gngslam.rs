@@ -241,7 +241,7 @@ impl Ground {
     }
 }
 
-/// Where the robot truly was when each place was made: those of before, and the new ones.
+/// Returns where the robot truly was when each place was made: those of before, and the new ones.
 fn with(before: &[Point], made: &[Founding]) -> Vec<Point> {
     let new = made.iter().skip(before.len()).map(|site| site.position);
     before.iter().copied().chain(new).collect()
@@ -258,8 +258,8 @@ const NEAR: f64 = 1.5;
 /// The share of the floor that a finished map has places near.
 const MOST_COVERED: f64 = 0.9;
 
-/// Why a map is wrong or unfinished as one of this course, of which it is known where the robot
-/// truly was when each place was made; `None` if it is right.
+/// Returns why a map is wrong or unfinished as one of this course, of which it is known where the
+/// robot truly was when each place was made; `None` if it is right.
 fn complaint(
     graph: &PlaceGraph,
     sightings: &[LandmarkSighting],
@@ -383,7 +383,7 @@ impl LearnedMap for MapFile {
         let course = course_of(self, terrain)?;
         let drawn = self.origin.drawing.as_ref();
         if drawn.is_some_and(|drawn| *drawn != course.drawing()) {
-            let why = "it was learned in another world, or this one has been drawn anew since";
+            let why = "it was learned in another world, or this one has been drawn again since";
             return Ok(Some(why.to_owned()));
         }
         if self.sites.is_empty() {
@@ -398,7 +398,7 @@ impl LearnedMap for MapFile {
     }
 }
 
-/// The number of places where the goal was sensed.
+/// Returns the number of places where the goal was sensed.
 fn goals(file: &MapFile) -> usize {
     let sightings = file.sightings.iter();
     sightings
@@ -406,7 +406,7 @@ fn goals(file: &MapFile) -> usize {
         .count()
 }
 
-/// The place amid those where the goal was sensed.
+/// Returns the place amid those where the goal was sensed.
 fn goal_of(file: &MapFile) -> Option<u32> {
     let system = OnlineSlam::on(file.graph.clone(), file.config, 0);
     system
@@ -414,7 +414,7 @@ fn goal_of(file: &MapFile) -> Option<u32> {
         .place_with(Landmark::Goal)
 }
 
-/// The maze or world that a map was learned in, for the robot that learned it.
+/// Returns the maze or world that a map was learned in, for the robot that learned it.
 fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, Error> {
     let body = body_of(&file.origin.robot);
     Ok(terrain.course(&file.origin.world, &body)?)

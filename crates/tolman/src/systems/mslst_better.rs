@@ -13,10 +13,10 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::scan_map::{ScanChart, ScanPlace};
 use tolman_maze::Direction;
 use tolman_papers::gngslam::drawing::places_over_world;
-use tolman_robot::{Landmark, Standing, Task};
+use tolman_robot::Landmark;
 use tolman_systems::mslst::BetterMslst;
 use tolman_systems::mslst::better::{BetterConfig, BetterMap, BetterMapFile, BetterNavigator};
-use tolman_systems::{Actor, Brain, Origin};
+use tolman_systems::{Actor, Origin};
 
 use crate::system::{LearnedMap, MapText, Setup, SystemEntry, laser_pioneer};
 
@@ -83,13 +83,8 @@ impl SystemEntry for MslstBetterEntry {
             })
             .judging(move |actor, made, _task| {
                 let brain = actor.brain();
-                match brain.standing(Task::Explore) {
-                    Standing::UnderWay => {
-                        Some("a gap is left that it did not come to: try another --seed".to_owned())
-                    }
-                    Standing::GaveUp { why } => Some(why),
-                    Standing::Done => complaint(&brain.chart(), &sites(start, made), &judged_on),
-                }
+                let doubt = brain.doubt().map(ToOwned::to_owned);
+                doubt.or_else(|| complaint(&brain.chart(), &sites(start, made), &judged_on))
             });
         Ok(Box::new(sent))
     }
@@ -125,14 +120,15 @@ fn read(map: &MapText) -> Result<BetterMapFile, Error> {
     BetterMapFile::from_json(&map.text).with_context(|| map.name.clone())
 }
 
-/// Where the robot truly was when each place was made: the first one before its first action.
+/// Returns where the robot truly was when each place was made: the first one before its first
+/// action.
 fn sites(start: Point, made: &[Founding]) -> Vec<Point> {
     let first = made.first().map(|_| start);
     let others = made.iter().skip(1).map(|site| site.position);
     first.into_iter().chain(others).collect()
 }
 
-/// How a map lies over the world, if somebody watched.
+/// Returns how a map lies over the world, if somebody watched.
 fn laid(file: &BetterMapFile) -> Option<LaidOver> {
     laid_over(&file.chart, &file.sites)
 }
@@ -142,11 +138,11 @@ fn laid_over(chart: &ScanChart, sites: &[Point]) -> Option<LaidOver> {
     LaidOver::of_places(places, sites)
 }
 
-/// Why a map is wrong or unfinished as one of this course, of which it is known where the robot
-/// truly was when each place was made; `None` if it is right.
+/// Returns why a map is wrong or unfinished as one of this course, of which it is known where the
+/// robot truly was when each place was made; `None` if it is right.
 fn complaint(chart: &ScanChart, sites: &[Point], course: &Course) -> Option<String> {
-    if chart.goal().is_empty() {
-        return Some("the robot never sensed the goal: give it more --steps".to_owned());
+    if let Some(doubt) = chart.doubt() {
+        return Some(doubt.to_owned());
     }
     let laid = laid_over(chart, sites)?;
     if laid.error_m > MOST_ERROR {
@@ -180,7 +176,7 @@ fn goals(chart: &ScanChart) -> impl Iterator<Item = u32> + '_ {
         .map(|(number, _)| number)
 }
 
-/// How many ways lead from place to place, each counted once.
+/// Returns how many ways lead from place to place, each counted once.
 fn ways(chart: &ScanChart) -> usize {
     chart.view().links.len() / 2
 }
@@ -253,7 +249,7 @@ impl LearnedMap for BetterMapFile {
         let course = terrain.course(&self.origin.world, &body())?;
         let drawn = self.origin.drawing.as_ref();
         if drawn.is_some_and(|drawn| *drawn != course.drawing()) {
-            let why = "it was learned in another world, or this one has been drawn anew since";
+            let why = "it was learned in another world, or this one has been drawn again since";
             return Ok(Some(why.to_owned()));
         }
         if self.sites.is_empty() {
@@ -263,7 +259,7 @@ impl LearnedMap for BetterMapFile {
     }
 }
 
-/// A step of a way from place to place, in words.
+/// Returns a step of a way from place to place, in words.
 fn leg(places: &[ScanPlace], step: &[u32]) -> String {
     let [a, b] = [step[0], step[1]].map(|place| places[place as usize].position);
     let way = b - a;

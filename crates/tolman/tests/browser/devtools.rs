@@ -43,7 +43,7 @@ pub(crate) struct Devtools {
 }
 
 impl Devtools {
-    /// Starts a chromium with a new profile; none if it is not installed.
+    /// Starts a chromium with a new profile, or `None` if it is not installed.
     pub(crate) fn start() -> Option<Self> {
         static PROFILES: AtomicU32 = AtomicU32::new(0);
         let number = PROFILES.fetch_add(1, Ordering::Relaxed);
@@ -108,7 +108,7 @@ impl Devtools {
         }
     }
 
-    /// What has happened so far.
+    /// Returns what has happened so far.
     pub(crate) fn events(&self) -> &[Value] {
         &self.events
     }

@@ -18,7 +18,7 @@ use std::process::{Command, Stdio};
 
 use tab::Tab;
 
-/// A browser with one empty tab; none, said on stderr, where chromium is not installed.
+/// Returns a browser with one empty tab; none, said on stderr, where chromium is not installed.
 fn tab() -> Option<Tab> {
     let tab = Tab::open();
     if tab.is_none() {
@@ -33,7 +33,7 @@ fn tell(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// An empty folder of this name, by itself for each test.
+/// Returns an empty folder of this name, by itself for each test.
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("browser")

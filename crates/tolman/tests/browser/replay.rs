@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::tab::{Scheme, Tab};
 use crate::{ended, folder, tab, tell, tolman};
 
-/// A folder with the demo in it, and the demo.
+/// Returns a folder with the demo in it, and the demo.
 fn demo(name: &str) -> (PathBuf, PathBuf) {
     let folder = folder(name);
     let page = folder.join("demo.html");
@@ -14,8 +14,8 @@ fn demo(name: &str) -> (PathBuf, PathBuf) {
     (folder, page)
 }
 
-/// The replay of so many steps in a maze of this size, from which a robot without a plan does not
-/// come out in so many.
+/// Returns a replay of `steps` steps in a maze of this size, which a robot without a plan does not
+/// leave in that time.
 fn long_run(folder: &Path, size: &str, steps: u32) -> PathBuf {
     let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
     let (maze, page) = (path("large-hard.maze"), path("run.html"));

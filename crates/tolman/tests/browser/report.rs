@@ -7,8 +7,8 @@ use serde_json::Value;
 use crate::tab::{Scheme, Tab};
 use crate::{folder, tab, tolman};
 
-/// The folder of this name and in it the report of a short experiment, in mazes of its own or in
-/// this one.
+/// Returns the folder of this name and in it the report of a short experiment, in mazes of its own
+/// or in this one.
 fn report(name: &str, maze: Option<&str>) -> (PathBuf, PathBuf) {
     let folder = folder(name);
     let out = folder.join("baselines");
@@ -35,7 +35,7 @@ fn a_report_is_seen_in_every_light_and_on_every_width() {
     tab.assert_content();
 }
 
-/// The values of the first metric's rows in a column of the first table, from the top down.
+/// Returns the values of the first metric's rows in a column of the first table, from the top down.
 fn column(tab: &mut Tab, column: &str) -> Vec<f64> {
     let values = tab.eval(&format!(
         "[...document.querySelector('table').tBodies[0].querySelectorAll('[data-column={column}]')]

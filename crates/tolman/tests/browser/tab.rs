@@ -74,7 +74,7 @@ impl Tab {
         }
     }
 
-    /// The value of an expression; a promise is awaited.
+    /// Returns the value of an expression; a promise is awaited.
     #[track_caller]
     pub(crate) fn eval(&mut self, expression: &str) -> Value {
         let params = json!({
@@ -89,7 +89,7 @@ impl Tab {
         answer["result"]["value"].take()
     }
 
-    /// The number that an expression is.
+    /// Returns the number that an expression is.
     #[track_caller]
     pub(crate) fn number(&mut self, expression: &str) -> f64 {
         let value = self.eval(expression);
@@ -97,7 +97,7 @@ impl Tab {
         value.as_f64().unwrap()
     }
 
-    /// The whole number that an expression is.
+    /// Returns the whole number that an expression is.
     #[track_caller]
     pub(crate) fn whole(&mut self, expression: &str) -> u64 {
         let value = self.eval(expression);
@@ -153,7 +153,7 @@ impl Tab {
         }
     }
 
-    /// Gives the page so many pixels; up to a phone's width it is a phone.
+    /// Gives the page this many pixels; up to a phone's width it is a phone.
     #[track_caller]
     pub(crate) fn resize(&mut self, width: u32, height: u32) {
         let params = json!({
@@ -231,7 +231,7 @@ impl Tab {
         assert!(self.overflow() <= 0.0, "{seen}: scrolls sideways");
     }
 
-    /// What has gone wrong on the page so far, and what it asked of the network.
+    /// Returns what has gone wrong on the page so far, and what it asked of the network.
     pub(crate) fn complaints(&self) -> Vec<String> {
         let events = self.devtools.events();
         events.iter().filter_map(complaint).collect()
@@ -245,7 +245,7 @@ impl Tab {
     }
 }
 
-/// What an event says against a page.
+/// Returns what an event says against a page.
 fn complaint(event: &Value) -> Option<String> {
     let params = &event["params"];
     let wrong = match event["method"].as_str()? {

@@ -8,7 +8,7 @@ fn rooms() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../mazes/graphs/rooms.g2o")
 }
 
-/// A folder with the project's own graph, audited.
+/// Returns a folder with the project's own graph, audited.
 fn audited(name: &str) -> PathBuf {
     let folder = folder(name);
     fs::copy(rooms(), folder.join("rooms.g2o")).unwrap();

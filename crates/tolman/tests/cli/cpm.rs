@@ -87,7 +87,7 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     fs::write(folder.join("cut.json"), &text[..40]).unwrap();
     tolman_in(&folder, &["map", "show", "cut.json"]).refused(2, &cut_off);
     fs::write(folder.join("none.json"), "{}").unwrap();
-    let none = ["none.json: this is no learned map", "tolman learn"];
+    let none = ["none.json: this is not a learned map", "tolman learn"];
     tolman_in(&folder, &["map", "show", "none.json"]).refused(2, &none);
     let later = text.replace("\"version\":2", "\"version\":3");
     fs::write(folder.join("later.json"), later).unwrap();
@@ -284,7 +284,7 @@ fn a_map_of_another_robot_or_maze_is_refused_or_fails_as_it_is_said() {
     solve("map.json", "crossing.maze").refused(2, &["map.json was learned in Fork"]);
     let redrawn = MAZE.replace("|   | G |   |", "|   | G     |");
     fs::write(folder.join("redrawn.maze"), redrawn).unwrap();
-    solve("map.json", "redrawn.maze").refused(2, &["Fork has been drawn anew"]);
+    solve("map.json", "redrawn.maze").refused(2, &["Fork has been drawn again"]);
     let pioneer = [
         &drive("map.json", "fork.maze")[..],
         &["--robot", "laser-pioneer"],

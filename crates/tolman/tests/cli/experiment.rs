@@ -13,7 +13,7 @@ use crate::{CORRIDOR, folder, tolman, tolman_in};
 #[cfg(unix)]
 use crate::{Ended, command_in};
 
-/// Two runs of each row of the baselines in the corridor, results in `out`.
+/// Returns two runs of each row of the baselines in the corridor, results in `out`.
 fn baselines(folder: &Path, out: &str, more: &[&str]) -> crate::Ended {
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
     let usual = [
@@ -36,6 +36,32 @@ fn the_list_names_what_there_is() {
             .done()
             .contains("baselines")
     );
+}
+
+#[test]
+#[ignore = "takes a minute: cargo test -p tolman --test cli -- --ignored tour"]
+fn alone_it_is_a_tour_of_all_experiments() {
+    let folder = folder("tour");
+    let ended = tolman_in(&folder, &["experiment"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    for part in [
+        "1 of 8 · Mazes without a map",
+        "8 of 8 · Logs",
+        "experiment --all",
+    ] {
+        assert!(ended.out.contains(part), "no {part} in:\n{}", ended.out);
+    }
+    for line in ended.out.lines() {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
+    let last = ended.out.lines().rev().take(3).collect::<String>();
+    assert!(last.contains("arena"), "what is left out is named: {last}");
+    let page = fs::read_to_string(folder.join("results/tour/report.html")).unwrap();
+    for name in ["baselines", "cpm", "gngslam"] {
+        assert!(page.contains(&format!("{name}/report.html")), "{name}");
+        let own = folder.join("results/tour").join(name).join("report.html");
+        assert!(own.is_file(), "{name}");
+    }
 }
 
 #[test]
@@ -66,6 +92,35 @@ fn two_folders_are_compared() {
     );
     compare("one", "three").refused(1, &["one and three differ", "row Avoid: seed is"]);
     compare("one", "four").refused(1, &["four/runs.jsonl"]);
+}
+
+#[test]
+fn a_folder_is_verified() {
+    let folder = folder("verify");
+    baselines(&folder, "one", &[]).done();
+    let verify = [
+        "experiment",
+        "baselines",
+        "--maze",
+        "corridor.maze",
+        "--verify",
+        "one",
+    ];
+    let told = tolman_in(&folder, &verify);
+    assert_eq!(told.code, Some(0), "{}", told.err);
+    assert!(told.out.contains("were played again and agree to the bit"));
+    let file = folder.join("one/runs.jsonl");
+    let whole = fs::read_to_string(&file).unwrap();
+    let flipped = whole.replacen("\"steps\":12,", "\"steps\":13,", 1);
+    assert_ne!(flipped, whole);
+    fs::write(&file, flipped).unwrap();
+    tolman_in(&folder, &verify).refused(1, &["runs.jsonl, line", "checksum"]);
+    assert_ne!(
+        fs::read_to_string(&file).unwrap(),
+        whole,
+        "nothing is mended"
+    );
+    tolman_in(&folder, &[&verify[..], &["--seed", "2"]].concat()).refused(2, &["seed 1"]);
 }
 
 #[test]
@@ -139,7 +194,13 @@ fn an_interrupted_experiment_says_how_it_goes_on() {
     let killed = Command::new("kill").args(["-INT", &id]).status().unwrap();
     assert!(killed.success());
     let told = Ended::from(child.wait_with_output().unwrap());
-    told.refused(130, &["stopped after", "the same command goes on"]);
+    told.refused(
+        130,
+        &[
+            "stopped after",
+            "go on from there with: tolman experiment baselines --maze corridor.maze",
+        ],
+    );
     fs::remove_dir_all(folder).unwrap();
 }
 
@@ -215,4 +276,31 @@ fn a_table_is_filled_alone_and_the_others_runs_are_kept() {
     let ended = baselines(&folder, "out", &["--table", "nope"]);
     assert_eq!(ended.code, Some(2), "{}", ended.err);
     assert!(ended.err.contains("\"nope\""), "{}", ended.err);
+}
+
+#[test]
+fn shares_are_merged_to_what_one_command_makes() {
+    let folder = folder("shares");
+    baselines(&folder, "one", &[]).done();
+    let share = "trial --experiment baselines --maze corridor.maze --runs 2 --out many --chunk";
+    let share: Vec<&str> = share.split(' ').collect();
+    let share = |chunk: &str| tolman_in(&folder, &[&share[..], &[chunk]].concat());
+    share("3/8").done();
+    tolman_in(&folder, &["merge", "many"]).refused(2, &["runs are missing", "1/8, 2/8, 4/8"]);
+    for number in [1, 2, 4, 5, 6, 7, 8] {
+        share(&format!("{number}/8")).done();
+    }
+    let merged = tolman_in(&folder, &["merge", "many"]);
+    assert_eq!(merged.code, Some(0), "{}", merged.err);
+    assert!(
+        merged.out.contains("The report: many/report.html"),
+        "{}",
+        merged.out
+    );
+    for name in ["runs.jsonl", "summary.json"] {
+        let read = |out: &str| fs::read_to_string(folder.join(out).join(name)).unwrap();
+        assert_eq!(read("one"), read("many"), "{name}");
+    }
+    share("9/8").refused(2, &["9/8", "such as 3/8"]);
+    tolman_in(&folder, &["merge", "one"]).refused(2, &["there are no chunks in one"]);
 }

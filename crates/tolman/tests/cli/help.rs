@@ -27,6 +27,8 @@ fn every_verb_explains_itself() {
         &["completions"],
         &["man"],
         &["experiment"],
+        &["trial"],
+        &["merge"],
         &["maze", "show"],
         &["maze", "check"],
         &["maze", "convert"],

@@ -10,7 +10,7 @@ fn office() -> PathBuf {
     root.join("logs/office.clf.gz").canonicalize().unwrap()
 }
 
-/// The first lines of the small log, plain.
+/// Returns the first lines of the small log, plain.
 fn beginning() -> String {
     use std::io::Read;
     let packed = fs::File::open(office()).unwrap();

@@ -7,10 +7,14 @@
 
 mod arena;
 mod audit;
+#[cfg(target_os = "linux")]
+mod bad_mice;
 mod cpm;
+mod demo;
 mod experiment;
 mod gngslam;
 mod help;
+mod helpful;
 mod learn;
 #[cfg(unix)]
 mod live;
@@ -109,7 +113,7 @@ fn tolman_fed(text: &str, arguments: &[&str]) -> Ended {
     child.wait_with_output().unwrap().into()
 }
 
-/// An empty folder of this name, by itself for each test.
+/// Returns an empty folder of this name, by itself for each test.
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     if folder.exists() {

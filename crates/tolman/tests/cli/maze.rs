@@ -44,7 +44,8 @@ fn a_malformed_maze_is_named_with_line_and_column() {
 fn what_is_no_text_is_refused() {
     let folder = folder("binary");
     std::fs::write(folder.join("bytes"), [b'o', 0xff, 0xfe]).unwrap();
-    tolman_in(&folder, &["maze", "check", "bytes"]).refused(2, &["bytes", "byte 1 is not UTF-8"]);
+    tolman_in(&folder, &["maze", "check", "bytes"])
+        .refused(2, &["bytes", "byte 1 of the file is not UTF-8"]);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::{folder, tolman_in};
 const SQUARE: &str = "+---+---+\n|     G |\n+   +   +\n| S |   |\n+---+---+\n";
 
 /// 4 × 4 with the goal in the middle: one cell east of the second cell north of the start.
-const MIDDLE: &str = "\
+pub(crate) const MIDDLE: &str = "\
 +---+---+---+---+
 |               |
 +   +---+---+   +

@@ -17,7 +17,8 @@ o   o   o---o---o   o
 o---o---o---o---o---o
 ";
 
-/// The rules once more, as short as they go: the steps of both runs. Each step says where it led.
+/// Returns the rules once more, as short as they go: the steps of both runs. Each step says where
+/// it led.
 fn replay(maze: &Maze, text: &str) -> Option<(u32, u32)> {
     let start = maze.start()?;
     let (mut at, mut heading) = start;

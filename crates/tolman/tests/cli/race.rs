@@ -130,7 +130,7 @@ fn one_bad_maze_in_a_folder_does_not_void_the_others() {
     }
 }
 
-/// A row of cells.
+/// Returns a row of cells.
 fn corridor(cells: usize) -> String {
     let line = format!("{}+\n", "+---".repeat(cells));
     format!("{line}|{}|\n{line}", " ".repeat(4 * cells - 1))

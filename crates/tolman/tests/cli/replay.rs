@@ -3,7 +3,7 @@ use std::path::Path;
 
 use crate::{CORRIDOR, folder, tolman_fed, tolman_in};
 
-/// What the player is given.
+/// Returns what the player is given.
 fn data(file: &Path) -> serde_json::Value {
     let page = fs::read_to_string(file).unwrap();
     let begin = "type=\"application/json\">";
@@ -11,8 +11,8 @@ fn data(file: &Path) -> serde_json::Value {
     serde_json::from_str(&data[..data.find("</script>").unwrap()]).unwrap()
 }
 
-/// A folder with a maze and the traces of a run that stopped early, of the whole run and of another
-/// one.
+/// Returns a folder with a maze and the traces of a run that stopped early, of the whole run and of
+/// another one.
 fn traces(name: &str) -> std::path::PathBuf {
     let folder = folder(&format!("replay-{name}"));
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
@@ -33,7 +33,7 @@ fn the_demo_needs_nothing_and_overwrites_nothing() {
     let folder = folder("replay-demo");
     let first = tolman_in(&folder, &["demo"]).done();
     assert!(
-        first.contains("found the destination") && first.contains("tolman-demo.html"),
+        first.contains("drove to the goal") && first.contains("tolman-demo.html"),
         "{first}"
     );
     let second = tolman_in(&folder, &["demo"]).done();
@@ -43,7 +43,7 @@ fn the_demo_needs_nothing_and_overwrites_nothing() {
 
     fs::write(folder.join("letter.html"), "my letter").unwrap();
     tolman_in(&folder, &["demo", "--out", "letter.html"])
-        .refused(2, &["letter.html", "no replay", "--force"]);
+        .refused(2, &["letter.html", "not a replay", "--force"]);
     let letter = fs::read_to_string(folder.join("letter.html")).unwrap();
     assert_eq!(letter, "my letter");
 }

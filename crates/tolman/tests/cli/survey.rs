@@ -180,7 +180,7 @@ fn a_file_that_is_no_sound_survey_is_refused() {
         tolman_in(&folder, &on).refused(2, &["changed.json", expect]);
         assert!(!folder.join("never.json").exists());
     };
-    check("{}", "no learned map");
+    check("{}", "not a learned map");
     check(&text[..text.len() - 40], "this map is cut off");
     check(
         &text.replacen("\"version\":2", "\"version\":7", 1),

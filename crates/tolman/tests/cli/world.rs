@@ -95,7 +95,7 @@ fn a_map_of_a_world_is_learned_and_followed_there_alone() {
     .done();
     let moved = PASSAGE.replace("[3, 2], [3, 3]", "[4, 2], [4, 3]");
     fs::write(folder.join("passage.json"), moved).unwrap();
-    let parts = ["passage.json has been drawn anew", "--anyway"];
+    let parts = ["passage.json has been drawn again", "--anyway"];
     tolman_in(&folder, &[&drive[..], &["passage.json"]].concat()).refused(2, &parts);
     let maze = ["drive", "--map", "map.json", "--maze", "corridor.maze"];
     tolman_in(&folder, &maze).refused(2, &["learned in passage.json", "--anyway"]);
@@ -114,7 +114,7 @@ fn a_map_of_cpm_says_what_it_can_of_a_world() {
     let replay = fs::read_to_string(folder.join("map.html")).unwrap();
     assert!(replay.contains("places on the map"));
     let check = ["map", "check", "map.json", "--world", world];
-    tolman_in(&folder, &check).refused(1, &["unfinished", "nobody has been through"]);
+    tolman_in(&folder, &check).refused(1, &["unfinished", "unexplored"]);
     let show = [
         "map", "show", "map.json", "--svg", "map.svg", "--world", world,
     ];
@@ -183,7 +183,7 @@ fn a_world_that_does_not_serve_is_refused() {
     );
     refused(
         &["--world", "passage.json", "--corridor", "no"],
-        &["`no` is no finite number"],
+        &["`no` is not a finite number"],
     );
     fs::write(folder.join("hall.pgm"), "P2 8 4 255 254").unwrap();
     let torn = ["--world", "hall.yaml", "--goal", "2,0"];

@@ -39,7 +39,7 @@ impl PlaneMaze {
     }
 
     /// For each junction that the map has ways to, the port of this world that is its port 0, given
-    /// where the robot is on both; none if the map is wrong somewhere. O(fragments · log
+    /// where the robot is on both, or `None` if the map is wrong somewhere. O(fragments · log
     /// fragments).
     #[must_use]
     pub fn correspondence(

@@ -44,7 +44,7 @@ pub enum Likeness {
     Kinds(u32),
 }
 
-/// Why there is no such world.
+/// Reason why there is no such world.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MazeConfigError {
@@ -53,12 +53,12 @@ pub enum MazeConfigError {
     OutOfRange {
         /// Its name.
         field: &'static str,
-        /// What it is.
+        /// The value given.
         value: f64,
         /// What it may be, in words.
         range: &'static str,
     },
-    /// So many corridors cannot all differ.
+    /// Too many corridors: they cannot all differ.
     #[error(
         "corridor {corridor} is like another in a thousand draws: take more patterns or observations"
     )]
@@ -75,8 +75,8 @@ pub enum MazeConfigError {
 }
 
 impl MazeConfig {
-    /// A maze like the paper's Maze-3: 4 × 4 cells, junctions of three and four ports, 31 patterns,
-    /// distinctive.
+    /// Returns a maze like the paper's Maze-3: 4 × 4 cells, junctions of three and four ports, 31
+    /// patterns, distinctive.
     #[must_use]
     pub const fn small() -> Self {
         Self {
@@ -92,7 +92,7 @@ impl MazeConfig {
         }
     }
 
-    /// One of the mazes of all sorts: from trees to all loops there may be, ports in four
+    /// Returns one of the mazes of all sorts: from trees to all loops there may be, ports in four
     /// directions or in eight.
     #[must_use]
     pub fn any(number: u32) -> Self {
@@ -151,9 +151,9 @@ impl MazeConfig {
 }
 
 impl PlaneMaze {
-    /// A random maze: a random tree of corridors on a grid of cells, some loops, a start and a
-    /// goal, in dead ends if there are any. Cells with two ways out are no places but bends of a
-    /// corridor.
+    /// Returns a random maze: a random tree of corridors on a grid of cells, some loops, a start
+    /// and a goal, in dead ends if there are any. Cells with two ways out are no places but bends
+    /// of a corridor.
     ///
     /// # Errors
     /// [`MazeConfigError`] if a field is outside its range or the corridors cannot all be
@@ -164,8 +164,8 @@ impl PlaneMaze {
         Self::random_of(dictionary, config, rng)
     }
 
-    /// The same, of the patterns of a dictionary, whatever number the configuration has: another
-    /// maze for one robot.
+    /// Returns the same, of the patterns of a dictionary, whatever number the configuration has:
+    /// another maze for one robot.
     ///
     /// # Errors
     /// [`MazeConfigError`] as [`random`](Self::random), or if there are less than two patterns.
@@ -258,7 +258,7 @@ impl PlaneMaze {
     }
 }
 
-/// A random spanning tree of the cells and some more.
+/// Returns a random spanning tree of the cells and some more.
 fn openings(config: &MazeConfig, rng: &mut impl Rng) -> Vec<(u32, u32)> {
     let (columns, rows) = (config.columns, config.rows);
     let mut candidates = Vec::new();
@@ -332,7 +332,7 @@ fn half_turned_features(features: &[f64]) -> Vec<f64> {
     turned
 }
 
-/// What corridors look like, one after the other.
+/// What corridors look like, one by one.
 struct Looks<'a> {
     config: &'a MazeConfig,
     kinds: Vec<Vec<PatternId>>,

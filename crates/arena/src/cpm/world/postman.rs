@@ -6,8 +6,8 @@ use tolman_planners::{Graph, steps_from};
 use super::{PlaneMaze, WorldPort};
 
 impl PlaneMaze {
-    /// How many corridors the shortest walk passes that begins at the start, ends anywhere, and has
-    /// been through all that can be reached: the yardstick of an exploration, with perfect
+    /// Returns how many corridors the shortest walk passes that begins at the start, ends anywhere,
+    /// and has been through all that can be reached: the baseline of an exploration, with perfect
     /// knowledge. None where more than 16 places have an odd number of ports, for which there is no
     /// patience.
     #[must_use]
@@ -16,9 +16,9 @@ impl PlaneMaze {
     }
 }
 
-/// How many arcs the shortest walk passes that begins at a start, ends anywhere, and has been
-/// through all that can be reached: the yardstick of an exploration, with perfect knowledge. None
-/// where more than 16 places have an odd number of ports, for which there is no patience.
+/// Returns how many arcs the shortest walk passes that begins at a start, ends anywhere, and has
+/// been through all that can be reached: the baseline of an exploration, with perfect knowledge.
+/// None where more than 16 places have an odd number of ports, for which there is no patience.
 ///
 /// The open Chinese postman's walk: odd places are joined in pairs by shortest ways, walked twice,
 /// but for one, where the walk ends. O(2ⁿ · n) in the number n of odd places.

@@ -88,7 +88,7 @@ impl<'a> PlaneWalker<'a> {
         }
     }
 
-    /// Where it truly is: the port behind it.
+    /// Returns where it truly is: the port behind it.
     #[must_use]
     pub const fn at(&self) -> WorldPort {
         self.at
@@ -101,20 +101,20 @@ impl<'a> PlaneWalker<'a> {
         }
     }
 
-    /// How many observations it has made.
+    /// Returns how many observations it has made.
     #[must_use]
     pub const fn observations(&self) -> u32 {
         self.observations
     }
 
-    /// What it sees where it is.
+    /// Returns what it sees where it is.
     #[must_use]
     pub fn sighting(&self) -> Sighting {
         self.world.sighting(self.at.place)
     }
 
-    /// Turns and walks to the end of the fragment; if so many observations have not brought it
-    /// there, it gives up.
+    /// Turns and walks to the end of the fragment; gives up if it has not arrived after
+    /// `give_up_after` observations.
     ///
     /// # Errors
     /// If the place has no such turn.
@@ -191,8 +191,8 @@ impl<'a> PlaneWalker<'a> {
         }
     }
 
-    /// Puts it into the midst of a corridor, entered at an end, after so many observations, and
-    /// lets it walk on to the other end. None if there is no such corridor.
+    /// Puts it into the midst of a corridor, entered at an end, after `passed` observations,
+    /// and lets it walk on to the other end. None if there is no such corridor.
     pub fn walk_on(
         &mut self,
         enter: CorridorEnd,
@@ -213,7 +213,8 @@ impl<'a> PlaneWalker<'a> {
         })
     }
 
-    /// Where the ways out of the place lead where it is, from the one it came by, if it looks.
+    /// Returns where the ways out of the place lead where it is, from the one it came by, if it
+    /// looks.
     fn looked(&self, rng: &mut impl Rng) -> Option<Bearings> {
         if self.reckoning == Reckoning::None {
             return None;
@@ -231,7 +232,7 @@ impl<'a> PlaneWalker<'a> {
         Bearings::of_directions(&ways?).ok()
     }
 
-    /// What is to be observed of a corridor.
+    /// Returns what is to be observed of a corridor.
     fn truth(&self, corridor: &MazeCorridor, enter: Sign) -> Vec<PatternId> {
         match enter {
             Sign::Minus => corridor.patterns.clone(),

@@ -14,13 +14,14 @@ pub struct ActiveFrame {
 }
 
 impl ActiveFrame {
-    /// The frame of a place where the robot is.
+    /// Returns the frame of a place where the robot is.
     pub(crate) fn at(map: &Diktiometry, place: PlaceId) -> Self {
         let (frame, robot) = map.site(place);
         Self { frame, robot }
     }
 
-    /// The frame as a search from the frame that the robot is in at `here` would have reached it.
+    /// Returns the frame as a search from the frame that the robot is in at `here` would have
+    /// reached it.
     pub(crate) fn seen_from(&self, here: PointBox) -> Reached {
         Reached {
             frame: self.frame,
@@ -30,8 +31,8 @@ impl ActiveFrame {
     }
 }
 
-/// The active frames after a displacement: "dropping frames which are not informative, and adding
-/// neighbors of active frames which appear both informative and relevant".
+/// Returns the active frames after a displacement: "dropping frames which are not informative, and
+/// adding neighbors of active frames which appear both informative and relevant".
 ///
 /// `here` is the frame of the robot's place with the robot in it: always active, and where it says
 /// more of a neighbour than was carried along, that holds too. At most `cap` frames are kept, those
@@ -86,9 +87,9 @@ pub(crate) fn moved(
     next
 }
 
-/// The envelope of a frame, "the bounding interval of the position intervals of F's places"; of
-/// their nominal envelopes, since a frame that one place alone defines is a point otherwise. None
-/// without places.
+/// Returns the envelope of a frame, "the bounding interval of the position intervals of F's
+/// places"; of their nominal envelopes, since a frame that one place alone defines is a point
+/// otherwise. None without places.
 fn envelope(map: &Diktiometry, frame: FrameId) -> Option<PointBox> {
     let places = map.frame(frame).places.iter();
     let boxes = places.map(|place| map.place(*place).envelope);

@@ -28,7 +28,7 @@ pub(crate) fn expected(
     candidates.collect()
 }
 
-/// Where the robot came from by the reverse of the action.
+/// Returns where the robot came from by the reverse of the action.
 fn back(
     map: &Diktiometry,
     projection: &Projection,

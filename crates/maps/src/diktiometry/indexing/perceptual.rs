@@ -40,9 +40,9 @@ impl ViewIndex {
         }
     }
 
-    /// The places that look most like a percept: of the sets that are found within more and more,
-    /// the first that is not empty. Nobody asks for the sets after it. The places are those that
-    /// stand now, by id.
+    /// Returns the places that look most like a percept: of the sets that are found within more and
+    /// more, the first that is not empty. Nobody asks for the sets after it. The places are those
+    /// that stand now, by id.
     pub(crate) fn most_alike(
         &self,
         percept: &Signature,
@@ -64,7 +64,7 @@ impl ViewIndex {
         sets.find(|set| !set.is_empty()).unwrap_or_default()
     }
 
-    /// The places that look like a percept, by the measure that matchers use. By id.
+    /// Returns the places that look like a percept, by the measure that matchers use. By id.
     pub(crate) fn alike(
         &self,
         percept: &Signature,
@@ -79,7 +79,7 @@ impl ViewIndex {
         }
     }
 
-    /// The places that stand now of some views.
+    /// Returns the places that stand now of some views.
     fn standing(&self, views: &[u32], paths: &PathGraph) -> Vec<PlaceId> {
         let places = views.iter().map(|view| self.places[*view as usize]);
         let standing: BTreeSet<PlaceId> = places.filter_map(|place| paths.resolve(place)).collect();

@@ -42,12 +42,12 @@ impl Chosen {
         self.candidate.map(|candidate| candidate.place)
     }
 
-    /// Whether it posits no error of the map.
+    /// Returns whether it posits no error of the map.
     fn is_normal(&self) -> bool {
         matches!(self.matcher, Matcher::Continue | Matcher::Link)
     }
 
-    /// How far the middle of the place is from the robot's, squared, m².
+    /// Returns how far the middle of the place is from the robot's, squared, m².
     fn distance(&self) -> f64 {
         self.candidate.map_or(0.0, |candidate| {
             let middle = candidate.offset.middle();
@@ -114,7 +114,8 @@ pub(crate) fn choose(
     choice
 }
 
-/// The candidates of a set that a matcher applies to; those that none can tell go to `doubts`.
+/// Returns the candidates of a set that a matcher applies to; those that none can tell go to
+/// `doubts`.
 fn matched(situation: &Situation<'_>, set: &[Candidate], doubts: &mut Vec<PlaceId>) -> Vec<Chosen> {
     let found = set
         .iter()
@@ -122,8 +123,8 @@ fn matched(situation: &Situation<'_>, set: &[Candidate], doubts: &mut Vec<PlaceI
     found.flatten().collect()
 }
 
-/// The matches of the first set that has some without an error or, if there is none, some with one;
-/// these stand against a new place.
+/// Returns the matches of the first set that has some without an error or, if there is none, some
+/// with one; these stand against a new place.
 fn applicable(sets: &[Vec<Chosen>]) -> Vec<Chosen> {
     let normal = |set: &Vec<Chosen>| -> Vec<Chosen> {
         let all = set.iter().copied();
@@ -138,7 +139,7 @@ fn applicable(sets: &[Vec<Chosen>]) -> Vec<Chosen> {
     })
 }
 
-/// The matches before which no other takes precedence, the best first.
+/// Returns the matches before which no other takes precedence, the best first.
 fn maximal(situation: &Situation<'_>, applicable: &[Chosen]) -> Vec<Chosen> {
     let precedes = |other: &Chosen, one: &Chosen| {
         let grown = if other.matcher == Matcher::Alpha {

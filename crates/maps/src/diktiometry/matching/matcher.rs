@@ -47,8 +47,8 @@ enum Applicable {
     None,
 }
 
-/// The matcher that applies to a candidate; one that none can tell goes to `doubts`. Its views are
-/// compared with the percept once.
+/// Returns the matcher that applies to a candidate; one that none can tell goes to `doubts`. Its
+/// views are compared with the percept once.
 pub(super) fn find(
     candidate: &Candidate,
     situation: &Situation<'_>,
@@ -77,7 +77,7 @@ pub(super) fn find(
     }
 }
 
-/// The matcher that applies to a candidate.
+/// Returns the matcher that applies to a candidate.
 ///
 /// The paper asks for a consistent view as well. Here an expected place where it is expected, and
 /// one that no other can be near, may look new: its view set grows.

@@ -1,8 +1,8 @@
 use crate::diktiometry::{Matcher, Precedence, Situation, Tracking};
 
 impl Situation<'_> {
-    /// Whether matcher `a` takes precedence over `b`: the *dynamic partial order*. `visits` are
-    /// those of the place that α-MATCH would grow.
+    /// Returns whether matcher `a` takes precedence over `b`: the *dynamic partial order*. `visits`
+    /// are those of the place that α-MATCH would grow.
     ///
     /// Source: paper, *Dynamic priorities*, for CONTINUE over LINK, and α-MATCH and new places
     /// against β-MATCH. Beyond it: what needs no mapping error goes before what posits one, and

@@ -1,6 +1,6 @@
 use crate::diktiometry::{Percepts, Place, Signature, SignatureKind, Similarity, ViewRotation};
 
-/// Whether a place may look like this: one of its views does, or none is known.
+/// Returns whether a place may look like this: one of its views does, or none is known.
 pub(crate) fn agrees(place: &Place, percept: Option<&Signature>, percepts: &Percepts) -> bool {
     let (Percepts::Signatures(kind), Some(percept)) = (percepts, percept) else {
         return true;
@@ -8,12 +8,13 @@ pub(crate) fn agrees(place: &Place, percept: Option<&Signature>, percepts: &Perc
     place.views.is_empty() || place.views.iter().any(|view| alike(view, percept, kind))
 }
 
-/// Whether two places may look alike: a view of one does as one of the other, or one has none.
+/// Returns whether two places may look alike: a view of one does as one of the other, or one has
+/// none.
 pub(crate) fn share_a_view(a: &Place, b: &Place, percepts: &Percepts) -> bool {
     a.views.is_empty() || a.views.iter().any(|view| agrees(b, Some(view), percepts))
 }
 
-/// The same, as what the map learns from.
+/// Returns the same, as what the map learns from.
 pub(crate) fn similarity(a: &Place, b: &Place, percepts: &Percepts) -> Similarity {
     Similarity::of(share_a_view(a, b, percepts))
 }
@@ -32,7 +33,7 @@ impl Percepts {
     }
 }
 
-/// Whether two signatures may be views of one place.
+/// Returns whether two signatures may be views of one place.
 pub(crate) fn alike(view: &Signature, other: &Signature, kind: &SignatureKind) -> bool {
     let offsets = match kind.rotation {
         ViewRotation::Aligned => 1,

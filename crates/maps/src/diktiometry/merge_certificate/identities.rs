@@ -122,8 +122,8 @@ mod tests {
 
     use super::*;
 
-    /// What follows by the letter: visits after the same action from one place are to one place,
-    /// and so is one that a reverse leads back to.
+    /// Returns what follows by the letter: visits after the same action from one place are to one
+    /// place, and so is one that a reverse leads back to.
     fn by_the_letter(config: &Config, actions: &[Action], joined: &[[usize; 2]]) -> Vec<usize> {
         let mut class: Vec<usize> = (0..=actions.len()).collect();
         let rename = |class: &mut Vec<usize>, one: usize, other: usize| {

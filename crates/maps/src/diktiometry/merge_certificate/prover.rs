@@ -103,8 +103,8 @@ impl Prover<'_> {
             .extend(open.into_iter().filter_map(|claim| claim.last().copied()));
     }
 
-    /// What the map now takes for one place: each claim is several pairs of visits of which one is
-    /// enough.
+    /// Returns what the map now takes for one place: each claim is several pairs of visits of which
+    /// one is enough.
     fn claims(
         &mut self,
         visit: usize,
@@ -143,7 +143,7 @@ impl Prover<'_> {
         claims
     }
 
-    /// Whether a claim is known to be true by now.
+    /// Returns whether a claim is known to be true by now.
     fn settle(&mut self, claim: &[[usize; 2]], looks: Looks) -> bool {
         let proven = claim.iter().find_map(|pair| self.by_bounds(*pair));
         let certificate =
@@ -213,7 +213,7 @@ impl Prover<'_> {
         (evidence.chance < 1.0).then(|| sealed(evidence))
     }
 
-    /// Two visits to the places of a pair that look alike.
+    /// Returns two visits to the places of a pair that look alike.
     fn alike(&self, pair: [usize; 2]) -> Option<[usize; 2]> {
         let [ones, others] = pair.map(|visit| self.views.get(&self.identities.find(visit)));
         let others = others?;

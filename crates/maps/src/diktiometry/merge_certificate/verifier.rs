@@ -7,7 +7,7 @@ use super::look_evidence::look_alike;
 use super::{Identities, JournalSpan, LookEvidence, MergeCertificate, MergeProof, connect};
 use crate::diktiometry::{Config, Journal, MoveOutcome, Percepts};
 
-/// Why certificates do not hold. Each names the first that does not, from 0.
+/// Reason why certificates do not hold. Each names the first that does not, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MergeCertificateError {
@@ -57,7 +57,7 @@ pub enum MergeCertificateError {
         /// The other.
         other: usize,
     },
-    /// A span is none: it has no moves, more than five, or a blocked one.
+    /// A span is invalid: it has no moves, more than five, or a blocked one.
     #[error("certificate {number} has a span from visit {} to {} that no bound is known of", span.begin, span.end)]
     NoSpan {
         /// Number of the certificate.
@@ -97,8 +97,8 @@ pub enum MergeCertificateError {
     },
 }
 
-/// Checks certificates, one after the other: each may rest on those before it. It reads the journal
-/// and what was told at first, and no map.
+/// Checks certificates, one by one: each may rest on those before it. It reads the journal and what
+/// was told at first, and no map.
 ///
 /// O(moves + certificates · length of their routes).
 ///
@@ -189,7 +189,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Where the second visit's place lies as seen from the first's, by all routes, m.
+    /// Returns where the second visit's place lies as seen from the first's, by all routes, m.
     fn between(
         &self,
         number: usize,
@@ -310,7 +310,7 @@ mod tests {
         config
     }
 
-    /// A robot that goes along `actions` past places that all look alike.
+    /// Returns a robot that goes along `actions` past places that all look alike.
     fn journal(actions: &[Action]) -> Journal {
         let percept = Some(Signature::new(1, vec![0.5; 4]).unwrap());
         let moves = actions.iter().map(|&action| ObservedMove {

@@ -18,7 +18,8 @@ pub(crate) struct Reached {
     pub(crate) hops: u32,
 }
 
-/// The frames around `start`, those of best known position first, `start` itself before all.
+/// Returns the frames around `start`, those of best known position first, `start` itself before
+/// all.
 ///
 /// Dijkstra's algorithm on the width of the box; where several ways lead to a frame from frames
 /// reached before, its position is what they all allow. O(frames · degree · log frames).

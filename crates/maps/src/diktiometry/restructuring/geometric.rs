@@ -30,8 +30,8 @@ pub(super) fn around(map: &Diktiometry, place: PlaceId) -> Vec<(PlaceId, PointBo
     places.collect()
 }
 
-/// Those of some places that may be one: once two places are merged, what lies around them follows.
-/// There may be as many pairs as the square of the places, so that nobody keeps them.
+/// Returns those of some places that may be one: once two places are merged, what lies around them
+/// follows. There may be as many pairs as the square of the places, so that nobody keeps them.
 pub(super) fn meeting(near: &[(PlaceId, PointBox)]) -> impl Iterator<Item = Pair> {
     near.iter().enumerate().flat_map(|(number, &(a, at))| {
         let others = near.iter().skip(number + 1);
@@ -43,14 +43,14 @@ pub(super) fn meeting(near: &[(PlaceId, PointBox)]) -> impl Iterator<Item = Pair
     })
 }
 
-/// Whether it is noted at a place that another may be one with it by its position.
+/// Returns whether it is noted at a place that another may be one with it by its position.
 pub(super) fn is_nearness_noted(map: &Diktiometry, place: PlaceId) -> bool {
     let notes = &map.place(place).notes;
     notes.iter().any(|note| note.ground == Ground::Position)
 }
 
-/// The notes at `place`, taken from it, with the places they mean by their names now; those that
-/// were settled elsewhere are left out.
+/// Returns the notes at `place`, taken from it, with the places they mean by their names now; those
+/// that were settled elsewhere are left out.
 pub(super) fn take_notes(map: &mut Diktiometry, place: PlaceId) -> Vec<MergeNote> {
     let mut notes = core::mem::take(&mut map.place_mut(place).notes);
     let mut seen: Vec<PlaceId> = Vec::new();
@@ -66,8 +66,8 @@ pub(super) fn take_notes(map: &mut Diktiometry, place: PlaceId) -> Vec<MergeNote
     notes
 }
 
-/// The pairs noted at `place`, with what is known of them now. Notes that are settled are taken
-/// away.
+/// Returns the pairs noted at `place`, with what is known of them now. Notes that are settled are
+/// taken away.
 pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> Vec<Pair> {
     let notes = take_notes(map, place);
     if notes.is_empty() {
@@ -103,7 +103,7 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
     pairs
 }
 
-/// Whether two places may be merged by where they are.
+/// Returns whether two places may be merged by where they are.
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     match config.restructuring.geometric_merge {
         GeometricMerge::Off => Verdict::Abstain,
@@ -116,7 +116,7 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     }
 }
 
-/// How far apart the two are at the least if they are two.
+/// Returns how far apart the two are at the least if they are two.
 fn least_distance(map: &Diktiometry, pair: &Pair, config: &Config) -> f64 {
     let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
     if share_a_view(a, b, &config.percepts) {

@@ -50,7 +50,7 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::Abstain
 }
 
-/// Whether the ends of a link of each place may be one place, if the two places are.
+/// Returns whether the ends of a link of each place may be one place, if the two places are.
 fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bool {
     let (a, b) = (map.related(pair.a, of_a.to), map.related(pair.b, of_b.to));
     of_a.to == of_b.to

@@ -22,7 +22,8 @@ const COMPARED: usize = 64;
 /// world has changed or the place is two.
 const ELSEWHERE: f64 = 1e-3;
 
-/// Whether two places may be merged by what they and the places along the same actions look like.
+/// Returns whether two places may be merged by what they and the places along the same actions look
+/// like.
 ///
 /// Where the same actions lead from one place, there is the same place. If the two are different,
 /// so are the places that the same actions lead to from them, and each pair of them looks alike by
@@ -53,8 +54,8 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::propose_if(enough)
 }
 
-/// Whether one action led to both from one place, or from both to one from where the action back
-/// leads to either.
+/// Returns whether one action led to both from one place, or from both to one from where the action
+/// back leads to either.
 fn share_a_way(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
     let Pair { a, b, .. } = *pair;
     let paths = &map.paths;
@@ -68,15 +69,15 @@ fn share_a_way(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
         })
 }
 
-/// Where b lies as seen from a by all that is known, m: geometry has its say before a merge.
-/// O(frames · degree · log frames).
+/// Returns where b lies as seen from a by all that is known, m: geometry has its say before a
+/// merge. O(frames · degree · log frames).
 pub(super) fn offset_anywhere(map: &Diktiometry, a: PlaceId, b: PlaceId) -> PointBox {
     let known = map.displacement(a, b, &SearchLimits::UNLIMITED);
     known.unwrap_or(PointBox::UNBOUNDED)
 }
 
-/// The pairs noted at `place` that are one by their looks, without a search of the neighbourhood.
-/// Notes that looks settle are taken away.
+/// Returns the pairs noted at `place` that are one by their looks, without a search of the
+/// neighbourhood. Notes that looks settle are taken away.
 pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> Vec<Pair> {
     let Some(wanted) = wanted_anywhere(map, config) else {
         return Vec::new();
@@ -110,8 +111,8 @@ pub(crate) fn learn_of_two(
     map.looks.count(look, neighbours);
 }
 
-/// How two places look from which the same action leads to those of a pair, or else to which it
-/// leads from them; none if there are none of either.
+/// Returns how two places look from which the same action leads to those of a pair, or else to
+/// which it leads from them, or `None` if there are none of either.
 fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Option<Similarity> {
     let paths = &map.paths;
     let before = paths.incoming(a).find_map(|(_, link)| {
@@ -130,8 +131,8 @@ fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Optio
     Some(similarity(one, other, &config.percepts))
 }
 
-/// How many kinds of looks have to agree where geometry knows nothing; none if looks tell nothing
-/// there.
+/// Returns how many kinds of looks have to agree where geometry knows nothing, or `None` if looks
+/// tell nothing there.
 pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usize> {
     match config.restructuring.look_merge {
         Use::On => enough(map, f64::INFINITY, config),
@@ -139,8 +140,8 @@ pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usiz
     }
 }
 
-/// How many kinds of looks have to agree if there is room for so many places; none if there are not
-/// as many kinds.
+/// Returns how many kinds of looks have to agree if there is room for `room` places, or `None` if
+/// there are not as many kinds.
 fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
     let others = room.min(f64::from(map.looks.kinds) + 2.0);
     map.looks.enough(config.restructuring.look_error / others)
@@ -157,8 +158,8 @@ pub(super) enum Agreement {
     Broken,
 }
 
-/// Whether `wanted` kinds of looks agree along the same actions from two places, wherever they are,
-/// and nothing speaks against it that the two are one.
+/// Returns whether `wanted` kinds of looks agree along the same actions from two places, wherever
+/// they are, and nothing speaks against it that the two are one.
 pub(super) fn agreement(
     map: &Diktiometry,
     a: PlaceId,

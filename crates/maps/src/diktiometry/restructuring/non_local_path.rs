@@ -26,7 +26,7 @@ pub(crate) fn deposit(
     histories.drain(..surplus);
 }
 
-/// Whether enough histories that ended at one place could have ended at the other.
+/// Returns whether enough histories that ended at one place could have ended at the other.
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     if config.restructuring.non_local_merge == Use::Off {
         return Verdict::Abstain;
@@ -41,9 +41,9 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::propose_if(limits.geometric_merge.trusts_paths() && count >= limits.histories)
 }
 
-/// How many pairs of places there are along a history that ended at the one and, with the same
-/// actions, could have ended at the other place: matched, and considered but rejected. From the
-/// newest on, as far back as the map has the links.
+/// Returns how many pairs of places there are along a history that ended at the one and, with the
+/// same actions, could have ended at the other place: matched, and considered but rejected. From
+/// the newest on, as far back as the map has the links.
 fn seam(map: &Diktiometry, history: &[TrackEntry], other: PlaceId) -> usize {
     let mut pairs = 0;
     let mut there = other;

@@ -53,8 +53,8 @@ pub(crate) fn elide_place(map: &mut Diktiometry, id: PlaceId) {
     }
 }
 
-/// Whether something is met, with 99 % certainty, in less than the configured share of the times it
-/// is expected.
+/// Returns whether something is met, with 99 % certainty, in less than the configured share of the
+/// times it is expected.
 fn is_transient(counts: &Counts, config: &Transients) -> bool {
     counts.rate_at_most(config.fading) < config.rate
 }

@@ -48,7 +48,7 @@ impl Pen {
         }
     }
 
-    /// Draws a corridor of so many cells onward from `from`, and returns the last one: earlier at
+    /// Draws a corridor of `cells` cells onward from `from`, and returns the last one: earlier at
     /// the border.
     pub(super) fn line(&mut self, from: Cell, direction: Direction, cells: u16) -> Cell {
         let mut at = from;
@@ -62,8 +62,8 @@ impl Pen {
         at
     }
 
-    /// Draws the outline of a rectangle with this south-west corner, so many cells further to the
-    /// east and north.
+    /// Draws the outline of a rectangle from its south-west `corner`, `width` cells to the east and
+    /// `height` cells to the north.
     pub(super) fn rectangle(&mut self, corner: Cell, width: u16, height: u16) {
         let east = self.line(corner, Direction::East, width);
         self.line(corner, Direction::North, height);

@@ -38,8 +38,8 @@ pub(super) struct Pixel {
 }
 
 impl<'a> Column<'a> {
-    /// The column that looks along `direction`, of length 1 along the camera's axis, at `walls`.
-    /// O(walls).
+    /// Returns the column that looks along `direction`, of length 1 along the camera's axis, at
+    /// `walls`. O(walls).
     pub(super) fn new(
         eye: Point,
         eye_height: f64,
@@ -67,8 +67,8 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// What it sees at `upward` of the axis, as the tangent of the angle: the first wall that
-    /// reaches up and down to there, or the floor before it.
+    /// Returns what it sees at `upward` of the axis, as the tangent of the angle: the first wall
+    /// that reaches up and down to there, or the floor before it.
     pub(super) fn pixel(&self, upward: f64, backdrop: &Backdrop, shine: &Shine) -> Pixel {
         let floor = if upward < 0.0 {
             -self.eye_height / upward
@@ -103,7 +103,7 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// A colour with the stains of its place.
+    /// Returns a colour with the stains of its place.
     fn stained(&self, colour: [u8; 3], depth: f64, height: f64, backdrop: &Backdrop) -> [f64; 3] {
         let gain = if backdrop.stains > 0.0 {
             let at = self.eye + self.direction * depth;
@@ -115,7 +115,7 @@ impl<'a> Column<'a> {
     }
 }
 
-/// The unit normal of a wall on the side that a ray comes from.
+/// Returns the unit normal of a wall on the side that a ray comes from.
 fn normal_towards(wall: &WallSegment, ray: Vector) -> Vector {
     let along = wall.end - wall.start;
     let normal = Vector::new(-along.y, along.x) / along.norm();

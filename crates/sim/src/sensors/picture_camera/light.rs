@@ -83,7 +83,7 @@ impl Light {
         }
     }
 
-    /// The numbers of it, with their names and the least and the most that has a sense.
+    /// Returns the numbers of it, with their names and the least and the most that has a sense.
     pub(super) fn parts(&self) -> [(&'static str, f64, f64, f64); 13] {
         let [red, green, blue] = self.cast;
         let drift = &self.drift;
@@ -161,7 +161,7 @@ impl Shine {
         }
     }
 
-    /// What a wall of this colour looks like whose `normal` points at the camera.
+    /// Returns what a wall of this colour looks like whose `normal` points at the camera.
     pub(super) fn on_wall(&self, colour: [f64; 3], glow: f64, normal: Vector) -> [f64; 3] {
         let facing = 1.0 + self.shade * normal.dot(&self.to_light);
         let lit = self.on_floor(colour);
@@ -170,12 +170,12 @@ impl Shine {
         })
     }
 
-    /// What the floor, or a ceiling, of this colour looks like.
+    /// Returns what the floor, or a ceiling, of this colour looks like.
     pub(super) fn on_floor(&self, colour: [f64; 3]) -> [f64; 3] {
         core::array::from_fn(|part| colour[part] * self.gain[part])
     }
 
-    /// How much of full light lies over a picture of which `share` glows.
+    /// Returns how much of full light lies over a picture of which `share` glows.
     pub(super) fn veil(&self, share: f64) -> f64 {
         (self.glare * self.outside * share).min(0.9)
     }

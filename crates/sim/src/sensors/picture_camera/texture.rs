@@ -4,15 +4,16 @@ pub(super) fn stain(x: f64, y: f64, height: f64) -> f64 {
     0.6 * patch([x, y, height], 0.43, 1) + 0.4 * patch([x, y, height], 0.11, 2)
 }
 
-/// A number for each cube of the room's space, −1 … 1. No wall at a round coordinate lies between
-/// two cubes.
+/// Returns a number for each cube of the room's space, −1 … 1. No wall at a round coordinate lies
+/// between two cubes.
 fn patch(point: [f64; 3], size: f64, layer: u32) -> f64 {
     let cube = point.map(|along| ((along + 0.0737) / size).floor() as i32 as u32);
     let mixed = cube.iter().fold(layer, |hash, index| mix(hash ^ index));
     f64::from(mixed) / f64::from(u32::MAX) * 2.0 - 1.0
 }
 
-/// A permutation of all words that leaves no pattern to the eye (the finalizer of MurmurHash3).
+/// Returns a permutation of all words that leaves no pattern to the eye (the finalizer of
+/// MurmurHash3).
 fn mix(mut word: u32) -> u32 {
     word = word.wrapping_add(0x9E37_79B9);
     word = (word ^ (word >> 16)).wrapping_mul(0x85EB_CA6B);

@@ -1,7 +1,7 @@
 use thiserror::Error;
 use tolman_maps::wall_map::{ObserveError, TooLarge};
 
-/// Why a mouse cannot go on.
+/// Reason why a mouse cannot go on.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PlayError {

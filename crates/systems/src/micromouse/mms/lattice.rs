@@ -16,13 +16,13 @@ impl LatticePoint {
     /// The middle of the south-west cell, where every mouse of mms starts.
     pub const START: Self = Self { x: 1, y: 1 };
 
-    /// The cell it lies in; that to the north and east of it on a wall.
+    /// Returns the cell it lies in; that to the north and east of it on a wall.
     #[must_use]
     pub const fn cell(self) -> Cell {
         Cell::new((self.x / 2) as u16, (self.y / 2) as u16)
     }
 
-    /// The place half a step on.
+    /// Returns the place half a step on.
     #[must_use]
     pub const fn ahead(self, heading: LatticeHeading) -> Self {
         let (east, north) = heading.half_step();
@@ -32,7 +32,7 @@ impl LatticePoint {
         }
     }
 
-    /// What a mouse comes to half a step ahead.
+    /// Returns what a mouse comes to half a step ahead.
     #[must_use]
     pub fn gate(self, heading: LatticeHeading, grid: Grid) -> Gate {
         let Self { x, y } = self.ahead(heading);
@@ -49,7 +49,7 @@ impl LatticePoint {
         }
     }
 
-    /// The middle of a cell.
+    /// Returns the middle of a cell.
     #[must_use]
     pub const fn middle_of(cell: Cell) -> Self {
         Self {
@@ -78,13 +78,13 @@ impl LatticeHeading {
     /// Where every mouse looks at the start.
     pub const NORTH: Self = Self(0);
 
-    /// Turned by so many eighths of a circle, clockwise.
+    /// Returns the heading turned clockwise by `eighths` eighths of a circle.
     #[must_use]
     pub const fn turned(self, eighths: i8) -> Self {
         Self((self.0 as i8 + eighths).rem_euclid(8) as u8)
     }
 
-    /// One of the four sides of a cell, or none on a diagonal.
+    /// Returns one of the four sides of a cell, or none on a diagonal.
     #[must_use]
     pub const fn side(self) -> Option<Direction> {
         match self.0 {
@@ -102,7 +102,7 @@ impl LatticeHeading {
         self.0 as u32
     }
 
-    /// The heading of that [`LatticeHeading::index`].
+    /// Returns the heading of that [`LatticeHeading::index`].
     #[must_use]
     pub const fn from_index(index: u32) -> Self {
         Self((index % 8) as u8)

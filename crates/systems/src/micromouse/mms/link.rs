@@ -82,7 +82,7 @@ impl<R: BufRead, W: Write> Link<R, W> {
         self.tell(&format!("setWall {} {} {side}", cell.x, cell.y))
     }
 
-    /// What is still to be written goes out.
+    /// Returns what is still to be written goes out.
     pub(super) fn close(mut self) -> Result<(), PlayError> {
         self.output.flush().map_err(|error| gone(error, "the end"))
     }

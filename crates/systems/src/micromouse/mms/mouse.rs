@@ -185,7 +185,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         Ok(())
     }
 
-    /// How far the mouse sees to one side. What is known is not asked for again.
+    /// Returns how far the mouse sees to one side. What is known is not asked for again.
     fn ray(&mut self, command: &str, cell: Cell, side: Direction) -> Result<CellRay, PlayError> {
         let (mut open, mut end) = (0, cell);
         loop {
@@ -205,7 +205,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         }
     }
 
-    /// The cells to stop in next, or none if the mouse has been at the goal and knows enough.
+    /// Returns the cells to stop in next, or none if the mouse has been at the goal and knows
+    /// enough.
     fn targets(&mut self) -> Result<Option<Vec<Cell>>, PlayError> {
         // In this score no look beyond the goal was found to pay.
         let is_enough = match self.until {
@@ -230,8 +231,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         Ok((!targets.is_empty()).then_some(targets))
     }
 
-    /// The best run that can be hoped for. Walls make no run better, so one that is not blocked
-    /// stays the best.
+    /// Returns the best run that can be hoped for. Walls make no run better, so one that is not
+    /// blocked stays the best.
     fn replan(&mut self) -> Result<Option<Plan>, TooLarge> {
         let walls = &self.walls;
         let is_wall = |(cell, side): (Cell, _)| walls.knowledge(cell, side) == Knowledge::Wall;
@@ -331,7 +332,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         Ok(Course::Lost)
     }
 
-    /// One movement: a turn, or a straight.
+    /// Returns one movement: a turn, or a straight.
     fn go(&mut self, to: Stand) -> Result<Driven, PlayError> {
         while self.at.heading != to.heading {
             let left = (to.heading.index() + 8 - self.at.heading.index()) % 8;

@@ -19,8 +19,8 @@ pub fn best_score(walls: &impl Walls) -> Result<Option<f32>, TooLarge> {
     Ok(run.map(|run| score(run.cost)))
 }
 
-/// Whether a movement that ends there ends a run. In the smallest mazes the start lies in the
-/// middle as well.
+/// Returns whether a movement that ends there ends a run. In the smallest mazes the start lies in
+/// the middle as well.
 pub(super) fn ends_run(stand: Stand, goals: &[Cell]) -> bool {
     stand.place != LatticePoint::START && goals.contains(&stand.place.cell())
 }
@@ -33,7 +33,7 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// The sides of cells that it drives over.
+    /// Returns the sides of cells that it drives over.
     pub(super) fn edges(&self, grid: Grid) -> impl Iterator<Item = (Cell, Direction)> {
         let later = self.stands.iter().skip(1);
         let movements = self.stands.iter().zip(later);

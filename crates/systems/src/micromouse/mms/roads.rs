@@ -20,7 +20,7 @@ impl Stand {
     };
 }
 
-/// All movements on some passages: turns on the spot by 45° and 90°, and straights, which may be
+/// All movements on some passages: turns in place by 45° and 90°, and straights, which may be
 /// diagonal. Costs are those of the score in half-steps, counted in halves so that they are whole.
 pub(super) struct Roads<'a, const N: usize> {
     grid: Grid,
@@ -40,7 +40,7 @@ pub(super) enum TurnsAtStart {
 /// One turn, in halves.
 const TURN: u32 = 2;
 
-/// A straight of so many half-steps: those after the second count by half.
+/// Returns the cost of a straight of `half_steps` half-steps: those after the second count half.
 const fn straight(half_steps: u32) -> u32 {
     if half_steps > 2 {
         half_steps + 2
@@ -112,7 +112,7 @@ impl<const N: usize> Graph for Roads<'_, N> {
     }
 }
 
-/// The sides of cells that a straight from one place to another drives over.
+/// Returns the sides of cells that a straight from one place to another drives over.
 pub(super) fn edges(grid: Grid, from: Stand, to: Stand) -> impl Iterator<Item = (Cell, Direction)> {
     let mut place = from.place;
     core::iter::from_fn(move || {

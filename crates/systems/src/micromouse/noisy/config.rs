@@ -29,7 +29,7 @@ pub enum PoseSource {
     ParticleFilter,
 }
 
-/// Why there is no such mouse.
+/// Reason why there is no such mouse.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NoisyMouseError {

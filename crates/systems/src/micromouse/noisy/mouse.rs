@@ -48,8 +48,8 @@ pub struct NoisyMouse {
 /// Readings taken in a stop at least, and at most while a side of the cell that a sensor looks at
 /// is not known.
 const LOOKS: (u32, u32) = (4, 16);
-/// A mouse nearer to a wall ahead does not drive on, from its middle, m: so many readings in a row
-/// have to say so.
+/// A mouse nearer to a wall ahead does not drive on, from its middle, m: with the number of
+/// readings in a row that have to say so.
 const TOO_NEAR: (f64, u32) = (0.055, 3);
 /// How far ahead of the middle of its cell, as a share of the pitch, a mouse is that bumps into the
 /// wall of that cell, and not into a post.
@@ -131,7 +131,7 @@ impl NoisyMouse {
         Ok(())
     }
 
-    /// Whether it knows the sides of its cell that a sensor looks at.
+    /// Returns whether it knows the sides of its cell that a sensor looks at.
     fn knows_its_cell(&self) -> bool {
         let (cell, looks) = (self.cell(), self.looks_to());
         let mut seen = [looks.left(), looks, looks.right()].into_iter();
@@ -154,7 +154,7 @@ impl NoisyMouse {
         Ok(NoisyNext::Stepped)
     }
 
-    /// Makes a step of the second run, planned anew at every stop. It is done when it believes to
+    /// Makes a step of the second run, planned again at every stop. It is done when it believes to
     /// be at a goal.
     ///
     /// # Errors
@@ -191,7 +191,8 @@ impl NoisyMouse {
         stuck
     }
 
-    /// The next leap to a goal: over walls believed open, or else over those not believed to stand.
+    /// Returns the next leap to a goal: over walls believed open, or else over those not believed
+    /// to stand.
     fn leap_to_goal(&self) -> Option<Leap> {
         [Unknown::Closed, Unknown::Open]
             .into_iter()
@@ -203,14 +204,15 @@ impl NoisyMouse {
             })
     }
 
-    /// The cell the mouse thinks it is in; the start, if it thinks that it has left the maze.
+    /// Returns the cell the mouse thinks it is in; the start, if it thinks that it has left the
+    /// maze.
     fn cell(&self) -> Cell {
         self.belief
             .cell_at(self.pose().position)
             .unwrap_or(self.brief.start)
     }
 
-    /// Where it looks, about.
+    /// Returns where it looks, about.
     fn looks_to(&self) -> Direction {
         let pose = self.pose();
         let off = |side: &Direction| pose.heading.turn_to(heading_of(*side)).abs();
@@ -220,7 +222,7 @@ impl NoisyMouse {
             .unwrap_or(self.brief.heading)
     }
 
-    /// One step of the paper's rules: a turn, then cells ahead or back.
+    /// Returns one step of the paper's rules: a turn, then cells ahead or back.
     fn leap<R: NoisyBody>(&mut self, robot: &mut R, leap: Leap) -> Result<(), R::Error> {
         let mut looks = self.looks_to();
         let MouseStep { cells, .. } = MouseStep::of_leap(&mut looks, leap);
@@ -291,7 +293,7 @@ impl NoisyMouse {
         Ok(())
     }
 
-    /// One time step; whether the mouse touched a wall.
+    /// Returns one time step; whether the mouse touched a wall.
     fn time_step<R: NoisyBody>(
         &mut self,
         robot: &mut R,

@@ -80,7 +80,7 @@ impl<S: Search> MazeMouse<S> {
         Ok(self.run_two.plan(&passages, from, targets))
     }
 
-    /// The cells where a goal is reached, if there are any.
+    /// Returns the cells where a goal is reached, if there are any.
     fn cells_of(&self, goal: Goal) -> Option<Vec<Cell>> {
         match goal {
             Goal::Landmark(Landmark::Start) => Some(vec![self.brief.start]),
@@ -98,7 +98,7 @@ fn give_up(why: impl Into<String>) -> Choice {
     Choice::End(Standing::gave_up(why))
 }
 
-/// The sides by which some leaps leave their cells, the first last.
+/// Returns the sides by which some leaps leave their cells, the first last.
 fn sides(leaps: &[Leap]) -> Vec<Direction> {
     let sides = leaps
         .iter()

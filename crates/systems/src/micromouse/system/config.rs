@@ -17,7 +17,7 @@ pub struct MazeMouseConfig {
     pub translate_per_step: f64,
 }
 
-/// Why there is no such mouse.
+/// Reason why there is no such mouse.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MazeMouseError {

@@ -53,7 +53,7 @@ impl<S: Search> MazeMouse<S> {
         self.brief.grid.index(cell) as u32
     }
 
-    /// What lies beyond the sides of a cell that are known to be open.
+    /// Returns what lies beyond the sides of a cell that are known to be open.
     fn open_sides(&self, cell: Cell) -> impl Iterator<Item = Cell> {
         let open = move |side| self.walls.knowledge(cell, side) == Knowledge::Open;
         let sides = Direction::ALL.into_iter().filter(move |side| open(*side));

@@ -110,7 +110,8 @@ impl Pilot {
         Ok(Arrival::OutOfPatience)
     }
 
-    /// The command that turns by `turn` rad and drives `distance` m, as far as a time step allows.
+    /// Returns the command that turns by `turn` rad and drives `distance` m, as far as a time step
+    /// allows.
     fn towards(&self, turn: f64, distance: f64) -> TurnTranslate {
         TurnTranslate {
             turn: (turn / self.config.turn_per_step).clamp(-1.0, 1.0),

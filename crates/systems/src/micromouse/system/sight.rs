@@ -42,7 +42,7 @@ const INTERIOR: f64 = 0.35;
 /// the pitch.
 pub(super) const TOLERANCE: f64 = 0.2;
 
-/// The beams of a scan made at `pose` that look along the grid.
+/// Returns the beams of a scan made at `pose` that look along the grid.
 pub(super) fn beams(scan: &Scan, pose: Pose, pitch: f64) -> impl Iterator<Item = Beam> {
     let ranges = (0..).zip(&scan.ranges);
     let (ring, pose) = (scan.ring, pose);
@@ -64,20 +64,21 @@ pub(super) fn beams(scan: &Scan, pose: Pose, pitch: f64) -> impl Iterator<Item =
 }
 
 impl Beam {
-    /// Whether the beam is well within its row of cells after `along` metres: what it meets there
-    /// stands across.
+    /// Returns whether the beam is well within its row of cells after `along` metres: what it meets
+    /// there stands across.
     pub(super) fn is_inside(&self, along: f64, pitch: f64) -> bool {
         (self.aside + along * self.slope).abs() < INTERIOR * pitch
     }
 }
 
-/// The middle of the cell that a point lies in, or would lie in if the grid went on.
+/// Returns the middle of the cell that a point lies in, or would lie in if the grid went on.
 fn nearest_middle(point: Point, pitch: f64) -> Point {
     let middle = |along: f64| (libm::floor(along / pitch) + 0.5) * pitch;
     Point::new(middle(point.x), middle(point.y))
 }
 
-/// What a scan made at `pose` says of the walls, seen from the cell whose middle is `middle`.
+/// Returns what a scan made at `pose` says of the walls, seen from the cell whose middle is
+/// `middle`.
 pub(super) fn rays(
     scan: &Scan,
     pose: Pose,
@@ -95,7 +96,7 @@ pub(super) fn rays(
         .collect()
 }
 
-/// What a beam says that begins `offset` metres beyond the middle of its cell.
+/// Returns what a beam says that begins `offset` metres beyond the middle of its cell.
 fn ray(beam: &Beam, offset: f64, config: &MazeMouseConfig) -> CellRay {
     let pitch = config.pitch;
     let to_side = 0.5 * pitch - offset;

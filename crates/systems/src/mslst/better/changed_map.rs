@@ -28,12 +28,12 @@ impl ChangedMap {
         }
     }
 
-    /// The map as it was learned.
+    /// Returns the map as it was learned.
     pub(super) const fn learned(&self) -> &Arc<BetterMap> {
         &self.learned
     }
 
-    /// The map as it is now.
+    /// Returns the map as it is now.
     pub(super) const fn now(&self) -> &Arc<BetterMap> {
         &self.now
     }

@@ -29,7 +29,7 @@ pub struct BetterConfig {
     pub without: Option<BetterPart>,
 }
 
-/// Reason why a [`BetterConfig`] is none of a robot.
+/// Reason why a [`BetterConfig`] fits no robot.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{field} is {value}, expected {least} to {most}")]
 pub struct BetterConfigError {

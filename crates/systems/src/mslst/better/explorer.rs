@@ -2,7 +2,8 @@ use core::convert::Infallible;
 
 use rand::{Rng, RngExt};
 use tolman_control::{StuckBeams, heading_of, unit_of};
-use tolman_maps::scan_map::{Advance, Clearings, ScanMap, ScanMapConfig, WayToGap};
+use tolman_geom::Point;
+use tolman_maps::scan_map::{Advance, Clearings, CorridorMap, ScanMap, ScanMapConfig, WayToGap};
 use tolman_maze::Direction;
 use tolman_robot::{Guess, MapView, Mapper, Position, Scan, Standing, Task};
 
@@ -23,6 +24,8 @@ pub struct BetterExplorer {
     /// What it went for last.
     last: Option<Direction>,
     plan: Plan,
+    /// Where it believed to be after each action.
+    trail: Vec<Point>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +38,10 @@ enum Plan {
     Finished,
 }
 
+/// How likely its map is right where something speaks against it, and where nothing does: by 250
+/// maps of the arena.
+const DOUBTFUL: f64 = 0.01;
+const SURE: f64 = 0.98;
 /// What turning round a quarter costs, as metres of way.
 const TURN: f64 = 0.35;
 
@@ -54,6 +61,7 @@ impl BetterExplorer {
             failed: Vec::new(),
             last: None,
             plan: Plan::Stuck,
+            trail: Vec::new(),
         }
     }
 
@@ -61,6 +69,22 @@ impl BetterExplorer {
     #[must_use]
     pub const fn learned(&self) -> &ScanMap {
         &self.map
+    }
+
+    /// Returns the places and ways of what it has learned so far. O(cells · log cells).
+    #[must_use]
+    pub fn corridors(&self) -> CorridorMap {
+        CorridorMap::of(&self.map.chart(), self.config.corridor_width)
+    }
+
+    /// Returns why its map is unfinished or doubtful, in a sentence without a full stop; `None` if
+    /// nothing speaks against it.
+    #[must_use]
+    pub fn doubt(&self) -> Option<&'static str> {
+        if self.plan != Plan::Finished {
+            return Some("a gap is left that it did not come to: try another --seed");
+        }
+        self.map.chart().doubt()
     }
 
     /// Returns what it has learned.
@@ -81,6 +105,7 @@ impl BetterExplorer {
             scan,
             landmark: seen.step.landmark,
         });
+        self.trail.push(self.map.position());
         self.plan = self.consult(scan, heading.radians());
     }
 
@@ -114,7 +139,7 @@ impl BetterExplorer {
         }
     }
 
-    /// How far it is to the gap once an action has led as far as it does, m, on average.
+    /// Returns how far it is to the gap once an action has led as far as it does, m, on average.
     fn left_after(
         &self,
         action: Direction,
@@ -134,7 +159,7 @@ impl BetterExplorer {
         Some((a? + 2.0 * b? + c?) / 4.0)
     }
 
-    /// Whether the layers will refuse.
+    /// Returns whether the layers will refuse.
     fn is_blocked(&self, action: Direction, scan: &Scan, heading: f64) -> bool {
         let ahead = heading_of(action).radians() - heading - scan.ring.first_bearing;
         let beams = scan.ranges.len() as f64;
@@ -183,15 +208,29 @@ impl Mapper for BetterExplorer {
     }
 
     fn map(&self) -> MapView {
-        self.map.view()
+        self.corridors().view()
     }
 
     fn belief(&self) -> Vec<Guess> {
-        let guess = |id| Guess {
-            at: Position::Place(id),
+        let guess = |_| Guess {
+            at: Position::Point(self.map.position()),
             weight: 1.0,
         };
         self.map.at().map(guess).into_iter().collect()
+    }
+
+    fn visits(&self) -> Vec<Option<u32>> {
+        self.corridors().visits(&self.trail)
+    }
+
+    fn certainty(&self) -> Option<f64> {
+        // Open ground is one place of its map, and may be more.
+        let is_doubtful = self.doubt().is_some() || self.corridors().is_open();
+        Some(if is_doubtful { DOUBTFUL } else { SURE })
+    }
+
+    fn visit_count(&self) -> usize {
+        self.trail.len()
     }
 
     fn map_bytes(&self) -> Option<usize> {

@@ -1,6 +1,6 @@
 use tolman_control::RingError;
 use tolman_geom::Point;
-use tolman_maps::scan_map::{ScanChart, Standpoints};
+use tolman_maps::scan_map::{CorridorMap, ScanChart, Standpoints};
 use tolman_maze::Direction;
 use tolman_planners::expected_costs;
 use tolman_robot::Ring;
@@ -18,11 +18,12 @@ use super::rehearsal::{rehearse, state};
 pub struct BetterMap {
     pub(super) config: BetterConfig,
     pub(super) standpoints: Standpoints,
+    corridors: CorridorMap,
     costs: ActionCosts,
 }
 
-/// Costs count as settled when none changes by more, time steps; and at the latest after so many
-/// rounds.
+/// Costs count as settled when none changes by more, time steps; and at the latest after the rounds
+/// below.
 const SETTLED: f32 = 0.01;
 const MOST_SWEEPS: usize = 200;
 /// A standpoint so near is about where the robot is, m.
@@ -34,6 +35,7 @@ impl BetterMap {
     /// # Errors
     /// If the layers cannot read the ring.
     pub fn of(chart: ScanChart, ring: Ring, config: &BetterConfig) -> Result<Self, RingError> {
+        let corridors = CorridorMap::of(&chart, config.corridor_width);
         let standpoints = Standpoints::of(chart, ring);
         let decisions = rehearse(&standpoints, ring, config)?;
         let goals = standpoints.goals().iter();
@@ -43,11 +45,13 @@ impl BetterMap {
         Ok(Self {
             config: *config,
             standpoints,
+            corridors,
             costs: ActionCosts::of(&decisions, &states),
         })
     }
 
-    /// Returns the map with walls at these points, too; none where the layers cannot read the ring.
+    /// Returns the map with walls at these points, too, or `None` where the layers cannot read the
+    /// ring.
     pub(super) fn with_walls(&self, at: &[Point]) -> Option<Self> {
         let chart = self.chart().with_walls(at);
         Self::of(chart, self.standpoints.ring(), &self.config).ok()
@@ -57,6 +61,12 @@ impl BetterMap {
     #[must_use]
     pub const fn chart(&self) -> &ScanChart {
         self.standpoints.chart()
+    }
+
+    /// Returns the places and ways of what was learned.
+    #[must_use]
+    pub const fn corridors(&self) -> &CorridorMap {
+        &self.corridors
     }
 
     /// Returns whether a way leads to the goal from about a point.

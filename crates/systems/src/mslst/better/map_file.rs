@@ -31,14 +31,14 @@ pub enum BetterMapFileError {
     /// The header or the JSON is not sound, or names another system; or the map has no JSON form.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The configuration is none of a robot.
+    /// The configuration fits no robot.
     #[error("its configuration is not sound")]
     Config(#[from] BetterConfigError),
     /// The map is not sound.
     #[error("its chart is not sound")]
     Chart(#[from] ChartError),
     /// Not as many places were watched as there are.
-    #[error("{found} places were watched, and there are {places}: learn the map anew")]
+    #[error("{found} places were watched, and there are {places}: learn the map again")]
     Sites {
         /// How many were watched.
         found: usize,
@@ -46,7 +46,7 @@ pub enum BetterMapFileError {
         places: usize,
     },
     /// A place was watched nowhere.
-    #[error("place {place} was watched at ({}, {}) m, which is nowhere: learn the map anew", at.x, at.y)]
+    #[error("place {place} was watched at ({}, {}) m, which is nowhere: learn the map again", at.x, at.y)]
     Site {
         /// The place.
         place: usize,
@@ -119,7 +119,7 @@ mod tests {
 
     use super::*;
 
-    /// A map of two places in a square room.
+    /// Returns a map of two places in a square room.
     fn file() -> BetterMapFile {
         let mut map = ScanMap::new(ScanMapConfig::for_robot(0.5));
         let mut scan = Scan::clear(Ring::full(72, 1.25));
@@ -197,7 +197,7 @@ mod tests {
         }
     }
 
-    /// An error with all its causes.
+    /// Returns an error with all its causes.
     fn with_causes(error: &dyn core::error::Error) -> String {
         let mut told = error.to_string();
         let mut source = error.source();

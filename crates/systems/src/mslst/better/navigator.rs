@@ -33,6 +33,8 @@ pub struct BetterNavigator {
 
 /// A standpoint less probable than that has no say.
 const NO_SAY: f64 = 1e-4;
+/// It says where it is when it is as sure as that.
+const SURE_TO_SAY: f64 = 0.99;
 /// Who knows less surely where it is cannot tell what is new there.
 const SURE: f64 = 0.9;
 
@@ -58,7 +60,7 @@ impl BetterNavigator {
         self.current().chart()
     }
 
-    /// The map as it is now.
+    /// Returns the map as it is now.
     fn current(&self) -> &BetterMap {
         self.maps.now()
     }
@@ -76,22 +78,31 @@ impl BetterNavigator {
                 self.carry_over(&map);
             }
         }
-        if seen.step.landmark != Some(Landmark::Goal) && map.config.has(BetterPart::Absence) {
+        if seen.step.landmark == Some(Landmark::Goal) {
+            self.belief.sensed_the_goal(&map.standpoints);
+        } else if map.config.has(BetterPart::Absence) {
             self.belief.missed_the_goal(&map.standpoints);
         }
     }
 
-    /// Where it most likely is.
+    /// Returns where it most likely is.
     fn likeliest(&self) -> Option<Point> {
         let number = self.belief.likeliest()?;
         self.current().standpoints.position(number)
     }
 
-    /// How much it believes to know where it is, 0 … 1.
+    /// Returns how much it believes to know where it is, 0 … 1.
     fn sure(&self) -> f64 {
         let map = self.current();
         let within = map.config.diameter;
         self.belief.certainty(&map.standpoints, within)
+    }
+
+    /// Whether it believes to be at a place of its map.
+    fn is_at_a_place(&self) -> bool {
+        let corridors = self.maps.learned().corridors();
+        self.likeliest()
+            .is_some_and(|at| corridors.at(at).is_some())
     }
 
     /// Looks for walls that are not on its map and have just barred its way.
@@ -119,7 +130,7 @@ impl BetterNavigator {
         self.belief = self.belief.carried_over(&before.standpoints, now);
     }
 
-    /// The action that costs least on average over all it believes.
+    /// Returns the action that costs least on average over all it believes.
     fn cheapest(&self) -> Option<Direction> {
         let map = self.current();
         let axis = facing(self.heading);
@@ -185,7 +196,7 @@ impl Mapper for BetterNavigator {
     }
 
     fn map(&self) -> MapView {
-        self.current().chart().view()
+        self.maps.learned().corridors().view()
     }
 
     fn belief(&self) -> Vec<Guess> {
@@ -220,7 +231,7 @@ impl Brain for BetterNavigator {
             Task::Reach(Goal::Landmark(Landmark::Goal)) => Standing::UnderWay,
             Task::Reach(_) => Standing::gave_up("its map leads to the landmark of the goal alone"),
             Task::Localize => {
-                if self.sure() > 0.95 {
+                if self.sure() > SURE_TO_SAY && self.is_at_a_place() {
                     Standing::Done
                 } else {
                     Standing::UnderWay

@@ -50,8 +50,8 @@ impl Reckoning {
         }
     }
 
-    /// Which way a time step led at whose end the compass says `now`; nothing where it has never
-    /// said anything.
+    /// Returns which way a time step led at whose end the compass says `now`; nothing where it has
+    /// never said anything.
     fn along(&mut self, now: Option<Heading>) -> Option<Heading> {
         let (before, was_fresh) = (self.heading, self.is_fresh);
         (self.heading, self.is_fresh) = (now.or(before), now.is_some());
@@ -63,7 +63,7 @@ impl Reckoning {
         }
     }
 
-    /// Returns the way since the last time, and its standard deviations, and begins anew.
+    /// Returns the way since the last time, and its standard deviations, and begins again.
     pub(super) fn take(&mut self) -> (Vector, Vector) {
         let (moved, variance) = (self.since(), self.variance);
         (self.moved, self.rolled, self.variance) =
@@ -106,8 +106,8 @@ mod tests {
     use super::*;
     use crate::TimeStep;
 
-    /// How far to the east a robot comes that goes there in steps of which the wheels tell so much,
-    /// m, and how sure that is.
+    /// Returns how far to the east a robot comes that goes there in steps of which the wheels tell
+    /// so much, m, and how sure that is.
     fn reckoned(told: &[Option<f64>], outcome: Outcome) -> (Vector, Vector) {
         let step = |doing, distance: Option<f64>| RolledStep {
             step: TimeStep {

@@ -67,12 +67,12 @@ pub(super) fn rehearse(
     Ok(decisions)
 }
 
-/// The number of the state of a robot that stands at a standpoint and faces along an axis.
+/// Returns the number of the state of a robot that stands at a standpoint and faces along an axis.
 pub(super) const fn state(standpoint: u32, axis: usize) -> usize {
     standpoint as usize * AXES.len() + axis
 }
 
-/// The axis that a heading is nearest to.
+/// Returns the axis that a heading is nearest to.
 pub(super) fn facing(heading: Heading) -> usize {
     let across = libm::fabs(libm::sin(heading.radians()));
     usize::from(across > core::f64::consts::FRAC_1_SQRT_2)
@@ -82,7 +82,7 @@ fn axis_of(direction: Direction) -> usize {
     facing(heading_of(direction))
 }
 
-/// A pose near a standpoint, about along an axis.
+/// Returns a pose near a standpoint, about along an axis.
 fn about(standpoint: Point, axis: Direction, rng: &mut ChaCha8Rng) -> Pose {
     let mut off = |most: f64| rng.random_range(-most..=most);
     let half = 0.5 * Standpoints::SPACING;

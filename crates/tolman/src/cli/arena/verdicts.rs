@@ -98,7 +98,7 @@ fn row(
     }
 }
 
-/// What came of the worlds of one kind.
+/// Returns what came of the worlds of one kind.
 fn of_rung(rung: &RungJudgement) -> String {
     let RungJudgement {
         name,

@@ -77,10 +77,10 @@ struct StepLine {
     line: Option<usize>,
 }
 
-/// Why a file is no audit of a graph.
+/// Reason why a file is no audit of a graph.
 #[derive(Debug, Error)]
 pub(super) enum CertificateFileError {
-    #[error("it is no file of certificates: {0}; audit again without --verify")]
+    #[error("it is not a file of certificates: {0}; audit again without --verify")]
     Json(#[from] serde_json::Error),
     #[error(
         "it has format `{format}`, version {version}; this program reads `{FORMAT}`, version {VERSION}"
@@ -150,7 +150,7 @@ impl CertificateFile {
         Ok(file)
     }
 
-    /// The audit that the file tells, and what it was made with.
+    /// Returns the audit that the file tells, and what it was made with.
     pub(super) fn audit(
         &self,
         file: &GraphFile,
@@ -248,7 +248,7 @@ impl<'a> Places<'a> {
         Ok(place as u32)
     }
 
-    /// The edge of a line that joins two poses, either way.
+    /// Returns the edge of a line that joins two poses, either way.
     fn edge_between(&self, line: usize, from: u64, to: u64) -> Result<u32, CertificateFileError> {
         let found = self.edge_of_line.get(&line).copied().filter(|index| {
             let edge = &self.file.file.edges[*index as usize];
@@ -257,7 +257,7 @@ impl<'a> Places<'a> {
         found.ok_or(CertificateFileError::NoEdge { line, from, to })
     }
 
-    /// The edge of a line that leads from one pose to another.
+    /// Returns the edge of a line that leads from one pose to another.
     fn edge(&self, line: usize, from: u64, to: u64) -> Result<u32, CertificateFileError> {
         let index = self.edge_between(line, from, to)?;
         match self.file.file.edges[index as usize].from == from {

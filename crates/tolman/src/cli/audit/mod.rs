@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use indicatif::ProgressBar;
-use tolman_formats::G2o;
+use tolman_formats::{G2o, input};
 use tolman_maps::audit::{
     Audit, AuditConfig, ClosureVerdict, SigmaScale, audit, supported_graph, verify,
 };
@@ -149,7 +149,8 @@ impl Arguments {
 }
 
 impl Audited<'_> {
-    /// The graph without refuted closures, and without undecided ones if it is to be strict.
+    /// Returns the graph without refuted closures, and without undecided ones if it is to be
+    /// strict.
     fn cleaned(&self, strict: bool) -> G2o {
         let goes = |verdict: &ClosureVerdict| match strict {
             true => !verdict.is_supported(),
@@ -174,7 +175,7 @@ fn check(
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
     let path = folder.join(certificates::NAME);
-    let text = fs::read_to_string(&path)
+    let text = input::text(&path)
         .with_context(|| {
             let path = path.display();
             format!("cannot read {path}; audit without --verify first, or name the folder by --out")

@@ -55,7 +55,7 @@ impl Audited<'_> {
         Ok(())
     }
 
-    /// How many closures are what.
+    /// Returns how many closures are what.
     pub(super) fn counted(&self) -> String {
         let count = |is: fn(&ClosureVerdict) -> bool| self.audit.count(is);
         let alone = count(|verdict| {
@@ -83,7 +83,8 @@ impl Audited<'_> {
         )
     }
 
-    /// What the graph's own short cycles say of its standard deviations, if it is worth a word.
+    /// Returns what the graph's own short cycles say of its standard deviations, if it is worth a
+    /// word.
     pub(super) fn told_of_scale(&self) -> Option<String> {
         let estimate = self.estimate?;
         let by = rounded(estimate.estimate);
@@ -102,7 +103,7 @@ impl Audited<'_> {
         })
     }
 
-    /// A closure and its verdict.
+    /// Returns a closure and its verdict.
     pub(super) fn told(&self, closure: &AuditedClosure) -> String {
         let edge = &self.file.file.edges[closure.edge as usize];
         let verdict = verdict(&closure.verdict);
@@ -110,7 +111,7 @@ impl Audited<'_> {
     }
 }
 
-/// A verdict with its reason.
+/// Returns a verdict with its reason.
 pub(super) fn verdict(verdict: &ClosureVerdict) -> String {
     match verdict {
         ClosureVerdict::Supported { witnesses } => match witnesses.len() {
@@ -149,7 +150,7 @@ fn reason(because: &UndecidedBecause) -> String {
     }
 }
 
-/// How far a cycle is off.
+/// Returns how far a cycle is off.
 pub(super) fn off(cycle: &AuditCycle) -> String {
     let [x, y, turn] = cycle.residual;
     let metres = (x * x + y * y).sqrt();
@@ -160,13 +161,13 @@ pub(super) fn off(cycle: &AuditCycle) -> String {
     )
 }
 
-/// A number with at most three digits behind the point, and no zeros at its end.
+/// Returns a number with at most three digits behind the point, and no zeros at its end.
 pub(super) fn rounded(number: f64) -> String {
     let text = format!("{number:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The verdict of every closure, a line each.
+/// Returns the verdict of every closure, a line each.
 pub(super) fn csv(audited: &Audited<'_>) -> String {
     let mut text = "line,from,to,run,verdict,witnesses,reason\n".to_owned();
     for closure in &audited.audit.closures {
@@ -191,7 +192,7 @@ pub(super) fn csv(audited: &Audited<'_>) -> String {
     text
 }
 
-/// A fault of a certificate, with the line of the graph's file where it names an edge.
+/// Returns a fault of a certificate, with the line of the graph's file where it names an edge.
 pub(super) fn by_line(error: &AuditCertificateError, file: &GraphFile) -> String {
     let told = error.to_string();
     let line = error

@@ -13,7 +13,7 @@ use super::palette;
 use super::view::{Beams, View};
 use super::window::Window;
 
-/// A character of braille is so many dots wide and high.
+/// Width and height of a braille character, in dots.
 const DOTS: (u32, u32) = (2, 4);
 
 /// From one dot of the trail to the next, dots of the grid: so that it is told from walls without
@@ -23,7 +23,7 @@ const TRAIL_SPACING: f64 = 2.0;
 /// From one dot of the destination's floor to the next.
 const FLOOR_SPACING: f64 = 3.0;
 
-/// Of the laser's beams so many are drawn at most.
+/// Maximum number of laser beams drawn.
 const BEAMS: usize = 24;
 
 pub(super) fn draw(view: &View, frame: &mut Frame<'_>, area: Rect) {
@@ -121,7 +121,7 @@ fn floor(context: &mut Context<'_>, zone: &Zone, window: Window, color: Color) {
     context.draw(&Points::new(&dots, color));
 }
 
-/// The smallest rectangle that holds a part of the floor.
+/// Returns the smallest rectangle that holds a part of the floor.
 fn bounds(area: &Area) -> Bounds {
     match *area {
         Area::Rectangle(bounds) => bounds,
@@ -135,7 +135,7 @@ fn bounds(area: &Area) -> Bounds {
     }
 }
 
-/// The arrow nearest to a heading.
+/// Returns the arrow nearest to a heading.
 fn arrow(radians: f64) -> &'static str {
     const ARROWS: [&str; 8] = ["→", "↗", "↑", "↖", "←", "↙", "↓", "↘"];
     let eighths = (radians / core::f64::consts::FRAC_PI_4).round() as i32;

@@ -26,7 +26,7 @@ pub(super) const LEAST_ROWS: u16 = 16;
 /// The panel with the numbers, columns.
 const PANEL: u16 = 27;
 
-/// So many steps back the trail goes.
+/// Number of steps that the trail goes back.
 const TRAIL: usize = 2000;
 
 /// What a run is made of, for whoever looks.
@@ -45,7 +45,7 @@ pub(in crate::cli) struct Scene {
 }
 
 impl Scene {
-    /// The run of a trial.
+    /// Returns the run of a trial.
     pub(in crate::cli) fn of(trial: &Trial<'_>, word: &str) -> Self {
         Self {
             course: trial.course.clone(),
@@ -103,7 +103,7 @@ pub(super) enum Beams {
 }
 
 impl View {
-    /// A run that has not begun.
+    /// Returns a run that has not begun.
     pub(super) fn new(scene: Scene, ink: Ink) -> Self {
         let start = scene.start;
         Self {
@@ -227,7 +227,7 @@ fn field(label: &str, value: Span<'static>) -> Line<'static> {
     Line::from(vec![Span::styled(format!(" {label:<8}"), LABEL), value])
 }
 
-/// The end of a name that is too long for the panel: of a path the file.
+/// Returns the end of a name that is too long for the panel: of a path the file.
 fn tail(name: &str) -> String {
     let most = usize::from(PANEL) - 3;
     let characters = name.chars().count();
@@ -238,7 +238,7 @@ fn tail(name: &str) -> String {
     format!("…{kept}")
 }
 
-/// What stands where there is nothing yet.
+/// Returns what stands where there is nothing yet.
 fn none() -> String {
     "–".to_owned()
 }
@@ -303,7 +303,7 @@ o---o---o
         }
     }
 
-    /// What a terminal of this size shows at the end of a run of the trial.
+    /// Returns what a terminal of this size shows at the end of a run of the trial.
     fn seen(trial: &Trial<'_>, ink: Ink, columns: u16, rows: u16) -> Terminal<TestBackend> {
         let mut mind = Cast::default()
             .mind(Agent::WallFollow, trial.course, &trial.robot)

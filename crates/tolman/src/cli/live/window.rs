@@ -3,10 +3,10 @@
 use tolman_geom::Point;
 use tolman_sim::Bounds;
 
-/// Below so many dots a corridor is no longer made out.
+/// Number of dots below which a corridor cannot be made out.
 const LEAST_DOTS: f64 = 4.0;
 
-/// So many hops of the window are a window.
+/// Width of a window, in hops.
 const HOPS: f64 = 4.0;
 
 /// A piece of the world on a grid of dots. Lines of the world that lie whole cells apart lie whole
@@ -22,8 +22,8 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// The window of `columns` by `rows` dots on a world whose cells are `pitch` metres wide: all
-    /// of it, or, where its corridors would be too narrow to see, what surrounds `robot`.
+    /// Returns the window of `columns` by `rows` dots on a world whose cells are `pitch` metres
+    /// wide: all of it, or, where its corridors would be too narrow to see, what surrounds `robot`.
     pub(super) fn on(bounds: Bounds, pitch: f64, robot: Point, columns: u32, rows: u32) -> Self {
         let (across, up) = (f64::from(columns) - 1.0, f64::from(rows) - 1.0);
         let metres = (bounds.width() / across).max(bounds.height() / up);

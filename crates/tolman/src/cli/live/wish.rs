@@ -22,7 +22,7 @@ impl Wish {
     /// The keys, as the panel names them.
     pub(super) const KEYS: [&str; 3] = ["space pause   → step", "+/- speed   b beams", "q quit"];
 
-    /// What this key asks for, if anything.
+    /// Returns what this key asks for, if anything.
     pub(super) fn of(key: &KeyEvent) -> Option<Self> {
         if key.kind == KeyEventKind::Release {
             return None;

@@ -1,6 +1,6 @@
 //! `tolman map --log`: the way of a robot, found in its log.
 
-use std::collections::BTreeSet;
+use alloc::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -104,7 +104,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     }
 }
 
-/// What speaks against a map: by the mapper's own judgement, or by what the laser read.
+/// Returns what speaks against a map: by the mapper's own judgement, or by what the laser read.
 fn doubt(found: &MappedLog, picture: &MapPicture) -> Option<String> {
     let is_doubtful = found.certainty.is_some_and(|certainty| certainty < 0.5);
     let by_itself = is_doubtful.then(|| {
@@ -119,7 +119,7 @@ fn doubt(found: &MappedLog, picture: &MapPicture) -> Option<String> {
     by_itself.or(by_its_places).or_else(|| picture.doubt())
 }
 
-/// What was found, a line each.
+/// Returns what was found, a line each.
 fn sentences(found: &MappedLog) -> Vec<String> {
     let MappedLog {
         closures,

@@ -2,16 +2,17 @@
 
 mod log;
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use clap::Subcommand;
 use tolman_draw::Figure;
+use tolman_formats::input;
 use tolman_systems::origin_of;
 
 use crate::cli::ground::{Ground, required};
+use crate::cli::kind::Kind;
 use crate::cli::{App, Failure, OrBadInput, file};
 use crate::system::{LearnedMap, MapText};
 
@@ -172,7 +173,7 @@ fn read(app: &App<'_>, path: &Path) -> Result<(MapText, Box<dyn LearnedMap>), Fa
 /// # Errors
 /// Bad input with the file's name.
 pub(in crate::cli) fn map_text(path: &Path) -> Result<MapText, Failure> {
-    let text = fs::read_to_string(path)
+    let text = input::text(path)
         .with_context(|| {
             let path = path.display();
             format!("cannot read {path}; give a file that `tolman learn` wrote")
@@ -188,7 +189,7 @@ pub(in crate::cli) fn map_text(path: &Path) -> Result<MapText, Failure> {
 pub(in crate::cli) fn of_text(path: &Path, text: String) -> Result<MapText, Failure> {
     let name = path.display().to_string();
     let (system, origin) = origin_of(&text)
-        .with_context(|| name.clone())
+        .map_err(|error| Kind::Map.explain(&text, &name, error))
         .or_bad_input()?;
     Ok(MapText {
         name,

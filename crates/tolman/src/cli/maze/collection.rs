@@ -47,8 +47,8 @@ impl Collection {
     }
 }
 
-/// Why a maze is one for robots, if it is: a mouse's has a start, and cells as wide as the rules
-/// say.
+/// Returns why a maze is one for robots, if it is: a mouse's has a start, and cells as wide as the
+/// rules say.
 fn for_robots(file: &MazeFile) -> Option<&'static str> {
     if file.corridor_width.is_some() {
         return Some("it says how wide its corridors are");
@@ -130,7 +130,7 @@ impl Unsound {
         outcomes.into_iter().filter_map(sift)
     }
 
-    /// How many there are.
+    /// Returns how many there are.
     pub(in crate::cli) fn len(&self) -> usize {
         self.0.len()
     }

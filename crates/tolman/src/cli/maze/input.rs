@@ -1,14 +1,15 @@
 //! Maze files as the command line names them.
 
-use std::fs;
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use tolman_experiment::files::files_in;
+use tolman_formats::input::{self, SourceError};
 use tolman_maze::MazeFile;
 
 use super::{Failure, OrBadInput};
+use crate::cli::kind::Kind;
 
 /// Reads a sound maze from a file in any format, or from stdin if the path is `-`.
 ///
@@ -17,7 +18,7 @@ use super::{Failure, OrBadInput};
 pub(in crate::cli) fn read(path: &Path) -> Result<MazeFile, Failure> {
     let text = text(path)?;
     tolman_maze::read(&text)
-        .with_context(|| name(path))
+        .map_err(|error| Kind::Maze.explain(&text, &name(path), error))
         .or_bad_input()
 }
 
@@ -28,12 +29,12 @@ pub(in crate::cli) fn read(path: &Path) -> Result<MazeFile, Failure> {
 pub(super) fn parse(path: &Path) -> Result<MazeFile, Failure> {
     let text = text(path)?;
     tolman_maze::parse(&text)
-        .with_context(|| name(path))
+        .map_err(|error| Kind::Maze.explain(&text, &name(path), error))
         .or_bad_input()
 }
 
-/// The maze files that a path names: itself, or what lies in the folder, by name, without hidden
-/// files.
+/// Returns the maze files that a path names: itself, or what lies in the folder, by name, without
+/// hidden files.
 ///
 /// # Errors
 /// If the folder cannot be read or holds no file.
@@ -58,7 +59,7 @@ pub(super) fn files(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-/// What messages call a file.
+/// Returns what messages call a file.
 pub(in crate::cli) fn name(path: &Path) -> String {
     if is_stdin(path) {
         "standard input".to_owned()
@@ -77,24 +78,22 @@ pub(in crate::cli) fn world_name(path: &Path, file: &MazeFile) -> String {
 /// # Errors
 /// Bad input with the file's name.
 pub(in crate::cli) fn text(path: &Path) -> Result<String, Failure> {
-    let bytes = if is_stdin(path) {
-        let mut bytes = Vec::new();
-        io::stdin().read_to_end(&mut bytes).map(|_| bytes)
+    let text = if is_stdin(path) {
+        input::text_of(io::stdin().lock())
     } else {
-        fs::read(path)
+        input::text(path)
     };
-    let bytes = bytes
-        .with_context(|| format!("cannot read {}; give the path of a file", name(path)))
-        .or_bad_input()?;
-    String::from_utf8(bytes)
-        .map_err(|error| {
-            let at = error.utf8_error().valid_up_to();
-            anyhow!(
-                "{}: byte {at} is not UTF-8 text: expected a maze or a world in text form",
-                name(path)
-            )
-        })
-        .or_bad_input()
+    text.map_err(|error| match error {
+        SourceError::System(error) => anyhow::Error::from(error).context(format!(
+            "cannot read {}; give the path of a file",
+            name(path)
+        )),
+        error => anyhow!(
+            "{}: {error}: expected a maze or a world in text form",
+            name(path)
+        ),
+    })
+    .or_bad_input()
 }
 
 fn is_stdin(path: &Path) -> bool {

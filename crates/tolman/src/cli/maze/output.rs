@@ -39,7 +39,7 @@ impl Output {
         }
     }
 
-    /// What the maze file says beside its maze and the format cannot hold, in words.
+    /// Returns what the maze file says beside its maze and the format cannot hold, in words.
     fn lost(&self, maze: &MazeFile) -> Option<&'static str> {
         if self.to == Format::Tolman {
             return None;

@@ -19,7 +19,7 @@ pub(super) struct Summary {
     junctions: usize,
     /// Cells with an opening that no way leads from to a goal.
     sealed: usize,
-    /// Cells from the start to the nearest goal; none if there is no start or no way.
+    /// Cells from the start to the nearest goal, or `None` if there is no start or no way.
     shortest_way: Option<u32>,
 }
 

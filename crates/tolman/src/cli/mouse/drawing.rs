@@ -3,8 +3,8 @@
 use tolman_arena::micromouse::{MouseTrial, Ruling};
 use tolman_maze::{Cell, Maze};
 
-/// The maze as it draws itself, with a dot on every stop of the first run and a star on those of
-/// the second; marks of start and goal stay.
+/// Returns the maze as it draws itself, with a dot on every stop of the first run and a star on
+/// those of the second; marks of start and goal stay.
 pub(super) fn of(maze: &Maze, trial: &MouseTrial) -> String {
     let mut lines: Vec<Vec<char>> = maze
         .to_string()

@@ -58,13 +58,13 @@ impl WallsKnown {
         }
     }
 
-    /// Whether it knows that no wall stands on a side of a cell.
+    /// Returns whether it knows that no wall stands on a side of a cell.
     pub(super) fn knows_open(&self, cell: Cell, side: Direction) -> bool {
         let known = self.sides.get(&self.grid.wall(cell, side).0);
         known.is_some_and(|known| !known.stands)
     }
 
-    /// The number of a post.
+    /// Returns the number of a post.
     fn post(&self, x: u32, y: u32) -> u32 {
         y * (u32::from(self.grid.width()) + 1) + x
     }

@@ -78,8 +78,8 @@ impl Way {
         Self::of_pitch(name, maze, header, PITCH)
     }
 
-    /// The same in cells of another size: `pitch` is from the middle of a cell to that of the next,
-    /// m.
+    /// Returns the same in cells of another size: `pitch` is from the middle of a cell to that of
+    /// the next, m.
     ///
     /// # Errors
     /// If the maze marks no start.
@@ -140,7 +140,7 @@ impl Way {
         sides.iter().for_each(|side| self.walls.see(step, *side));
     }
 
-    /// Whether the mouse knows that no wall stands on this side of a cell.
+    /// Returns whether the mouse knows that no wall stands on this side of a cell.
     pub(in crate::cli) fn knows_open(&self, cell: Cell, side: Direction) -> bool {
         self.walls.knows_open(cell, side)
     }
@@ -190,7 +190,7 @@ impl Way {
         }
     }
 
-    /// The way as JSON lines: a header, and a line a step.
+    /// Returns the way as JSON lines: a header, and a line a step.
     fn trace(&self) -> String {
         let mut header = json!({ "format": "tolman-mouse-trace", "version": 1, "maze": self.name });
         if let (Value::Object(header), Value::Object(more)) = (&mut header, &self.header) {
@@ -247,7 +247,7 @@ impl Way {
     }
 }
 
-/// A point of the maze, counted in half-cells from the south-west corner, m.
+/// Returns a point of the maze, counted in half-cells from the south-west corner, m.
 pub(in crate::cli) fn half_cells(x: f64, y: f64) -> Point {
     Point::new(0.5 * PITCH * x, 0.5 * PITCH * y)
 }

@@ -1,9 +1,9 @@
 //! How a mouse drives, as a file says it.
 
-use std::fs;
 use std::path::Path;
 
 use anyhow::Context;
+use tolman_formats::input;
 use tolman_maze::Maze;
 use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
 
@@ -24,7 +24,7 @@ impl Params {
         let Some(path) = path else {
             return Ok(Self(None));
         };
-        let config = fs::read_to_string(path)
+        let config = input::text(path)
             .map_err(anyhow::Error::from)
             .and_then(|text| Ok(toml::from_str::<SpeedRunConfig>(&text)?))
             .and_then(|config| Ok(SpeedRunTimes::<32>::new(&config).map(|_| config)?));
@@ -35,7 +35,7 @@ impl Params {
         Ok(Self(Some(config.with_context(repair).or_bad_input()?)))
     }
 
-    /// What the mouse drives by in this maze.
+    /// Returns what the mouse drives by in this maze.
     pub(super) fn config_for(&self, maze: &Maze) -> SpeedRunConfig {
         let side = maze.grid().width().max(maze.grid().height());
         self.0.unwrap_or(if side <= CLASSIC {
@@ -46,7 +46,7 @@ impl Params {
     }
 }
 
-/// A file with these values, and what each means.
+/// Returns a file with these values, and what each means.
 pub(super) fn template(config: SpeedRunConfig) -> String {
     let SpeedRunConfig {
         cell_mm,

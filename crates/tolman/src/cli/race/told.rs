@@ -20,7 +20,7 @@ impl Raced<'_> {
         Ok(())
     }
 
-    /// The outcome in words.
+    /// Returns the outcome in words.
     pub(super) fn outcome(&self) -> String {
         let Some(explored) = &self.explored else {
             return "no way that the mouse can drive leads to a goal".to_owned();
@@ -71,7 +71,7 @@ fn home(explored: &SpeedRunExploration) -> u32 {
     explored.cells.saturating_sub(before)
 }
 
-/// The run as letters.
+/// Returns the run as letters.
 fn letters(run: &[RunLeg]) -> String {
     let letters = run.iter().map(|leg| leg.step.letters());
     letters
@@ -126,7 +126,7 @@ const fn name(run_move: RunMove) -> &'static str {
     }
 }
 
-/// A move in words, for whoever looks.
+/// Returns a move in words, for whoever looks.
 pub(super) fn in_words(leg: &RunLeg) -> String {
     let name = name(leg.step.run_move);
     match leg.step.run_move {
@@ -140,7 +140,8 @@ pub(super) fn in_words(leg: &RunLeg) -> String {
     }
 }
 
-/// The cells of an exploration as letters: the first says where the mouse turns at the start.
+/// Returns the cells of an exploration as letters: the first says where the mouse turns at the
+/// start.
 pub(super) fn search_path(maze: &Maze, cells: &[Cell]) -> String {
     let mut heading = maze
         .start()
@@ -161,7 +162,7 @@ pub(super) fn search_path(maze: &Maze, cells: &[Cell]) -> String {
     cells.windows(2).filter_map(step).collect()
 }
 
-/// What became of all mazes, in one line.
+/// Returns what became of all mazes, in one line.
 pub(super) fn summary(raced: &[Raced<'_>]) -> String {
     let explored: Vec<&SpeedRunExploration> = raced
         .iter()

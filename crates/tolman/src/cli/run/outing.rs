@@ -28,7 +28,7 @@ use crate::start::Start;
 pub(in crate::cli) struct Outing {
     #[command(flatten)]
     ground: Ground,
-    /// What all chance of the run follows from
+    /// Seed of all random numbers of the run: the same seed gives the same run
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
@@ -41,7 +41,7 @@ pub(in crate::cli) struct Outing {
         allow_hyphen_values = true
     )]
     start: Start,
-    /// Give up after so many time steps; if not given, in proportion to the length of the
+    /// Give up after this many time steps; if not given, in proportion to the length of the
     /// corridors, as many for each metre as the Large maze's 500
     #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
     steps: Option<u32>,
@@ -160,7 +160,7 @@ pub(in crate::cli) fn carry_out(
     )))
 }
 
-/// The outcome in words.
+/// Returns the outcome in words.
 fn told(word: &str, episode: &Episode) -> String {
     let Episode {
         actions,
@@ -179,7 +179,7 @@ fn told(word: &str, episode: &Episode) -> String {
     )
 }
 
-/// A start or a maze that does not serve is the caller's to mend.
+/// Returns a start or a maze that does not serve is the caller's to mend.
 pub(super) fn classify(error: EpisodeError) -> Failure {
     match error {
         EpisodeError::Start(_)

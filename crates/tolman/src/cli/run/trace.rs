@@ -5,8 +5,8 @@ use tolman_robot::TurnTranslate;
 use tolman_sim::robots::LaserPioneer;
 use tolman_sim::trace::{Detail, Recording};
 
-/// The trace of a trial that was driven by these commands: JSON lines with the world, the robot,
-/// and every step's command, true pose, bump and readings.
+/// Returns the trace of a trial that was driven by these commands: JSON lines with the world, the
+/// robot, and every step's command, true pose, bump and readings.
 ///
 /// The run is made once more for it: the same commands make the same run.
 ///

@@ -46,8 +46,8 @@ impl ColumnIndex {
         }
     }
 
-    /// The views of which enough columns are near enough to those of a percept in a hypercube of
-    /// `size` tolerances.
+    /// Returns the views of which enough columns are near enough to those of a percept in a
+    /// hypercube of `size` tolerances.
     pub(super) fn within(&self, percept: &Signature, kind: &SignatureKind, size: f64) -> Vec<u32> {
         let groups = Groups::of(kind);
         let tolerance = kind.tolerance * size;
@@ -85,13 +85,13 @@ impl Groups {
         Self { count, size }
     }
 
-    /// Where the groups begin.
+    /// Returns where the groups begin.
     fn starts(&self) -> impl Iterator<Item = usize> + use<> {
         let size = self.size;
         (0..self.count).map(move |group| group * size)
     }
 
-    /// The values of the columns from one on, round the circle.
+    /// Returns the values of the columns from one on, round the circle.
     fn values(&self, view: &Signature, start: usize) -> Vec<f64> {
         let columns = (start..start + self.size).map(|column| column % view.columns());
         let values = columns.flat_map(|column| view.column(column));

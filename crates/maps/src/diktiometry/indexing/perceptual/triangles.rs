@@ -91,8 +91,8 @@ impl TriangleIndex {
         }
     }
 
-    /// The views of which enough triangles are those of a percept, their contrasts within `size`
-    /// times what noise may do. O(√(triangles)) for each triangle asked for.
+    /// Returns the views of which enough triangles are those of a percept, their contrasts within
+    /// `size` times what noise may do. O(√(triangles)) for each triangle asked for.
     pub(super) fn within(&self, percept: &Seen, kind: &SignatureKind, size: f64) -> Vec<u32> {
         // Each of the two columns at an edge may differ by the tolerance. Sides are whole columns.
         let mut half_sizes = Vec::from([0.0; SIDES]);
@@ -113,7 +113,7 @@ impl TriangleIndex {
     }
 }
 
-/// The border before every column.
+/// Returns the border before every column.
 fn borders(view: &Signature) -> Vec<Edge> {
     let columns = view.columns();
     let border = |column: usize| {
@@ -127,7 +127,7 @@ fn borders(view: &Signature) -> Vec<Edge> {
     (0..columns).map(border).collect()
 }
 
-/// The clearest of some edges, by column.
+/// Returns the clearest of some edges, by column.
 fn clearest(mut edges: Vec<Edge>, count: usize) -> Vec<Edge> {
     edges.sort_by(|a, b| {
         let clearer = b.clearness().total_cmp(&a.clearness());
@@ -138,7 +138,7 @@ fn clearest(mut edges: Vec<Edge>, count: usize) -> Vec<Edge> {
     edges
 }
 
-/// How many triples there are of so many things.
+/// Returns the number of triples among `count` things.
 const fn triples(count: usize) -> usize {
     count * count.saturating_sub(1) * count.saturating_sub(2) / 6
 }
@@ -149,7 +149,7 @@ type Triangle<'a> = [&'a Edge; 3];
 /// The sides of a triangle that tell it: the third is what is left of the circle.
 const SIDES: usize = 2;
 
-/// All triples of edges that are sorted by column.
+/// Returns all triples of edges that are sorted by column.
 fn triangles(edges: &[Edge]) -> impl Iterator<Item = Triangle<'_>> {
     edges.iter().enumerate().flat_map(move |(second, middle)| {
         edges[..second].iter().flat_map(move |first| {
@@ -159,13 +159,13 @@ fn triangles(edges: &[Edge]) -> impl Iterator<Item = Triangle<'_>> {
     })
 }
 
-/// The columns from one edge counter-clockwise to another.
+/// Returns the columns from one edge counter-clockwise to another.
 fn side(from: &Edge, to: &Edge, columns: usize) -> usize {
     (to.column + columns - from.column) % columns
 }
 
-/// The triangle told from the beginning of its longest side on; from each of them if several are
-/// the longest.
+/// Returns the triangle told from the beginning of its longest side on; from each of them if
+/// several are the longest.
 fn turns(triangle: Triangle<'_>, columns: usize) -> impl Iterator<Item = Feature> + use<'_> {
     let [a, b, c] = triangle;
     let turns = [[a, b, c], [b, c, a], [c, a, b]];
@@ -212,8 +212,8 @@ mod tests {
         }
     }
 
-    /// What is seen of a place by a robot that is turned by some columns, each value wrong and all
-    /// of them brighter.
+    /// Returns what is seen of a place by a robot that is turned by some columns, each value wrong
+    /// and all of them brighter.
     fn seen(view: &[f64], turned: usize, noise: &[f64], brighter: f64) -> Signature {
         let values = (0..view.len()).map(|at| {
             let there = (at + turned * ROWS) % view.len();

@@ -1,0 +1,336 @@
+//! A foreign program and the lines that go to and fro.
+
+use core::sync::atomic::{AtomicBool, Ordering};
+use core::time::Duration;
+use std::ffi::OsString;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender, TrySendError};
+use std::thread;
+use std::time::Instant;
+
+use thiserror::Error;
+
+/// How a foreign program is started.
+#[derive(Clone, Copy, Debug)]
+pub struct Launch<'a> {
+    /// The program and its arguments.
+    pub words: &'a [String],
+    /// The command that runs [`keep`](super::keep) with our process's id and the words behind it;
+    /// empty for no keeper.
+    pub keeper: &'a [OsString],
+    /// Where its stderr goes.
+    pub log: Log,
+    /// A flag that ends the program when it is raised.
+    pub stop: &'a AtomicBool,
+}
+
+/// Whether what a foreign program writes to stderr is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Log {
+    /// On our stderr.
+    Shown,
+    /// Nowhere.
+    Dropped,
+}
+
+/// What a foreign program may use up before it is ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// Time from its start.
+    pub time: Duration,
+    /// Bytes that it may write.
+    pub bytes: u64,
+    /// Lines that it may write.
+    pub lines: u64,
+    /// Bytes of its longest line, with the end of the line.
+    pub line_bytes: u64,
+}
+
+impl Default for Budget {
+    /// A minute, 64 MiB, a million lines of 4096 bytes at most.
+    fn default() -> Self {
+        Self {
+            time: Duration::from_secs(60),
+            bytes: 64 << 20,
+            lines: 1_000_000,
+            line_bytes: 4096,
+        }
+    }
+}
+
+/// Why a foreign program has to be ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum Overrun {
+    /// Its time is over.
+    #[error("the program is out of time")]
+    Time,
+    /// It wrote more bytes than it may.
+    #[error("the program wrote more bytes than it may")]
+    Bytes,
+    /// It wrote more lines than it may.
+    #[error("the program wrote more lines than it may")]
+    Lines,
+    /// It wrote a line that is longer than it may be.
+    #[error("the program wrote a line that is longer than it may be")]
+    LineBytes,
+    /// The flag of [`Launch::stop`] was raised.
+    #[error("interrupted")]
+    Stop,
+}
+
+/// How a foreign program ended that had closed its stdout.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Left {
+    /// By itself.
+    ByItself(ExitStatus),
+    /// It ran on and was killed.
+    Killed,
+}
+
+/// Why a foreign program cannot be run.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LaunchError {
+    /// The command has no program.
+    #[error("the command is empty: name a program")]
+    NoProgram,
+    /// The program does not start.
+    #[error("`{program}` does not start: give the path of a program that can be run")]
+    Start {
+        /// Its name.
+        program: String,
+        /// Why.
+        source: io::Error,
+    },
+    /// The program cannot be waited for.
+    #[error("the program cannot be waited for")]
+    Wait(#[source] io::Error),
+}
+
+/// A foreign program that runs. Dropping it ends it, and all that it started.
+///
+/// Reading and writing have threads of their own, since a program that neither writes nor reads
+/// must not hold up the clock. They end as soon as its ends of the pipes are closed, or ours of the
+/// channels.
+#[derive(Debug)]
+pub struct ForeignProgram<'a> {
+    launch: Launch<'a>,
+    child: Child,
+    lines: Receiver<Option<String>>,
+    replies: Option<SyncSender<String>>,
+    budget: Budget,
+    started: Instant,
+    heard_bytes: u64,
+    heard_lines: u64,
+}
+
+/// Lines that may wait to be read, in either direction.
+const LINES_AHEAD: usize = 256;
+
+/// Time after which the flag and the clock are looked at again.
+const PULSE: Duration = Duration::from_millis(50);
+
+/// Time in which the keeper is to end the program, before it is killed itself.
+const KEEPER_TIME: Duration = Duration::from_secs(10);
+
+impl<'a> ForeignProgram<'a> {
+    /// Starts a program.
+    ///
+    /// # Errors
+    /// [`LaunchError`] if it does not start. Behind a keeper that is seen later, by
+    /// [`left`](Self::left).
+    pub fn start(launch: &Launch<'a>, budget: Budget) -> Result<Self, LaunchError> {
+        let (program, arguments) = launch.words.split_first().ok_or(LaunchError::NoProgram)?;
+        let mut command = match launch.keeper {
+            [] => Command::new(program),
+            [keeper, more @ ..] => {
+                let mut command = Command::new(keeper);
+                command.args(more).arg(std::process::id().to_string());
+                command.arg("--").arg(program);
+                command
+            }
+        };
+        let mut child = command
+            .args(arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(match launch.log {
+                Log::Shown => Stdio::inherit(),
+                Log::Dropped => Stdio::null(),
+            })
+            .spawn()
+            .map_err(|source| does_not_start(launch, source))?;
+        let (to_us, lines) = mpsc::sync_channel(LINES_AHEAD);
+        let (replies, to_program) = mpsc::sync_channel(LINES_AHEAD);
+        if let Some(output) = child.stdout.take() {
+            thread::spawn(move || read(output, budget.line_bytes, &to_us));
+        }
+        if let Some(input) = child.stdin.take() {
+            thread::spawn(move || write(input, &to_program));
+        }
+        Ok(Self {
+            launch: *launch,
+            child,
+            lines,
+            replies: Some(replies),
+            budget,
+            started: Instant::now(),
+            heard_bytes: 0,
+            heard_lines: 0,
+        })
+    }
+
+    /// Returns the next line that it writes, with its end; `None` if it has closed its stdout.
+    ///
+    /// # Errors
+    /// [`Overrun`] if it has to be ended.
+    pub fn hear(&mut self) -> Result<Option<String>, Overrun> {
+        let line = loop {
+            let left = self.look_at_clock()?;
+            match self.lines.recv_timeout(left.min(PULSE)) {
+                Ok(line) => break line.ok_or(Overrun::LineBytes)?,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Ok(None),
+            }
+        };
+        self.heard_lines += 1;
+        self.heard_bytes += line.len() as u64;
+        if self.heard_bytes > self.budget.bytes {
+            return Err(Overrun::Bytes);
+        }
+        if self.heard_lines > self.budget.lines {
+            return Err(Overrun::Lines);
+        }
+        Ok(Some(line))
+    }
+
+    /// Hands it a line, without its end. A program that has closed its stdin needs none.
+    ///
+    /// # Errors
+    /// [`Overrun`] if it has to be ended: it does not read, and so much waits for it already.
+    pub fn say(&mut self, line: String) -> Result<(), Overrun> {
+        let mut waiting = line;
+        loop {
+            let Some(replies) = &self.replies else {
+                return Ok(());
+            };
+            match replies.try_send(waiting) {
+                Ok(()) | Err(TrySendError::Disconnected(_)) => return Ok(()),
+                Err(TrySendError::Full(line)) => waiting = line,
+            }
+            self.look_at_clock()?;
+            thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    /// Waits for a program that has closed its stdout. Its stdin is closed too; if it does not end
+    /// within `grace`, it is killed.
+    ///
+    /// # Errors
+    /// [`LaunchError`] if it never started, or cannot be waited for.
+    pub fn left(mut self, grace: Duration) -> Result<Left, LaunchError> {
+        drop(self.replies.take());
+        let ended = wait(&mut self.child, grace).map_err(LaunchError::Wait)?;
+        let Some(status) = ended else {
+            return Ok(Left::Killed);
+        };
+        // A keeper tells as a shell does that there is nothing to run.
+        let never_started = match status.code() {
+            Some(127) => Some(io::ErrorKind::NotFound),
+            Some(126) => Some(io::ErrorKind::PermissionDenied),
+            _ => None,
+        };
+        match never_started {
+            Some(kind) if self.heard_lines == 0 && !self.launch.keeper.is_empty() => {
+                Err(does_not_start(&self.launch, kind.into()))
+            }
+            _ => Ok(Left::ByItself(status)),
+        }
+    }
+
+    /// The time that is left.
+    fn look_at_clock(&self) -> Result<Duration, Overrun> {
+        if self.launch.stop.load(Ordering::Relaxed) {
+            return Err(Overrun::Stop);
+        }
+        let left = self.budget.time.checked_sub(self.started.elapsed());
+        left.filter(|left| !left.is_zero()).ok_or(Overrun::Time)
+    }
+}
+
+impl Drop for ForeignProgram<'_> {
+    fn drop(&mut self) {
+        // What has ended by itself by now is as good, and nobody can be told what fails here.
+        let _ = ask_keeper(&self.launch, &mut self.child);
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Lets the keeper end the program, if there is one.
+#[cfg(target_os = "linux")]
+fn ask_keeper(launch: &Launch<'_>, child: &mut Child) -> io::Result<()> {
+    use rustix::process::{Pid, Signal, kill_process};
+
+    if !launch.keeper.is_empty() && child.try_wait()?.is_none() {
+        kill_process(Pid::from_child(child), Signal::TERM)?;
+        wait(child, KEEPER_TIME)?;
+    }
+    Ok(())
+}
+
+#[cfg(not(target_os = "linux"))]
+fn ask_keeper(_: &Launch<'_>, _: &mut Child) -> io::Result<()> {
+    Ok(())
+}
+
+fn does_not_start(launch: &Launch<'_>, source: io::Error) -> LaunchError {
+    LaunchError::Start {
+        program: launch.words.first().cloned().unwrap_or_default(),
+        source,
+    }
+}
+
+/// Waits for a child, no longer than `time`.
+fn wait(child: &mut Child, time: Duration) -> io::Result<Option<ExitStatus>> {
+    let started = Instant::now();
+    loop {
+        let status = child.try_wait()?;
+        if status.is_some() || started.elapsed() >= time {
+            return Ok(status);
+        }
+        thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// Reads lines; `None` for one that is too long, and then no more.
+fn read(output: ChildStdout, line_bytes: u64, to_us: &SyncSender<Option<String>>) {
+    let mut output = BufReader::new(output);
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        match (&mut output).take(line_bytes).read_until(b'\n', &mut line) {
+            Ok(0) | Err(_) => return,
+            Ok(_) => {}
+        }
+        let is_whole = line.ends_with(b"\n") || (line.len() as u64) < line_bytes;
+        let sent = is_whole.then(|| String::from_utf8_lossy(&line).into_owned());
+        if to_us.send(sent).is_err() || !is_whole {
+            return;
+        }
+    }
+}
+
+fn write(mut input: ChildStdin, to_program: &Receiver<String>) {
+    for line in to_program {
+        // A program that has gone needs no line.
+        if writeln!(input, "{line}")
+            .and_then(|()| input.flush())
+            .is_err()
+        {
+            return;
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Files read whole, within a budget of bytes.
+//!
+//! Every reader of a whole file goes through this module, so that none grows without bound on a
+//! device or a pipe that never ends, and each says the same of what is no text.
+
+use core::str;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use thiserror::Error;
+
+/// The most bytes that are read of one file, 256 MiB: far above any map, world or trace, and low
+/// enough for the memory of any machine that runs this.
+pub const MOST_BYTES: u64 = 256 << 20;
+
+/// Why a file cannot be read whole. It does not name the file; whoever asks adds that.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SourceError {
+    /// The system cannot read it.
+    #[error(transparent)]
+    System(#[from] io::Error),
+    /// It goes on for too long.
+    #[error("it has more than {most} bytes; give a file that ends before")]
+    TooLong {
+        /// The most bytes that are read.
+        most: u64,
+    },
+    /// It has a byte order mark.
+    #[error("it begins with a byte order mark of {encoding}; save it as UTF-8 text without one")]
+    ByteOrderMark {
+        /// `UTF-8` or `UTF-16`.
+        encoding: &'static str,
+    },
+    /// It is no UTF-8 text.
+    #[error("line {line}: byte {byte} of the file is not UTF-8; save it as UTF-8 text")]
+    NoText {
+        /// The line, from 1.
+        line: usize,
+        /// The byte of the file, from 0.
+        byte: usize,
+    },
+}
+
+/// Returns the bytes of a file.
+///
+/// # Errors
+/// [`SourceError::System`] and [`SourceError::TooLong`].
+pub fn bytes(path: &Path) -> Result<Vec<u8>, SourceError> {
+    bytes_of(File::open(path)?)
+}
+
+/// Returns the text of a file.
+///
+/// # Errors
+/// [`SourceError`] if it cannot be read or is no text.
+pub fn text(path: &Path) -> Result<String, SourceError> {
+    text_of(File::open(path)?)
+}
+
+/// Returns all bytes that `source` gives.
+///
+/// # Errors
+/// [`SourceError::System`] and [`SourceError::TooLong`].
+pub fn bytes_of(source: impl Read) -> Result<Vec<u8>, SourceError> {
+    let mut bytes = Vec::new();
+    source.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    match bytes.len() as u64 > MOST_BYTES {
+        true => Err(SourceError::TooLong { most: MOST_BYTES }),
+        false => Ok(bytes),
+    }
+}
+
+/// Returns the text that `source` gives.
+///
+/// # Errors
+/// [`SourceError`] if it cannot be read or is no text.
+pub fn text_of(source: impl Read) -> Result<String, SourceError> {
+    let bytes = bytes_of(source)?;
+    let marks: [(&[u8], _); 3] = [
+        (b"\xef\xbb\xbf", "UTF-8"),
+        (b"\xff\xfe", "UTF-16"),
+        (b"\xfe\xff", "UTF-16"),
+    ];
+    if let Some((_, encoding)) = marks.iter().find(|(mark, _)| bytes.starts_with(mark)) {
+        return Err(SourceError::ByteOrderMark { encoding });
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let byte = error.utf8_error().valid_up_to();
+        let before = error.as_bytes().iter().take(byte);
+        SourceError::NoText {
+            line: before.filter(|byte| **byte == b'\n').count() + 1,
+            byte,
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(bytes: &[u8]) -> String {
+        text_of(bytes).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn what_is_no_text_is_told_with_its_place() {
+        assert_eq!(text_of(&b"o---o\n"[..]).unwrap(), "o---o\n");
+        assert!(told(b"a\nb\n\xe9\n").starts_with("line 3: byte 4 of the file is not UTF-8"));
+        assert!(told(b"\xef\xbb\xbfo---o").contains("byte order mark of UTF-8"));
+        assert!(told(b"\xff\xfeo\0").contains("byte order mark of UTF-16"));
+    }
+
+    #[test]
+    fn what_never_ends_is_refused() {
+        assert!(matches!(
+            bytes_of(io::repeat(0)),
+            Err(SourceError::TooLong { most: MOST_BYTES })
+        ));
+        let whole = bytes_of(io::repeat(b'x').take(MOST_BYTES)).unwrap();
+        assert_eq!(whole.len() as u64, MOST_BYTES);
+    }
+}

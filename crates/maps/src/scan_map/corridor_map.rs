@@ -1,0 +1,211 @@
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+
+use tolman_geom::Point;
+use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
+
+use super::branches::Branches;
+use super::skeleton::Skeleton;
+use super::wall_grid::{GridIndex, index_of, middle};
+use super::{ScanChart, WallGrid};
+
+/// The places of a [`ScanChart`] where its corridors meet or end or a landmark stands, and the ways
+/// between them: what is left of the middle lines of its ground.
+///
+/// A room is one place from which ways lead through its gateways.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CorridorMap {
+    places: Vec<CorridorPlace>,
+    ways: Vec<CorridorWay>,
+    reach: f64,
+    is_open: bool,
+}
+
+/// A place of a [`CorridorMap`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CorridorPlace {
+    /// Its middle, m.
+    pub position: Point,
+    /// The landmark that stands there.
+    pub landmark: Option<Landmark>,
+}
+
+/// A way of a [`CorridorMap`], which can be gone either way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CorridorWay {
+    /// The places at its ends, by number, which may be one.
+    pub ends: [u32; 2],
+    /// How long it is, m.
+    pub length: f64,
+}
+
+/// Ground so far off all walls is open, as a share of the corridors' width: a crossing's middle is
+/// 0.71 off.
+const OPEN: f64 = 0.8;
+/// A knot so near to where a landmark was sensed is where it stands, as a share of the corridors'
+/// width.
+const STANDS_BY: f64 = 0.65;
+/// Whoever is nearer to the middle of a place is at it, as a share of the corridors' width.
+const REACH: f64 = 0.33;
+/// Whoever comes by so near passes a place, as a multiple of that.
+const PASSED: f64 = 1.8;
+/// A goal is sensed so far into the next corridor's width before it counts as two, as a share of
+/// that.
+const BORDER: f64 = 0.2;
+
+impl CorridorMap {
+    /// Returns that of a chart whose corridors are about `width` m wide. O(cells · log cells +
+    /// knots³).
+    #[must_use]
+    pub fn of(chart: &ScanChart, width: f64) -> Self {
+        let grid = chart.ground().grid();
+        let stood = chart.places().iter().map(|place| place.position);
+        let ground = chart.clearings(&grid).reached(stood);
+        let skeleton = Skeleton::of(&grid, ground);
+        let clearance = |at| skeleton.depth(at) + chart.radius();
+        let is_open = skeleton.cells().any(|at| clearance(at) > OPEN * width);
+        let mut branches = Branches::of(&skeleton, chart.radius());
+        branches.prune();
+        branches.merge(OPEN * width);
+        let marks: Vec<(usize, Option<Landmark>)> = landmarks(chart, width)
+            .filter_map(|(at, landmark)| {
+                let reach = STANDS_BY * width / WallGrid::CELL;
+                Some((branches.knot_at(at, reach)?, landmark))
+            })
+            .collect();
+        let numbers: BTreeMap<usize, u32> = branches.knots().keys().copied().zip(0..).collect();
+        let place = |(number, knot): (&usize, &super::branches::Knot)| CorridorPlace {
+            position: middle(knot.at),
+            landmark: marks
+                .iter()
+                .find(|(at, _)| at == number)
+                .and_then(|(_, mark)| *mark),
+        };
+        let ways = branches.branches().iter().map(|branch| CorridorWay {
+            ends: branch.ends.map(|end| numbers[&end]),
+            length: branch.length(),
+        });
+        Self {
+            places: branches.knots().iter().map(place).collect(),
+            ways: ways.collect(),
+            reach: REACH * width,
+            is_open,
+        }
+    }
+
+    /// Returns the places, by number.
+    #[must_use]
+    pub fn places(&self) -> &[CorridorPlace] {
+        &self.places
+    }
+
+    /// Returns the ways.
+    #[must_use]
+    pub fn ways(&self) -> &[CorridorWay] {
+        &self.ways
+    }
+
+    /// Returns the place that a robot is at; `None` if it is on its way. O(places).
+    #[must_use]
+    pub fn at(&self, position: Point) -> Option<u32> {
+        let far = (0..)
+            .zip(&self.places)
+            .map(|(number, place)| ((place.position - position).norm(), number));
+        let near = far.filter(|(far, _)| *far < self.reach);
+        near.min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, number)| number)
+    }
+
+    /// Returns whether it has open ground, which is one place however large it is.
+    #[must_use]
+    pub const fn is_open(&self) -> bool {
+        self.is_open
+    }
+
+    /// Returns the place that a robot was at at each point of its trail; `None` where it was on its
+    /// way. A place that it passed between two points it was at when it was nearest. O(points ·
+    /// places).
+    #[must_use]
+    pub fn visits(&self, trail: &[Point]) -> Vec<Option<u32>> {
+        let mut visits: Vec<Option<u32>> = trail.iter().map(|at| self.at(*at)).collect();
+        for (number, place) in (0..).zip(&self.places) {
+            let far = trail.iter().map(|at| (at - place.position).norm());
+            let nearest = far.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+            if let Some((index, far)) = nearest
+                && far < PASSED * self.reach
+                && visits[index].is_none()
+            {
+                visits[index] = Some(number);
+            }
+        }
+        visits
+    }
+
+    /// Returns places and ways as any scorer and any drawing can read them. O(places + ways).
+    #[must_use]
+    pub fn view(&self) -> MapView {
+        let place = |(id, place): (u32, &CorridorPlace)| MapPlace {
+            id,
+            position: Some(place.position),
+            landmark: place.landmark,
+        };
+        let both_ways = |way: &CorridorWay| {
+            let [a, b] = way.ends;
+            [MapLink { from: a, to: b }, MapLink { from: b, to: a }]
+        };
+        MapView {
+            places: (0..).zip(&self.places).map(place).collect(),
+            links: self.ways.iter().flat_map(both_ways).collect(),
+        }
+    }
+}
+
+/// Where the robot was put down and where landmarks were sensed.
+fn landmarks(
+    chart: &ScanChart,
+    width: f64,
+) -> impl Iterator<Item = (GridIndex, Option<Landmark>)> + '_ {
+    let goals = goals(chart.goal(), width).into_iter();
+    let goals = goals.map(|at| (index_of(at), Some(Landmark::Goal)));
+    // Of the places where another landmark was sensed the first is nearest to where it stands.
+    let mut known = alloc::vec![Some(Landmark::Goal)];
+    let places = chart.places().iter().enumerate();
+    let others = places.filter_map(move |(number, place)| {
+        let is_new = !known.contains(&place.landmark);
+        known.push(place.landmark);
+        let is_meant = number == 0 || (place.landmark.is_some() && is_new);
+        let landmark = place.landmark.filter(|_| is_new);
+        is_meant.then(|| (index_of(place.position), landmark))
+    });
+    goals.chain(others)
+}
+
+/// Where the goal stands that was sensed at these points: as often as corridors lie side by side
+/// there.
+fn goals(sensed: &[Point], width: f64) -> Vec<Point> {
+    let Some([low, high]) = bounds(sensed) else {
+        return Vec::new();
+    };
+    let extent = high - low;
+    let count = [extent.x, extent.y].map(|along| libm::ceil((along / width - BORDER).max(0.1)));
+    let part = |at: &Point| {
+        [0, 1].map(|axis| {
+            let share = (at[axis] - low[axis]) / extent[axis].max(f64::MIN_POSITIVE);
+            (share * count[axis]).min(count[axis] - 1.0) as u32
+        })
+    };
+    let mut parts: BTreeMap<[u32; 2], Vec<Point>> = BTreeMap::new();
+    for at in sensed {
+        parts.entry(part(at)).or_default().push(*at);
+    }
+    let bounds = parts.values().filter_map(|points| bounds(points));
+    bounds.map(|[low, high]| low + 0.5 * (high - low)).collect()
+}
+
+/// The low and the high corner of the box round points.
+fn bounds(points: &[Point]) -> Option<[Point; 2]> {
+    let first = *points.first()?;
+    Some(points.iter().fold([first, first], |[low, high], at| {
+        [low.inf(at), high.sup(at)]
+    }))
+}

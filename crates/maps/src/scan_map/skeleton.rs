@@ -1,0 +1,156 @@
+use alloc::collections::BinaryHeap;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::cmp::Reverse;
+
+use super::WallGrid;
+use super::wall_grid::GridIndex;
+
+/// The middle lines of the ground where a robot can stand: what is left when cells are taken away
+/// from its border on that neither hold it together nor end a line.
+#[derive(Debug)]
+pub(super) struct Skeleton {
+    first: GridIndex,
+    columns: i32,
+    rows: i32,
+    is_line: Vec<bool>,
+    /// From each cell to the border of the ground, in [`PART`]s of a cell.
+    depth: Vec<u32>,
+}
+
+/// Distances along the axes and diagonals are counted as 3 and 4 (Borgefors 1986).
+const STRAIGHT: u32 = 3;
+const DIAGONAL: u32 = 4;
+/// Parts of a cell in which they are counted.
+const PART: f64 = STRAIGHT as f64;
+
+/// The cells round another, in turn; every second lies along an axis.
+const AROUND: [GridIndex; 8] = [
+    [1, 0],
+    [1, 1],
+    [0, 1],
+    [-1, 1],
+    [-1, 0],
+    [-1, -1],
+    [0, -1],
+    [1, -1],
+];
+
+impl Skeleton {
+    /// Returns that of the cells of `grid` that are in `ground`, by slot. O(cells · log cells).
+    pub(super) fn of(grid: &WallGrid, ground: Vec<bool>) -> Self {
+        let [first, end] = grid.bounds();
+        let mut skeleton = Self {
+            first,
+            columns: end[0] - first[0],
+            rows: end[1] - first[1],
+            depth: vec![0; ground.len()],
+            is_line: ground,
+        };
+        skeleton.measure();
+        skeleton.thin();
+        skeleton
+    }
+
+    /// The cells of the lines, in rows.
+    pub(super) fn cells(&self) -> impl Iterator<Item = GridIndex> + '_ {
+        let slots = (0..self.is_line.len()).filter(|slot| self.is_line[*slot]);
+        slots.map(|slot| self.index(slot))
+    }
+
+    /// How far a cell is from the border of the ground, m.
+    pub(super) fn depth(&self, at: GridIndex) -> f64 {
+        let depth = self.slot(at).map_or(0, |slot| self.depth[slot]);
+        f64::from(depth) / PART * WallGrid::CELL
+    }
+
+    /// The cells of the lines beside one; a diagonal step only where no other way is as short.
+    pub(super) fn beside(&self, at: GridIndex) -> impl Iterator<Item = GridIndex> + '_ {
+        let around = self.around(at);
+        (0..8).filter_map(move |way| {
+            let has_corner = way % 2 == 1 && (around[way - 1] || around[(way + 1) % 8]);
+            (around[way] && !has_corner).then(|| by(at, AROUND[way]))
+        })
+    }
+
+    /// Works out how far each cell is from the border, forth and back over all rows.
+    fn measure(&mut self) {
+        const BEFORE: [usize; 4] = [4, 5, 6, 7];
+        const AFTER: [usize; 4] = [0, 1, 2, 3];
+        let slots = self.depth.len();
+        for slot in 0..slots {
+            self.depth[slot] = self.depth_by(slot, BEFORE, u32::MAX / 2);
+        }
+        for slot in (0..slots).rev() {
+            self.depth[slot] = self.depth_by(slot, AFTER, self.depth[slot]);
+        }
+    }
+
+    fn depth_by(&self, slot: usize, ways: [usize; 4], most: u32) -> u32 {
+        if !self.is_line[slot] {
+            return 0;
+        }
+        let at = self.index(slot);
+        let by_way = ways.map(|way| {
+            let step = if way % 2 == 0 { STRAIGHT } else { DIAGONAL };
+            let beside = self.slot(by(at, AROUND[way]));
+            beside.map_or(0, |slot| self.depth[slot]) + step
+        });
+        by_way.into_iter().fold(most, u32::min)
+    }
+
+    /// Takes cells away, those at the border first.
+    fn thin(&mut self) {
+        let all = (0..self.is_line.len()).filter(|slot| self.is_line[*slot]);
+        let mut left: BinaryHeap<Reverse<(u32, usize)>> =
+            all.map(|slot| Reverse((self.depth[slot], slot))).collect();
+        while let Some(Reverse((_, slot))) = left.pop() {
+            let at = self.index(slot);
+            let around = self.around(at);
+            if !self.is_line[slot] || !is_needless(around) {
+                continue;
+            }
+            self.is_line[slot] = false;
+            for (way, _) in around.iter().enumerate().filter(|(_, is_line)| **is_line) {
+                if let Some(slot) = self.slot(by(at, AROUND[way])) {
+                    left.push(Reverse((self.depth[slot], slot)));
+                }
+            }
+        }
+    }
+
+    fn around(&self, at: GridIndex) -> [bool; 8] {
+        AROUND.map(|way| {
+            self.slot(by(at, way))
+                .is_some_and(|slot| self.is_line[slot])
+        })
+    }
+
+    fn slot(&self, at: GridIndex) -> Option<usize> {
+        let [column, row] = [at[0] - self.first[0], at[1] - self.first[1]];
+        let is_inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
+        is_inside.then(|| (row * self.columns + column) as usize)
+    }
+
+    fn index(&self, slot: usize) -> GridIndex {
+        let columns = self.columns as usize;
+        let [column, row] = [slot % columns, slot / columns].map(|count| count as i32);
+        [self.first[0] + column, self.first[1] + row]
+    }
+}
+
+/// Whether a cell with these round it holds nothing together and ends no line: Yokoi's number of
+/// connections is 1, and more than two cells lie beside. Of two that a line of two cells' width
+/// ends with, one stays, or it would be taken away from its end on.
+fn is_needless(around: [bool; 8]) -> bool {
+    let connections = [0, 2, 4, 6].into_iter().filter(|way| {
+        let [a, b, c] = [0, 1, 2].map(|next| around[(way + next) % 8]);
+        !a && (b || c)
+    });
+    let beside = around.into_iter().filter(|is_line| *is_line).count();
+    connections.count() == 1 && beside > 2
+}
+
+pub(super) fn by(at: GridIndex, offset: GridIndex) -> GridIndex {
+    [at[0] + offset[0], at[1] + offset[1]]
+}

@@ -1,0 +1,453 @@
+//! A replay as a picture that moves by itself.
+
+use maud::{Markup, html};
+use tolman_draw::{Figure, FloorPlan, Series, ZoneStyle};
+use tolman_geom::Point;
+
+use super::{Replay, RobotTrack, Shape, ZoneKind};
+
+/// A stretch of a replay with the words that stand below it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chapter {
+    /// Its first step.
+    pub from: u32,
+    /// What happens in it.
+    pub caption: String,
+    /// How long it is played, s.
+    pub seconds: f64,
+}
+
+/// Pictures a second.
+const RATE: f64 = 25.0;
+
+/// After each chapter the picture stands still for so long, s.
+const PAUSE: f64 = 1.2;
+
+/// A turn by a radian takes as long as this way, m.
+const METRES_PER_RADIAN: f64 = 0.05;
+
+/// Width of the picture, user units.
+const WIDTH: f64 = 800.0;
+
+/// Room for the words below, user units.
+const FOOT: f64 = 34.0;
+
+/// Returns the first robot of a replay as an SVG that plays forever: its way, its map as it grew
+/// and, from the time on when it was first lifted, where it believed to be. Time passes as the
+/// robot gets on, so that a slow robot is not dull. Nodes of the map stand where they lay last.
+///
+/// `chapters` are played in turn, ascending by their first steps.
+///
+/// It has no script and needs no network. Who does not animate shows the end. O(poses + map).
+#[must_use]
+pub fn moving_picture(replay: &Replay, chapters: &[Chapter]) -> String {
+    let walls = &replay.scenery.walls;
+    let mut plan = FloorPlan::of_walls(walls, WIDTH);
+    for zone in &replay.scenery.zones {
+        let style = match zone.kind {
+            ZoneKind::Destination => ZoneStyle::Destination,
+            ZoneKind::Solid => ZoneStyle::Solid,
+            ZoneKind::Start | ZoneKind::Region => continue,
+        };
+        plan.zone(&zone.corners, style);
+    }
+    let tracks = replay.tracks.iter();
+    let mut tracks = tracks.filter(|track| !track.poses.is_empty());
+    if let Some(track) = tracks.next() {
+        let clock = Clock::of(track, chapters);
+        let body = html! {
+            (map(&plan, track, &clock))
+            (ways(&plan, track, &clock))
+            (beliefs(&plan, track, &clock))
+            (robot(&plan, track, &clock))
+        };
+        plan.layer(body);
+        let mut drawing = plan.drawing(format!("{}, played step by step.", replay.title));
+        let captions = captions(chapters, &clock, drawing.height);
+        drawing.height += FOOT;
+        drawing.body = html! { (drawing.body) (captions) };
+        return Figure::new("moving", &replay.title, drawing).standalone();
+    }
+    let drawing = plan.drawing(&replay.title);
+    Figure::new("moving", &replay.title, drawing).standalone()
+}
+
+/// Which step is shown when.
+struct Clock {
+    /// The step of each picture.
+    steps: Vec<u32>,
+    /// The first picture of each chapter.
+    begins: Vec<usize>,
+}
+
+impl Clock {
+    fn of(track: &RobotTrack, chapters: &[Chapter]) -> Self {
+        let last = track.poses.len().saturating_sub(1);
+        let mut clock = Self {
+            steps: Vec::new(),
+            begins: Vec::new(),
+        };
+        for (number, chapter) in chapters.iter().enumerate() {
+            let from = (chapter.from as usize).min(last);
+            let next = chapters.get(number + 1).map(|next| next.from as usize);
+            let to = next
+                .map_or(last, |next| next.saturating_sub(1))
+                .clamp(from, last);
+            clock.begins.push(clock.steps.len());
+            clock.play(track, from, to, chapter.seconds);
+        }
+        clock
+    }
+
+    /// Plays the steps from one to another.
+    fn play(&mut self, track: &RobotTrack, from: usize, to: usize, seconds: f64) {
+        let mut way = vec![0.0];
+        for pair in track.poses[from..=to].windows(2) {
+            if let [before, after] = pair {
+                let turn = before.heading.turn_to(after.heading).abs();
+                let moved = (after.position - before.position).norm();
+                let so_far = way.last().copied().unwrap_or(0.0);
+                way.push(so_far + moved + METRES_PER_RADIAN * turn);
+            }
+        }
+        let whole = way.last().copied().unwrap_or(0.0);
+        let pictures = (seconds * RATE) as usize;
+        for picture in 0..pictures {
+            let at = whole * picture as f64 / pictures as f64;
+            self.steps
+                .push((from + way.partition_point(|way| *way < at)) as u32);
+        }
+        for _ in 0..(PAUSE * RATE) as usize {
+            self.steps.push(to as u32);
+        }
+    }
+
+    /// Returns the first picture that shows `step` or a later one; the number of pictures if none
+    /// does.
+    fn picture(&self, step: u32) -> usize {
+        self.steps.partition_point(|shown| *shown < step)
+    }
+
+    fn seconds(&self) -> String {
+        format!("{:.2}s", self.steps.len() as f64 / RATE)
+    }
+
+    /// A picture as a share of the whole.
+    fn key(&self, picture: usize) -> String {
+        short(picture as f64 / self.steps.len().max(1) as f64, 4)
+    }
+
+    /// Shows an element between two pictures only.
+    fn shown(&self, from: usize, to: usize) -> Markup {
+        let (mut values, mut keys) = (
+            vec![if from == 0 { "1" } else { "0" }],
+            vec!["0".to_owned()],
+        );
+        if from > 0 {
+            values.push("1");
+            keys.push(self.key(from));
+        }
+        if to < self.steps.len() {
+            values.push("0");
+            keys.push(self.key(to));
+        }
+        html! {
+            animate attributeName="opacity" calcMode="discrete" values=(values.join(";"))
+                keyTimes=(keys.join(";")) dur=(self.seconds()) repeatCount="indefinite" {}
+        }
+    }
+}
+
+/// Where things of the same fate lie, as path data, and between which pictures they are shown.
+#[derive(Default)]
+struct Fates(alloc::collections::BTreeMap<(usize, usize), String>);
+
+impl Fates {
+    fn add(&mut self, clock: &Clock, born: u32, died: Option<u32>, path: &str) {
+        let from = clock.picture(born);
+        let to = died.map_or(clock.steps.len(), |died| clock.picture(died));
+        if from < to {
+            self.0.entry((from, to)).or_default().push_str(path);
+        }
+    }
+
+    fn markup(&self, clock: &Clock, width: &str) -> Markup {
+        html! {
+            @for ((from, to), path) in &self.0 {
+                @let stays = (*to < clock.steps.len()).then_some("0");
+                path d=(path) opacity=[stays] fill="none" stroke="currentColor"
+                    stroke-linecap="round" stroke-width=(width)
+                    { (clock.shown(*from, *to)) }
+            }
+        }
+    }
+}
+
+fn map(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
+    let (mut nodes, mut edges) = (Fates::default(), Fates::default());
+    for map in &track.maps {
+        let at = |id: u32| {
+            let node = map.nodes.iter().find(|node| node.id == id);
+            node.map(|node| place(plan, node.latest()))
+        };
+        for node in &map.nodes {
+            let dot = format!("M{}h0", place(plan, node.latest()));
+            nodes.add(clock, node.born, node.died, &dot);
+        }
+        for edge in &map.edges {
+            if let (Some(a), Some(b)) = (at(edge.a), at(edge.b)) {
+                edges.add(clock, edge.born, edge.died, &format!("M{a}L{b}"));
+            }
+        }
+    }
+    html! {
+        g class=(Series(0).class()) {
+            g stroke-opacity="0.55" { (edges.markup(clock, "2")) }
+            (nodes.markup(clock, "8"))
+        }
+    }
+}
+
+/// The way of each chapter, drawn as it is driven.
+fn ways(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
+    let ends = clock.begins.iter().skip(1).copied();
+    let ends = ends.chain([clock.steps.len()]);
+    let chapters = clock.begins.iter().zip(ends).enumerate();
+    html! {
+        @for (number, (from, to)) in chapters {
+            @let steps = &clock.steps[*from..to];
+            @let at = |step: &u32| plan.at(track.poses[*step as usize].position);
+            @let points: Vec<(f64, f64)> = steps.iter().map(at).collect();
+            @let path: Vec<String> = points.iter().map(|at| pair(*at)).collect();
+            g class=(Series([1, 3, 2][number.min(2)]).class()) {
+                path d={ "M" (path.join("L")) } fill="none" stroke="currentColor"
+                    stroke-width=(if number == 0 { "1.6" } else { "3.5" })
+                    stroke-opacity=(if number == 0 { "0.35" } else { "0.9" })
+                    stroke-linejoin="round" pathLength="1" stroke-dasharray="1 1"
+                {
+                    (drawn(&points, *from, clock))
+                }
+            }
+        }
+    }
+}
+
+/// Lets a line appear as far as it is driven.
+fn drawn(points: &[(f64, f64)], from: usize, clock: &Clock) -> Markup {
+    let mut so_far = vec![0.0];
+    for pair in points.windows(2) {
+        if let [(x, y), (next_x, next_y)] = *pair {
+            let before = so_far.last().copied().unwrap_or(0.0);
+            so_far.push(before + libm::hypot(next_x - x, next_y - y));
+        }
+    }
+    let whole = so_far.last().copied().filter(|whole| *whole > 0.0);
+    let left = |way: &f64| short(1.0 - way / whole.unwrap_or(1.0), 3);
+    let before = core::iter::repeat_n("1".to_owned(), from);
+    let after = clock.steps.len() - from - points.len();
+    let after = core::iter::repeat_n("0".to_owned(), after);
+    let values: Vec<String> = before.chain(so_far.iter().map(left)).chain(after).collect();
+    html! {
+        animate attributeName="stroke-dashoffset" values=(values.join(";"))
+            dur=(clock.seconds()) repeatCount="indefinite" {}
+    }
+}
+
+/// Where it believed to be since it was first lifted.
+fn beliefs(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
+    let Some(lifted) = track.lifts.first() else {
+        return html! {};
+    };
+    let entries = track.beliefs.iter().flat_map(|belief| {
+        let ends = belief.entries.iter().skip(1).map(|next| Some(next.step));
+        belief.entries.iter().zip(ends.chain([None]))
+    });
+    let entries = entries.filter_map(|(entry, end)| {
+        let from = clock.picture(entry.step.max(*lifted));
+        let to = end.map_or(clock.steps.len(), |end| clock.picture(end));
+        (from < to).then_some((entry, from, to))
+    });
+    html! {
+        g class=(Series(3).class()) fill="currentColor" {
+            @for (entry, from, to) in entries {
+                g opacity="0" {
+                    @for (position, weight) in entry.shapes.iter().filter_map(|shape| point(track, shape)) {
+                        @let (x, y) = plan.at(position);
+                        circle cx=(short(x, 1)) cy=(short(y, 1))
+                            r=(short(6.0 + 12.0 * libm::sqrt(weight), 1))
+                            fill-opacity=(short(0.2 + 0.6 * weight, 2)) {}
+                    }
+                    (clock.shown(from, to))
+                }
+            }
+        }
+    }
+}
+
+fn point(track: &RobotTrack, shape: &Shape) -> Option<(Point, f64)> {
+    match *shape {
+        Shape::Point { position, weight } => Some((position, weight)),
+        Shape::Pose { pose, weight } => Some((pose.position, weight)),
+        Shape::Node { id, weight } => {
+            let nodes = track.maps.iter().flat_map(|map| &map.nodes);
+            let node = nodes.into_iter().find(|node| node.id == id)?;
+            Some((node.latest(), weight))
+        }
+        Shape::Box { min, max, weight } => Some((min + 0.5 * (max - min), weight)),
+        Shape::Ellipse { centre, weight, .. } => Some((centre, weight)),
+    }
+}
+
+fn robot(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
+    let poses: Vec<_> = clock
+        .steps
+        .iter()
+        .map(|step| track.poses[*step as usize])
+        .collect();
+    let Some(last) = poses.last() else {
+        return html! {};
+    };
+    let places: Vec<String> = poses
+        .iter()
+        .map(|pose| place(plan, pose.position))
+        .collect();
+    // Counter-clockwise in the world is clockwise where y grows downwards; no turn is the long one.
+    let mut angle = -poses[0].heading.degrees();
+    let mut angles = vec![short(angle, 0)];
+    for pair in poses.windows(2) {
+        if let [before, after] = pair {
+            angle -= before.heading.turn_to(after.heading).to_degrees();
+            angles.push(short(angle, 0));
+        }
+    }
+    html! {
+        g transform={ "translate(" (place(plan, last.position)) ")" } {
+            animateTransform attributeName="transform" type="translate" values=(places.join(";"))
+                dur=(clock.seconds()) repeatCount="indefinite" {}
+            g transform={ "rotate(" (short(angle, 0)) ")" } {
+                animateTransform attributeName="transform" type="rotate" values=(angles.join(";"))
+                    dur=(clock.seconds()) repeatCount="indefinite" {}
+                path class="robot" d="M11 0L-8 8L-4 0L-8 -8Z" stroke-width="1.5"
+                    style="stroke: var(--page)" {}
+            }
+        }
+    }
+}
+
+fn captions(chapters: &[Chapter], clock: &Clock, height: f64) -> Markup {
+    let ends = clock.begins.iter().skip(1).copied();
+    let ends = ends.chain([clock.steps.len()]);
+    html! {
+        @for ((chapter, from), to) in chapters.iter().zip(&clock.begins).zip(ends) {
+            @let hidden = (to < clock.steps.len()).then_some("0");
+            text x=(short(0.5 * WIDTH, 0)) y=(short(height + 0.6 * FOOT, 1)) text-anchor="middle"
+                font-size="17" opacity=[hidden]
+            {
+                (chapter.caption)
+                (clock.shown(*from, to))
+            }
+        }
+    }
+}
+
+fn place(plan: &FloorPlan, position: Point) -> String {
+    pair(plan.at(position))
+}
+
+fn pair((x, y): (f64, f64)) -> String {
+    format!("{} {}", short(x, 1), short(y, 1))
+}
+
+/// Writes a number with at most `decimals` decimals.
+fn short(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
+    let text = match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
+    };
+    match text {
+        "-0" => "0".to_owned(),
+        text => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::{Heading, Pose};
+    use tolman_robot::Body;
+
+    use super::*;
+    use crate::{BeliefAt, MapGrowth, MapNode, Scenery};
+
+    /// A robot that drives 4 m east, is put back, and drives 1 m of it again.
+    fn replay() -> Replay {
+        let steps = (0..=4).chain(0..=1);
+        let poses = steps.map(|x| Pose::new(Point::new(f64::from(x), 0.5), Heading::EAST));
+        let mut track = RobotTrack::new("r", Body::Circle { radius: 0.1 }, poses.collect());
+        track.lifts = vec![5];
+        let node = |id, born| MapNode::new(id, Point::new(f64::from(id), 0.5), born);
+        track.maps = vec![MapGrowth {
+            name: "map".to_owned(),
+            nodes: vec![node(0, 0), node(4, 4)],
+            edges: vec![crate::MapEdge::new(0, 4, 4)],
+        }];
+        let shapes = vec![Shape::Node { id: 4, weight: 1.0 }];
+        track.beliefs = vec![crate::Belief {
+            name: "belief".to_owned(),
+            entries: [2, 5]
+                .map(|step| BeliefAt {
+                    step,
+                    shapes: shapes.clone(),
+                })
+                .into(),
+        }];
+        let scenery = Scenery {
+            walls: vec![[Point::new(0.0, 0.0), Point::new(5.0, 1.0)]],
+            ..Scenery::default()
+        };
+        Replay::new("Twice", 0.1, scenery, vec![track])
+    }
+
+    fn chapters() -> Vec<Chapter> {
+        let chapter = |from, caption: &str| Chapter {
+            from,
+            caption: caption.to_owned(),
+            seconds: 2.0,
+        };
+        vec![chapter(0, "away"), chapter(5, "again")]
+    }
+
+    #[test]
+    fn time_passes_as_the_robot_gets_on() {
+        let track = &replay().tracks[0];
+        let clock = Clock::of(track, &chapters());
+        assert_eq!(clock.steps.len(), 2 * (50 + 30));
+        assert!(clock.steps.is_sorted());
+        // Half the time of the first chapter for half its way.
+        assert_eq!(clock.steps[25], 2);
+        assert_eq!((clock.steps[79], clock.begins[1]), (4, 80));
+        assert_eq!((clock.steps[80], clock.steps[159]), (5, 6));
+    }
+
+    #[test]
+    fn maps_grow_and_beliefs_are_shown_once_the_robot_was_lifted() {
+        let svg = moving_picture(&replay(), &chapters());
+        assert!(svg.contains(">away<") && svg.contains(">again<"));
+        // Of the two beliefs that before the robot was lifted is not shown.
+        assert_eq!(svg.matches("<circle").count(), 1);
+        // The second node and the link appear together.
+        let born = "keyTimes=\"0;0.2375\"";
+        assert_eq!(svg.matches(born).count(), 2, "{svg}");
+    }
+
+    #[test]
+    fn nothing_to_show_is_an_empty_plan() {
+        let replay = Replay::new("Nothing", 0.1, Scenery::default(), Vec::new());
+        assert!(moving_picture(&replay, &[]).starts_with("<svg"));
+        let mut still = self::replay();
+        still.tracks[0].poses.truncate(1);
+        assert!(moving_picture(&still, &chapters()).contains(">away<"));
+        still.tracks[0].poses.clear();
+        assert!(moving_picture(&still, &chapters()).starts_with("<svg"));
+    }
+}

@@ -1,0 +1,38 @@
+//! `tolman keep`: the process between a verb and a foreign program, which leaves nothing behind.
+
+use std::ffi::OsString;
+
+use super::Failure;
+
+/// Runs a program for another process, and ends it with that process
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Process id of who asks
+    parent: u32,
+    /// The program and its arguments
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, required = true)]
+    words: Vec<String>,
+}
+
+/// The command that keeps a program, for [`Launch`](tolman_arena::foreign::Launch): this very
+/// executable, even if its file has been replaced.
+pub(super) fn keeper() -> Vec<OsString> {
+    match cfg!(target_os = "linux") {
+        true => vec!["/proc/self/exe".into(), "keep".into()],
+        false => Vec::new(),
+    }
+}
+
+#[cfg(target_os = "linux")]
+pub(super) fn carry_out(arguments: &Arguments) -> Result<(), Failure> {
+    let code = tolman_arena::foreign::keep(arguments.parent, &arguments.words)?;
+    std::process::exit(code.into())
+}
+
+#[cfg(not(target_os = "linux"))]
+pub(super) fn carry_out(arguments: &Arguments) -> Result<(), Failure> {
+    let Arguments { parent, words } = arguments;
+    Err(Failure::Failed(anyhow::anyhow!(
+        "process {parent} cannot have {words:?} kept: that needs Linux"
+    )))
+}

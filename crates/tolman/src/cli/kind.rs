@@ -1,0 +1,53 @@
+//! What a file is that was given where another kind is asked for.
+
+use anyhow::Error;
+use serde_json::Value;
+
+/// A kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Maze,
+    /// A map that a system has learned.
+    Map,
+    Trace,
+    /// A world whose walls stand anywhere.
+    World,
+}
+
+impl Kind {
+    /// Returns what a text is, if it is known.
+    fn of(text: &str) -> Option<Self> {
+        // A trace is many lines, the first of which names its kind.
+        let whole = serde_json::from_str(text).ok();
+        let value: Option<Value> =
+            whole.or_else(|| serde_json::from_str(text.lines().next()?).ok());
+        match value {
+            Some(value) => match value["format"].as_str()? {
+                "tolman-map" => Some(Self::Map),
+                "tolman-trace" => Some(Self::Trace),
+                "tolman-world" => Some(Self::World),
+                _ => None,
+            },
+            None => tolman_maze::parse(text).is_ok().then_some(Self::Maze),
+        }
+    }
+
+    /// Returns what it is called and who takes it.
+    const fn told(self) -> &'static str {
+        match self {
+            Self::Maze => "a maze: give it to `tolman maze show` or to --maze",
+            Self::Map => "a learned map: give it to `tolman map show` or to `tolman drive --map`",
+            Self::Trace => "a trace: give it to `tolman replay`",
+            Self::World => "a world of free walls: give it to --world",
+        }
+    }
+
+    /// Returns what a reader of this kind complained of in `text`: where the text is of another
+    /// kind, what it is and which verb takes it.
+    pub(super) fn explain(self, text: &str, name: &str, error: impl Into<Error>) -> Error {
+        match Self::of(text) {
+            Some(found) if found != self => Error::msg(format!("{name} is {}", found.told())),
+            _ => error.into().context(name.to_owned()),
+        }
+    }
+}

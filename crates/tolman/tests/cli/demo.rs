@@ -1,0 +1,61 @@
+//! `tolman demo`: every system shows what it can, and README's picture is its run.
+
+use std::fs;
+use std::path::Path;
+
+use super::{folder, tolman_in};
+
+#[test]
+fn every_system_learns_a_maze_and_comes_home() {
+    let folder = folder("demo-systems");
+    for (system, put_down) in [
+        ("mslst", true),
+        ("mslst-better", true),
+        ("cpm-better", true),
+        ("diktiometry", true),
+        ("gngslam", true),
+        ("micromouse", false),
+    ] {
+        let told = tolman_in(&folder, &["demo", "--system", system]).done();
+        let found = told.contains("Put down elsewhere, it found out where it is");
+        assert_eq!(found, put_down, "{system}: {told}");
+        assert!(
+            found || told.contains("it is not put down elsewhere"),
+            "{told}"
+        );
+        assert!(told.contains("It drove to the goal in"), "{system}: {told}");
+        let lines = told.lines().filter(|line| !line.starts_with("replay:"));
+        for line in lines {
+            assert!(line.chars().count() <= 80, "{line}");
+        }
+    }
+}
+
+#[test]
+fn what_a_system_cannot_do_is_a_failure_that_says_so() {
+    let folder = folder("demo-fails");
+    let fails = ["demo", "--system", "gng-slam"];
+    let told = tolman_in(&folder, &fails).failed(1, &["does not drive"]);
+    assert!(told.contains("It did not come to the goal"), "{told}");
+    assert!(folder.join("tolman-demo.html").exists());
+
+    tolman_in(&folder, &["demo", "--system", "nobody"]).refused(2, &["nobody", "mslst-better"]);
+    let rooms = "o---o---o\n| S     |\no   o   o\n|     G |\no---o---o\n";
+    fs::write(folder.join("room.maze"), rooms).unwrap();
+    let room = ["demo", "--system", "cpm", "--maze", "room.maze"];
+    tolman_in(&folder, &room).refused(2, &["CPM", "open square"]);
+}
+
+#[test]
+fn the_moving_picture_of_readme_is_that_of_the_demo() {
+    let folder = folder("demo-picture");
+    tolman_in(&folder, &["demo", "--svg", "demo.svg"]).done();
+    let made = fs::read_to_string(folder.join("demo.svg")).unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let shown = fs::read_to_string(root.join("docs/images/demo.svg")).unwrap();
+    assert!(made.len() < 400_000 && !made.contains("<script"));
+    assert!(
+        made == shown,
+        "docs/images/demo.svg is out of date: cargo xtask docs"
+    );
+}
