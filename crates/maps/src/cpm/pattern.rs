@@ -17,13 +17,17 @@ pub struct PatternId(pub u32);
 /// ```
 /// use tolman_maps::cpm::{Dictionary, PatternId};
 ///
-/// let mut dictionary = Dictionary::new(2); // A wall to the right, which seen the other way is a
-/// wall to the left; and no wall, which stays no wall. let right = dictionary.learn(&[1.0, 0.0],
-/// &[0.0, 1.0], 0.1)?; let open = dictionary.learn(&[0.0, 0.0], &[0.0, 0.0], 0.1)?;
-/// assert_eq!((right, open, dictionary.len()), (PatternId(0), PatternId(2), 3)); // Walking right,
-/// right, open is, walked back, open, left, left. let left = PatternId(1);
-/// assert_eq!(dictionary.inverse(&[right, right, open])?, [open, left, left]); // What is near
-/// enough is nothing new. assert_eq!(dictionary.learn(&[0.95, 0.0], &[0.0, 0.95], 0.1)?, right);
+/// let mut dictionary = Dictionary::new(2);
+/// // A wall to the right, which seen the other way is a wall to the left; and no wall, which
+/// // stays no wall.
+/// let right = dictionary.learn(&[1.0, 0.0], &[0.0, 1.0], 0.1)?;
+/// let open = dictionary.learn(&[0.0, 0.0], &[0.0, 0.0], 0.1)?;
+/// assert_eq!((right, open, dictionary.len()), (PatternId(0), PatternId(2), 3));
+/// // Walking right, right, open is, walked back, open, left, left.
+/// let left = PatternId(1);
+/// assert_eq!(dictionary.inverse(&[right, right, open])?, [open, left, left]);
+/// // What is near enough is nothing new.
+/// assert_eq!(dictionary.learn(&[0.95, 0.0], &[0.0, 0.95], 0.1)?, right);
 /// # Ok::<(), tolman_maps::cpm::DictionaryError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]

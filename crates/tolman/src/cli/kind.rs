@@ -42,11 +42,23 @@ impl Kind {
         }
     }
 
+    /// Returns how a file of this kind comes to be.
+    const fn made(self) -> &'static str {
+        match self {
+            Self::Maze => "`tolman maze generate` writes a maze",
+            Self::Map => "`tolman learn` writes a map",
+            Self::Trace => "--trace of a verb that drives writes a trace",
+            Self::World => "docs/worlds.md tells how a world of free walls is written",
+        }
+    }
+
     /// Returns what a reader of this kind complained of in `text`: where the text is of another
-    /// kind, what it is and which verb takes it.
+    /// kind, what it is, which verb takes it, and where one of this kind comes from.
     pub(super) fn explain(self, text: &str, name: &str, error: impl Into<Error>) -> Error {
         match Self::of(text) {
-            Some(found) if found != self => Error::msg(format!("{name} is {}", found.told())),
+            Some(found) if found != self => {
+                Error::msg(format!("{name} is {}; {}", found.told(), self.made()))
+            }
             _ => error.into().context(name.to_owned()),
         }
     }
