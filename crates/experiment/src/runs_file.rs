@@ -170,10 +170,8 @@ fn parse(
         let what = format!("run {} has seed {} where {seed} belongs", run.run, run.seed);
         return Err((what, Some(key)));
     }
-    match check::run(experiment, &run)
-        .map_err(|error| error.to_string())
-        .and(intact)
-    {
+    let sound = || check::run(experiment, &run).map_err(|error| error.to_string());
+    match intact.and_then(|()| sound()) {
         Ok(()) => Ok((key, run)),
         Err(what) => Err((what, Some(key))),
     }

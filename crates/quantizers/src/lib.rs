@@ -16,12 +16,19 @@
 //! ```
 //! use tolman_quantizers::{Gng, GngConfig, Quantizer};
 //!
-//! // Points on two rings, in order around each. let config = GngConfig { max_units: 40,
-//! ..GngConfig::default() }; let mut gng = Gng::<f64>::new(2, config)?; for step in 0..20_000_u32 {
-//! let angle = f64::from(step) * 0.7; let centre = if step % 2 == 0 { -2.0 } else { 2.0 };
-//! gng.observe(&[centre + angle.cos(), angle.sin()])?; } // The graph has found that there are two.
-//! let clusters = gng.network().clusters(); assert_eq!(clusters.count(), 2); let left =
-//! gng.nearest(&[-3.0, 0.0])?.id; let right = gng.nearest(&[3.0, 0.0])?.id;
+//! // Points on two rings, in order around each.
+//! let config = GngConfig { max_units: 40, ..GngConfig::default() };
+//! let mut gng = Gng::<f64>::new(2, config)?;
+//! for step in 0..20_000_u32 {
+//!     let angle = f64::from(step) * 0.7;
+//!     let centre = if step % 2 == 0 { -2.0 } else { 2.0 };
+//!     gng.observe(&[centre + angle.cos(), angle.sin()])?;
+//! }
+//! // The graph has found that there are two.
+//! let clusters = gng.network().clusters();
+//! assert_eq!(clusters.count(), 2);
+//! let left = gng.nearest(&[-3.0, 0.0])?.id;
+//! let right = gng.nearest(&[3.0, 0.0])?.id;
 //! assert_ne!(clusters.label(left)?, clusters.label(right)?);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -54,8 +54,7 @@ impl Procedure for Combs {
             seed: job.seed,
         };
         let mut mind = Cast::default().mind(Agent::Avoid, &course, &trial.robot)?;
-        let episode = episode::run(&trial, &mut mind, |_| {})?;
-        let Episode { reached, steps, .. } = episode;
+        let Episode { reached, steps, .. } = episode::run(&trial, &mut mind, |_| {})?;
         Ok(CombRun { reached, steps }.fields()?)
     }
 }

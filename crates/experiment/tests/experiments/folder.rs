@@ -76,7 +76,7 @@ fn an_interrupted_experiment_goes_on_where_it_stopped() {
     assert!(
         error
             .to_string()
-            .contains("from there: tolman experiment darts --seed 7 --runs 40")
+            .contains("from there with: tolman experiment darts --seed 7 --runs 40")
     );
     assert!(!parts.join("summary.json").exists(), "no summary of a part");
 

@@ -263,7 +263,9 @@ fn a_run_is_one_line_that_names_what_plays_it_again() {
         line.starts_with(r#"{"table":"1 (near)","row":"Novice","run":0,"seed":"#),
         "{line}"
     );
-    let parsed: Run = serde_json::from_str(line).unwrap();
+    let (values, checksum) = line.split_once(r#","checksum":"#).unwrap();
+    assert_eq!(checksum.len(), "\"0123456789abcdef\"}".len());
+    let parsed: Run = serde_json::from_str(&format!("{values}}}")).unwrap();
     use tolman_experiment::Procedure;
     assert_eq!(Darts::new().run(&parsed.job()).unwrap(), parsed.fields);
 }
@@ -536,7 +538,9 @@ fn replays_that_are_long_are_fewer_so_that_a_page_stays_below_its_size() {
         "{}",
         replays.of_each_row
     );
-    assert_eq!(replays.recorded.len(), 3 * replays.of_each_row as usize);
+    // Rows have their replays in turn, so that some have one more than others.
+    let whole_turns = 3 * replays.of_each_row as usize;
+    assert!((whole_turns..whole_turns + 3).contains(&replays.recorded.len()));
     let bytes: usize = replays.recorded.iter().map(|one| one.json.len()).sum();
     assert!(bytes <= replays.budget);
     assert!(read(&out, "report.html").len() < 5_000_000);
@@ -549,7 +553,11 @@ fn a_replay_can_be_written_before_the_experiment_is_run() {
     write_replay(&(&darts).into(), &options, "1 (near)", "Master", 1000).unwrap();
     for (table, row, what) in [
         ("9", "Adept", "choose one of: 1 (near), 2 (far)"),
-        ("1 (near)", "adept", "choose one of: Novice, Adept, Master"),
+        (
+            "1 (near)",
+            "adept",
+            "did you mean Adept? Known are: Novice, Adept, Master",
+        ),
         ("2 (far)", "Adept", "not recorded"),
     ] {
         let error = write_replay(&(&darts).into(), &options, table, row, 0).unwrap_err();

@@ -181,6 +181,7 @@ fn an_interrupted_experiment_says_how_it_goes_on() {
     let experiment = "experiment baselines --maze corridor.maze --runs 100000 --out out";
     let experiment: Vec<&str> = experiment.split(' ').collect();
     let mut child = command_in(&folder, &experiment)
+        .env_remove("CARGO")
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()

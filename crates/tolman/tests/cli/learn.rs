@@ -72,7 +72,7 @@ fn what_is_no_map_is_refused() {
     let folder = folder("no-map");
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
     let solve = ["drive", "--map", "corridor.maze", "--maze", "corridor.maze"];
-    tolman_in(&folder, &solve).refused(2, &["corridor.maze", "tolman learn", "line 1"]);
+    tolman_in(&folder, &solve).refused(2, &["corridor.maze is a maze", "tolman learn"]);
     tolman_in(&folder, &["map", "show", "nothing.json"]).refused(2, &["nothing.json"]);
     let unknown = [&LEARN[..], &["--set", "patience=3"]].concat();
     tolman_in(&folder, &unknown).refused(2, &["no setting patience", "threshold"]);

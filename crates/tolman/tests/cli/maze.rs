@@ -132,7 +132,7 @@ fn what_cannot_be_generated_is_refused() {
     tolman(&["maze", "generate", "comb", "--share", "1"]).refused(2, &["--share", "comb"]);
     tolman(&["maze", "generate", "comb", "--attempts", "1"]).refused(2, &["--attempts", "rooms"]);
     tolman(&["maze", "generate", "comb", "--size", "2x2"]).refused(2, &["comb", "at least 3 × 2"]);
-    tolman(&["maze", "generate", "cmb"]).refused(2, &["cmb", "choose one of", "spiral"]);
+    tolman(&["maze", "generate", "cmb"]).refused(2, &["cmb", "did you mean comb", "spiral"]);
 }
 
 #[test]

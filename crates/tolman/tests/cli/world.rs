@@ -159,7 +159,7 @@ fn a_world_that_does_not_serve_is_refused() {
     refused(&["--world", "none.json"], &["none.json"]);
     refused(
         &["--world", "corridor.maze"],
-        &["corridor.maze", "not a world file", "line 1"],
+        &["corridor.maze is a maze", "--maze", "docs/worlds.md"],
     );
     refused(
         &["--world", "hall.yaml"],
