@@ -2,9 +2,12 @@
 
 mod step;
 
+use core::cell::Cell;
+use core::ops::ControlFlow;
+
 use tolman_control::{Drive, RingError, Stack};
 use tolman_geom::Pose;
-use tolman_robot::{Body, Goal, Landmark, Task};
+use tolman_robot::{Body, Goal, Landmark, Standing, Task};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use tolman_systems::{Actor, ActorError, stream};
 
@@ -106,8 +109,25 @@ pub fn run(
 pub fn run_lifted(
     trial: &Trial<'_>,
     mind: &mut Mind,
-    mut lifted: Option<Lifted>,
+    lifted: Option<Lifted>,
     mut watch: impl FnMut(&Step<'_>),
+) -> Result<Episode, EpisodeError> {
+    run_while(trial, mind, lifted, |step| {
+        watch(step);
+        ControlFlow::Continue(())
+    })
+}
+
+/// Does as [`run_lifted`] does, until `watch` breaks it off: the run then ends with the action
+/// under way.
+///
+/// # Errors
+/// As [`run_lifted`].
+pub fn run_while(
+    trial: &Trial<'_>,
+    mind: &mut Mind,
+    mut lifted: Option<Lifted>,
+    mut watch: impl FnMut(&Step<'_>) -> ControlFlow<()>,
 ) -> Result<Episode, EpisodeError> {
     let robot = LaserPioneer::new(trial.robot.clone())?;
     let robot = trial.course.robot_at(trial.start, robot, trial.seed)?;
@@ -117,6 +137,7 @@ pub fn run_lifted(
     let drive = Drive::new(layers, stream(trial.seed, LAYERS_STREAM)).longest_action(u32::MAX);
     let (mut failed_actions, mut failed_at_once) = (0, 0);
     let mut steps_of_action = 0;
+    let broken_off = Cell::new(false);
     let mut see = |step: &Step<'_>| {
         steps_of_action += 1;
         if let Some(outcome) = step.ends {
@@ -124,7 +145,11 @@ pub fn run_lifted(
             failed_at_once += u32::from(!outcome.moved() && steps_of_action == 1);
             steps_of_action = 0;
         }
-        watch(step);
+        broken_off.set(broken_off.get() | watch(step).is_break());
+    };
+    let unless_broken_off = |standing| match broken_off.get() && standing == Standing::UnderWay {
+        true => Standing::gave_up("broken off"),
+        false => standing,
     };
     let mut refused = None;
     let mut lift = |robot: &mut Limited<CoursePioneer>| {
@@ -137,18 +162,20 @@ pub fn run_lifted(
             let mut actor = Actor::new(&mut **brain, drive, stream(trial.seed, MIND_STREAM));
             run::until_done(&mut robot, |robot| {
                 lift(robot);
-                actor.act_seen(robot, ARRIVE, |brain, step| {
+                let standing = actor.act_seen(robot, ARRIVE, |brain, step| {
                     see(&Step::of(Chooser::Brain(&**brain), step));
-                })
+                });
+                standing.map(unless_broken_off)
             })
         }
         Mind::Rolling(brain) => {
             let mut actor = Actor::new(&mut **brain, drive, stream(trial.seed, MIND_STREAM));
             run::until_done(&mut robot, |robot| {
                 lift(robot);
-                actor.act_seen(robot, ARRIVE, |brain, step| {
+                let standing = actor.act_seen(robot, ARRIVE, |brain, step| {
                     see(&Step::of(Chooser::Rolling(&**brain), step));
-                })
+                });
+                standing.map(unless_broken_off)
             })
         }
         Mind::Oracle(oracle) => {
@@ -156,7 +183,7 @@ pub fn run_lifted(
             run::until_done(&mut robot, |robot| {
                 lift(robot);
                 let standing = seer.act(robot, |step| see(&Step::of(Chooser::Oracle, step)));
-                standing.map_err(ActorError::Robot)
+                standing.map(unless_broken_off).map_err(ActorError::Robot)
             })
         }
     }

@@ -1,5 +1,6 @@
 //! Where a robot starts.
 
+use core::fmt;
 use core::str::FromStr;
 
 use anyhow::{Error, anyhow};
@@ -36,6 +37,18 @@ impl Start {
                 position.x,
                 position.y
             )),
+        }
+    }
+}
+
+impl fmt::Display for Start {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Random => f.write_str("random"),
+            Self::Marked => f.write_str("marked"),
+            Self::At(Pose { position, heading }) => {
+                write!(f, "{},{},{}", position.x, position.y, heading.degrees())
+            }
         }
     }
 }

@@ -1,6 +1,46 @@
 //! Progress on a terminal.
 
+use core::time::Duration;
+use std::time::Instant;
+
 use indicatif::{ProgressBar, ProgressStyle};
+
+/// What is done of a run, on a terminal, where nobody looks at the run itself.
+pub(super) struct Doing {
+    bar: ProgressBar,
+    next: Instant,
+}
+
+impl Doing {
+    /// Shows nothing if the run itself is shown.
+    pub(super) fn new(is_shown: bool) -> Self {
+        let bar = match is_shown {
+            true => ProgressBar::hidden(),
+            false => ProgressBar::new_spinner(),
+        };
+        Self {
+            bar,
+            next: Instant::now() + PERIOD,
+        }
+    }
+
+    /// Shows what `words` says, if it is time to.
+    pub(super) fn show(&mut self, words: impl FnOnce() -> String) {
+        if !self.bar.is_hidden() && Instant::now() >= self.next {
+            self.next = Instant::now() + PERIOD;
+            self.bar.set_message(words());
+            self.bar.tick();
+        }
+    }
+
+    /// Takes it off the terminal.
+    pub(super) fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// How often progress is shown again.
+const PERIOD: Duration = Duration::from_millis(200);
 
 /// Returns a bar on stderr that shows, on a terminal, how much of `length` is done.
 pub(super) fn bar(length: u32, template: &str) -> ProgressBar {

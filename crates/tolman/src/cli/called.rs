@@ -1,5 +1,6 @@
 //! How the command was called.
 
+use std::path::Path;
 use std::sync::OnceLock;
 
 use tolman_experiment::Program;
@@ -19,6 +20,34 @@ pub(super) fn command() -> String {
     behind(program)
 }
 
+/// Returns the command line that goes on with an interrupted run that is kept in `file`.
+pub(super) fn going_on(file: &Path) -> String {
+    let program = PROGRAM.get().copied().unwrap_or("tolman");
+    let arguments = std::env::args_os().skip(1);
+    let given = arguments.map(|argument| argument.to_string_lossy().into_owned());
+    let file = file.to_string_lossy();
+    let words = with_from(given, &file);
+    let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
+    format!("{program} {}", words.join(" "))
+}
+
+/// Returns arguments with `file` for `--from`, whatever they had for it.
+fn with_from(given: impl Iterator<Item = String>, file: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    let mut skip = false;
+    for word in given {
+        if word == "--from" {
+            skip = true;
+        } else if skip {
+            skip = false;
+        } else if !word.starts_with("--from=") {
+            words.push(word);
+        }
+    }
+    words.extend(["--from".to_owned(), file.to_owned()]);
+    words
+}
+
 /// [`command`] of an experiment, which `cargo xtask` may have started.
 pub(super) fn experiment() -> String {
     let program = PROGRAM.get().copied().unwrap_or("tolman");
@@ -30,4 +59,21 @@ fn behind(program: &str) -> String {
     let quoted = arguments.map(|argument| quoted(&argument.to_string_lossy()));
     let words: Vec<String> = [program.to_owned()].into_iter().chain(quoted).collect();
     words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_goes_on_from_one_file() {
+        for given in [
+            "learn -a --from b.json -c",
+            "learn -a --from=b.json -c",
+            "learn -a -c",
+        ] {
+            let words = with_from(given.split(' ').map(str::to_owned), "d");
+            assert_eq!(words.join(" "), "learn -a -c --from d");
+        }
+    }
 }

@@ -12,6 +12,7 @@ use super::looks::Looks;
 use super::map::map_text;
 use super::send::{Pursued, check_origin, send, tell_replay};
 use super::sent_out::SentOut;
+use super::unfinished::{GoingOn, checksum};
 use super::{App, Failure, OrBadInput};
 use crate::system::MapText;
 
@@ -30,7 +31,9 @@ Examples:
   tolman learn --system cpm --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json
   tolman drive --map corridors-map.json --world mazes/worlds/corridors.json --seed 2
   tolman learn --system gngslam --world mazes/worlds/pitch.json --out pitch-map.json
-  tolman drive --map pitch-map.json --world mazes/worlds/pitch.json --seed 3 --replay drive.html")]
+  tolman drive --map pitch-map.json --world mazes/worlds/pitch.json --seed 3 --replay drive.html
+
+Ctrl-C saves the drive; --from FILE goes on with it, bit by bit as if nobody had interrupted it.")]
 pub(super) struct Arguments {
     /// The map, made by `tolman learn`; may be given several times, if the system can tell maps
     /// apart
@@ -41,6 +44,8 @@ pub(super) struct Arguments {
     /// Drive in another maze than the map is of, or with another robot, too
     #[arg(long)]
     anyway: bool,
+    #[command(flatten)]
+    going_on: GoingOn,
     #[command(flatten)]
     looks: Looks,
 }
@@ -83,8 +88,20 @@ pub(super) fn carry_out(
         }
     }
     let task = Task::Reach(Goal::Landmark(Landmark::Goal));
-    let Pursued { ended, told } =
-        send(&mut *outing, task, &setup, system.name(), &arguments.looks)?;
+    let texts: String = maps.iter().map(|map| &*map.text).collect();
+    let call = arguments.sent_out.call("drive", system.name(), &*outing);
+    let call = call
+        .with("the checksum of the maps", Some(checksum(&texts)))
+        .with("--anyway", arguments.anyway.then_some("given"));
+    let keeper = arguments.going_on.keeper(call)?;
+    let Pursued { ended, told } = send(
+        &mut *outing,
+        task,
+        &setup,
+        system.name(),
+        &arguments.looks,
+        keeper,
+    )?;
     let arrived = ended.end == TaskEnd::Done && outing.landmark() == Some(Landmark::Goal);
     if arguments.looks.json {
         let json = json!({

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Error, anyhow};
 use clap::ArgGroup;
-use tolman_arena::course::{FreeWorld, Terrain};
+use tolman_arena::course::{Course, FreeWorld, Terrain};
 use tolman_formats::{MapCell, RosMap};
 use tolman_geom::Point;
 use tolman_sim::{Area, Occupancy, World, Zone};
 
 use super::kind::Kind;
+use super::unfinished::Call;
 use super::{Failure, OrBadInput, maze};
 
 /// Where robots are sent.
@@ -78,6 +79,14 @@ impl Ground {
             corridor_width: self.corridor,
         };
         Ok((maze::name(path), Terrain::Free(free)))
+    }
+
+    /// Returns the beginning of what a run of this verb on `course` depends on.
+    pub(super) fn call(&self, verb: &str, course: &Course) -> Call {
+        Call::new(verb)
+            .with("the world's name", Some(&course.name))
+            .with("the checksum of the world", Some(course.drawing()))
+            .with("--corridor", self.corridor)
     }
 
     /// Refuses what a maze file says by itself.

@@ -12,6 +12,8 @@ pub(super) enum Kind {
     Trace,
     /// A world whose walls stand anywhere.
     World,
+    /// A run that was interrupted.
+    Unfinished,
 }
 
 impl Kind {
@@ -26,10 +28,16 @@ impl Kind {
                 "tolman-map" => Some(Self::Map),
                 "tolman-trace" => Some(Self::Trace),
                 "tolman-world" => Some(Self::World),
+                "tolman-unfinished" => Some(Self::Unfinished),
                 _ => None,
             },
             None => tolman_maze::parse(text).is_ok().then_some(Self::Maze),
         }
+    }
+
+    /// Returns whether a text is of this kind, as far as its head says.
+    pub(super) fn is_of(self, text: &str) -> bool {
+        Self::of(text) == Some(self)
     }
 
     /// Returns what it is called and who takes it.
@@ -39,6 +47,9 @@ impl Kind {
             Self::Map => "a learned map: give it to `tolman map show` or to `tolman drive --map`",
             Self::Trace => "a trace: give it to `tolman replay`",
             Self::World => "a world of free walls: give it to --world",
+            Self::Unfinished => {
+                "a run that was interrupted: give it to --from of the verb that was"
+            }
         }
     }
 
@@ -49,6 +60,7 @@ impl Kind {
             Self::Map => "`tolman learn` writes a map",
             Self::Trace => "--trace of a verb that drives writes a trace",
             Self::World => "docs/worlds.md tells how a world of free walls is written",
+            Self::Unfinished => "a run that Ctrl-C interrupts is written by the verb that made it",
         }
     }
 

@@ -1,25 +1,31 @@
 //! `tolman learn`: a system learns a map of a maze.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use serde_json::{Value, json};
+use tolman_arena::Outing;
 use tolman_arena::run::TaskEnd;
 use tolman_robot::{Goal, Landmark, Task};
 
 use super::looks::Looks;
-use super::map::map_text;
+use super::map::{MapOr, map_text_or, of_text};
 use super::send::{Pursued, check_origin, send, tell_replay};
 use super::sent_out::SentOut;
+use super::unfinished::{Former, FormerMap, Keeper};
 use super::words::words;
 use super::{App, Failure, OrBadInput, file};
+use crate::system::MapText;
 
 /// Lets a system learn a map of a maze or a world, and writes the map down
 #[derive(clap::Args)]
 #[command(after_help = "\
 Exit code 1 says that no map was learned, or that the one that was written is known to be wrong or unfinished. `tolman systems`
 lists systems, presets and robots; a --set that a system does not have is answered with those that it has.
+
+Ctrl-C writes the map as far as it is, and saves the run beside it; --from FILE.unfinished goes on with that, and the map
+becomes the same, bit by bit, as if nobody had interrupted it.
 
 Examples:
   tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
@@ -37,7 +43,8 @@ pub(super) struct Arguments {
     /// When it has learned enough
     #[arg(long, default_value = "explored", value_parser = words(UNTIL))]
     until: Task,
-    /// Go on with a map that was learned before
+    /// Go on with a map that was learned before, or with a run that was interrupted: for that, all
+    /// else must be said as it was
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
     /// Go on with it in another maze, or with another robot, too
@@ -46,8 +53,66 @@ pub(super) struct Arguments {
     /// The file to write the map to
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
+    /// Save the run to this file while it goes, once a second, so that it can be gone on with
+    /// whatever ends it [default: the name of --out with .unfinished behind it]
+    #[arg(long, value_name = "FILE")]
+    unfinished: Option<PathBuf>,
     #[command(flatten)]
     looks: Looks,
+}
+
+/// What learning goes on with.
+struct From {
+    map: Option<MapText>,
+    former: Option<Former>,
+}
+
+impl From {
+    /// Reads a map, or an interrupted run and the map that it went on with.
+    fn read(path: &Path) -> Result<Self, Failure> {
+        let map = map_text_or(path, |text| Former::of_text(path, text))?;
+        match map {
+            MapOr::Map(map) => Ok(Self {
+                map: Some(map),
+                former: None,
+            }),
+            MapOr::Other(former) => {
+                let map = former.run().map();
+                let map = map.map(|FormerMap { name, text }| of_text(name, text.clone()));
+                Ok(Self {
+                    map: map.transpose()?,
+                    former: Some(former),
+                })
+            }
+        }
+    }
+}
+
+impl Arguments {
+    /// Returns what keeps the run if it is interrupted.
+    fn keeper(
+        &self,
+        outing: &dyn Outing,
+        system: &str,
+        from: Option<&MapText>,
+        former: Option<Former>,
+    ) -> Result<Keeper, Failure> {
+        let until = UNTIL.iter().find(|(_, _, task)| *task == self.until);
+        let call = self.sent_out.call("learn", system, outing);
+        let call = call
+            .with("--until", until.map(|(word, ..)| word))
+            .with("--anyway", self.anyway.then_some("given"));
+        let path = self.unfinished.clone().unwrap_or_else(|| {
+            let mut name = self.out.clone().into_os_string();
+            name.push(".unfinished");
+            name.into()
+        });
+        let map = from.map(|map| FormerMap {
+            name: map.name.clone().into(),
+            text: map.text.clone(),
+        });
+        Ok(Keeper::new(path, call, former)?.with_map(map))
+    }
 }
 
 /// When a system has learned enough.
@@ -66,7 +131,8 @@ pub(super) fn carry_out(
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
     let system = app.system(&arguments.system)?;
-    let from = arguments.from.as_deref().map(map_text).transpose()?;
+    let from = arguments.from.as_deref().map(From::read).transpose()?;
+    let (from, former) = from.map_or((None, None), |From { map, former }| (map, former));
     let terrain = arguments.sent_out.terrain()?;
     let mut setup = arguments.sent_out.setup(&terrain);
     setup.from = from.as_ref();
@@ -79,9 +145,14 @@ pub(super) fn carry_out(
         check_origin(from, &*outing)?;
     }
     let task = arguments.until;
-    let Pursued { ended, told } =
-        send(&mut *outing, task, &setup, system.name(), &arguments.looks)?;
+    let keeper = arguments.keeper(&*outing, system.name(), from.as_ref(), former)?;
+    let looks = &arguments.looks;
+    let pursued = send(&mut *outing, task, &setup, system.name(), looks, keeper);
     let text = outing.map_file().map_err(anyhow::Error::from_boxed)?;
+    if let (Err(Failure::Interrupted(_)), Some(text)) = (&pursued, &text) {
+        file::write(&arguments.out, text)?;
+    }
+    let Pursued { ended, told } = pursued?;
     let complaint = match &ended.end {
         TaskEnd::Done => outing.complaint(task),
         TaskEnd::OutOfTime => {
@@ -96,7 +167,7 @@ pub(super) fn carry_out(
             setup.world
         )));
     };
-    let map = super::map::of_text(&arguments.out, text.clone())?;
+    let map = of_text(&arguments.out, text.clone())?;
     let map = system.map(&map)?;
     file::write(&arguments.out, text)?;
     if arguments.looks.json {

@@ -40,6 +40,7 @@ mod share;
 mod stdout;
 mod systems;
 mod trial;
+mod unfinished;
 mod words;
 
 use std::io::Write;

@@ -4,12 +4,14 @@ use core::sync::atomic::Ordering;
 use std::io::Write;
 
 use anyhow::{Context, anyhow};
-use tolman_arena::Outing;
 use tolman_arena::run::{self, Ended, TaskEnd};
+use tolman_arena::{BoxError, Outing};
 use tolman_robot::{Standing, Task};
 
+use super::bar::Doing;
 use super::live::{Live, Now, Scene};
 use super::looks::Looks;
+use super::unfinished::{Done, Keeper};
 use super::{Failure, file, interrupt, picture, replay_file};
 use crate::system::{MapText, Setup, slug};
 use tolman_papers::Film;
@@ -22,7 +24,7 @@ pub(super) struct Pursued {
 }
 
 /// Lets a system pursue a task to its end, shows it to who looks, and writes down what was asked
-/// for.
+/// for. `keeper` keeps the run if somebody interrupts it.
 ///
 /// # Errors
 /// If robot or system fail, somebody interrupts, or a file cannot be written.
@@ -32,6 +34,7 @@ pub(super) fn send(
     setup: &Setup<'_>,
     word: &str,
     looks: &Looks,
+    mut keeper: Keeper,
 ) -> Result<Pursued, Failure> {
     let overwrite = looks.overwrite()?;
     let stop = interrupt::flag()?;
@@ -39,17 +42,27 @@ pub(super) fn send(
         true => Some(Live::open(scene(outing, setup, word))?),
         false => None,
     };
+    let mut doing = Doing::new(looks.live);
     let mut film = looks.replay.as_ref().map(|_| Film::new(outing));
     let mut shown = 1;
-    let mut interrupted = false;
+    let mut done = Done::default();
+    let mut broken_off = None;
     let ended = run::until_done(outing, |outing| {
         let standing = outing.act(task)?;
         if let Some(film) = &mut film {
             film.see(outing);
         }
-        if let Some(live) = &mut live {
-            let words = outing.words();
-            let (path, bumped) = (outing.path(), outing.bumped());
+        done.actions += 1;
+        done.steps = outing.steps();
+        let went = keeper.went(done, outing.path(), outing.bumped(), || state(outing));
+        if let Err(failure) = went {
+            broken_off = Some(failure);
+            return Ok(Standing::gave_up("it is another run"));
+        }
+        let path = outing.path();
+        // What is made again was seen before.
+        if let (Some(live), None) = (&mut live, keeper.again()) {
+            let (words, bumped) = (outing.words(), outing.bumped());
             for (step, pose) in path.iter().enumerate().skip(shown) {
                 live.watch(&Now {
                     pose: *pose,
@@ -59,14 +72,20 @@ pub(super) fn send(
                     scan: outing.scan(),
                 });
             }
-            shown = path.len();
         }
-        interrupted = stop.load(Ordering::Relaxed);
-        match interrupted {
-            true => Ok(Standing::gave_up("interrupted")),
-            false => Ok::<_, tolman_arena::BoxError>(standing),
+        shown = path.len();
+        doing.show(|| doing_words(word, done, keeper.again(), outing));
+        if standing == Standing::UnderWay && stop.load(Ordering::Relaxed) {
+            let saved = keeper.save(&|| state(outing));
+            broken_off = Some(match saved {
+                Ok(()) => Failure::Interrupted(anyhow!(keeper.told())),
+                Err(failure) => failure,
+            });
+            return Ok(Standing::gave_up("interrupted"));
         }
+        Ok::<_, BoxError>(standing)
     });
+    doing.clear();
     let ended = ended
         .map_err(anyhow::Error::from_boxed)
         .with_context(|| format!("{word} broke off after {} steps", outing.steps()))?;
@@ -74,8 +93,9 @@ pub(super) fn send(
     if let Some(live) = live {
         live.close(&told).context("the terminal has gone")?;
     }
-    if interrupted {
-        return Err(Failure::Interrupted(anyhow!("{word} was interrupted")));
+    match broken_off {
+        Some(failure) => return Err(failure),
+        None => keeper.finish()?,
     }
     if let Some(path) = &looks.trace {
         let lines = outing.trace().map_err(anyhow::Error::from_boxed)?;
@@ -92,6 +112,23 @@ pub(super) fn send(
         replay_file::write(path, replay, overwrite)?;
     }
     Ok(Pursued { ended, told })
+}
+
+/// Returns all but the robot's way that came of a run so far.
+fn state(outing: &dyn Outing) -> Result<String, BoxError> {
+    let map = outing.map_file()?.unwrap_or_default();
+    Ok(format!("{}\n{map}", outing.words()))
+}
+
+fn doing_words(word: &str, done: Done, again: Option<Done>, outing: &dyn Outing) -> String {
+    let Done { actions, steps } = done;
+    match again {
+        Some(again) => format!("{word}: makes {actions} of {} actions again", again.actions),
+        None => format!(
+            "{word}: {actions} actions, {steps} steps; {}",
+            outing.words()
+        ),
+    }
 }
 
 fn scene(outing: &dyn Outing, setup: &Setup<'_>, word: &str) -> Scene {

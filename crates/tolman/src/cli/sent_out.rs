@@ -1,8 +1,10 @@
 use anyhow::anyhow;
+use tolman_arena::Outing;
 use tolman_arena::course::Terrain;
 
 use super::Failure;
 use super::ground::{Ground, required};
+use super::unfinished::Call;
 use crate::start::Start;
 use crate::system::{Settings, Setup};
 
@@ -54,6 +56,24 @@ impl SentOut {
             ))),
             None => Ok(()),
         }
+    }
+
+    /// Returns what a run of this verb depends on.
+    pub(super) fn call(&self, verb: &str, system: &str, outing: &dyn Outing) -> Call {
+        let set = self
+            .set
+            .iter()
+            .map(|(name, value)| format!("{name}={value}"));
+        let set: Vec<String> = set.collect();
+        self.ground
+            .call(verb, outing.course())
+            .with("the system", Some(system))
+            .with("--seed", Some(self.seed))
+            .with("the robot", Some(outing.robot().name))
+            .with("--preset", self.preset.as_ref())
+            .with("--set", (!set.is_empty()).then(|| set.join(" ")))
+            .with("--start", self.start)
+            .with("--steps", self.steps)
     }
 
     /// Returns what a robot is sent out with.

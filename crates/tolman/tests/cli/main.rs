@@ -15,6 +15,8 @@ mod experiment;
 mod gngslam;
 mod help;
 mod helpful;
+#[cfg(unix)]
+mod interrupted;
 mod learn;
 #[cfg(unix)]
 mod live;
@@ -88,6 +90,8 @@ fn command_in(folder: &Path, arguments: &[&str]) -> Command {
     command
         .current_dir(folder)
         .args(arguments)
+        // Cargo, which runs this test, is not who calls the command.
+        .env_remove("CARGO")
         .stdin(Stdio::null());
     command
 }

@@ -123,8 +123,8 @@ fn a_survey_is_gone_on_with_by_the_robot_that_made_it_and_furnished_as_it_was() 
     let on = format!("{survey} --from laser.json --out on.json");
     carry_out(&format!("{on} --set moves=2")).failed(1, &["wrong or unfinished"]);
     for (wrong, told) in [
-        ("--robot camera-pioneer", "did you mean laser-pioneer"),
-        ("--set colours=3", "heed, moves"),
+        ("--robot camera-pioneer", "did you mean laser-pioneer?"),
+        ("--set colours=3", "choose one of: heed, moves"),
     ] {
         carry_out(&format!("{on} {wrong}")).refused(2, &[told]);
     }

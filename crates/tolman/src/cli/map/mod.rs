@@ -2,6 +2,7 @@
 
 mod log;
 
+use core::convert::Infallible;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -173,13 +174,35 @@ fn read(app: &App<'_>, path: &Path) -> Result<(MapText, Box<dyn LearnedMap>), Fa
 /// # Errors
 /// Bad input with the file's name.
 pub(in crate::cli) fn map_text(path: &Path) -> Result<MapText, Failure> {
+    match map_text_or(path, |_| Ok(None::<Infallible>))? {
+        MapOr::Map(map) => Ok(map),
+    }
+}
+
+/// A file that holds a learned map, or what else may stand for one.
+pub(in crate::cli) enum MapOr<T> {
+    Map(MapText),
+    Other(T),
+}
+
+/// Reads the text of a file with a learned map, unless `other` makes something else of it.
+///
+/// # Errors
+/// Bad input with the file's name, and what `other` says.
+pub(in crate::cli) fn map_text_or<T>(
+    path: &Path,
+    other: impl FnOnce(&str) -> Result<Option<T>, Failure>,
+) -> Result<MapOr<T>, Failure> {
     let text = input::text(path)
         .with_context(|| {
             let path = path.display();
             format!("cannot read {path}; give a file that `tolman learn` wrote")
         })
         .or_bad_input()?;
-    of_text(path, text)
+    Ok(match other(&text)? {
+        Some(other) => MapOr::Other(other),
+        None => MapOr::Map(of_text(path, text)?),
+    })
 }
 
 /// Returns the text of a file with a learned map.

@@ -1,5 +1,7 @@
 //! What `tolman run` and `tolman solve` have in common: one robot, one maze, one seed.
 
+use core::ops::ControlFlow;
+use core::sync::atomic::Ordering;
 use std::io::Write;
 
 use anyhow::{Context, anyhow};
@@ -14,11 +16,14 @@ use tolman_replay::Fact;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::trace;
+use crate::cli::bar::Doing;
 use crate::cli::ground::{Ground, required};
+use crate::cli::interrupt;
 use crate::cli::live::{self, Live, Scene};
 use crate::cli::looks::Looks;
 use crate::cli::picture;
 use crate::cli::replay_file;
+use crate::cli::unfinished::{Done, GoingOn};
 use crate::cli::{Failure, OrBadInput, file};
 use crate::start::Start;
 
@@ -45,6 +50,8 @@ pub(in crate::cli) struct Outing {
     /// corridors, as many for each metre as the Large maze's 500
     #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
     steps: Option<u32>,
+    #[command(flatten)]
+    going_on: GoingOn,
     #[command(flatten)]
     looks: Looks,
 }
@@ -99,19 +106,54 @@ pub(in crate::cli) fn carry_out(
         true => Some(Live::open(Scene::of(&trial, name.word))?),
         false => None,
     };
+    let call = arguments.ground.call("run", &course);
+    let call = call
+        .with("the brain", Some(name.word))
+        .with("--seed", Some(arguments.seed))
+        .with("--start", Some(arguments.start))
+        .with("--steps", arguments.steps);
+    let mut keeper = arguments.going_on.keeper(call)?;
+    let stop = interrupt::flag()?;
+    let mut doing = Doing::new(looks.live);
+    let mut done = Done::default();
+    let mut broken_off = None;
     let mut commands = Vec::new();
     let mut recorder = Recorder::new(&trial).knowing(name.nodes);
-    let episode = episode::run(&trial, &mut mind, |step| {
+    let episode = episode::run_while(&trial, &mut mind, None, |step| {
         commands.push(step.command);
         recorder.see(step);
-        if let Some(live) = &mut live {
+        done.steps += 1;
+        done.actions += u32::from(step.ends.is_some());
+        let state = || Ok(format!("{} {}", step.action, step.words()));
+        let went = keeper.went(done, step.robot.path(), step.robot.bumped(), state);
+        // What is made again was seen before.
+        if let (Some(live), None) = (&mut live, keeper.again()) {
             live::see(step, |now| live.watch(now));
         }
+        doing.show(|| format!("{}: {} steps; {}", name.word, done.steps, step.words()));
+        if broken_off.is_none() {
+            broken_off = match went {
+                Ok(()) if !stop.load(Ordering::Relaxed) => return ControlFlow::Continue(()),
+                Ok(()) => Some(match keeper.save(&state) {
+                    Ok(()) => Failure::Interrupted(anyhow!(keeper.told())),
+                    Err(failure) => failure,
+                }),
+                Err(failure) => Some(failure),
+            };
+        }
+        ControlFlow::Break(())
     })
     .map_err(classify)?;
+    doing.clear();
     let told = told(name.word, &episode);
     if let Some(live) = live {
         live.close(&told).context("the terminal has gone")?;
+    }
+    match broken_off {
+        // The action under way may have led to the goal all the same.
+        Some(Failure::Interrupted(_)) if episode.reached => keeper.finish()?,
+        Some(failure) => return Err(failure),
+        None => keeper.finish()?,
     }
     if let Some(path) = &looks.trace {
         file::write(path, trace::of(&trial, &commands)?)?;

@@ -1,0 +1,409 @@
+//! Runs that were interrupted, and go on.
+//!
+//! A run depends on nothing but how it was called. So the file of an interrupted run holds the
+//! call, how far it came, and a checksum of all that had come of it. To go on is to make the same
+//! again with nobody looking, to compare the checksum, and to make the rest.
+
+use core::time::Duration;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::{Context, Error, anyhow};
+use serde::{Deserialize, Serialize};
+use tolman_arena::BoxError;
+use tolman_formats::input;
+use tolman_geom::Pose;
+
+use super::kind::Kind;
+use super::{Failure, OrBadInput, called, file};
+
+/// How an interrupted run is kept and gone on with, of verbs that keep nothing else.
+#[derive(clap::Args)]
+pub(super) struct GoingOn {
+    /// Go on with an interrupted run; all else must be said as it was
+    #[arg(long, value_name = "FILE")]
+    from: Option<PathBuf>,
+    /// Save the run to this file while it goes, once a second, so that it can be gone on with
+    /// whatever ends it. Ctrl-C saves it in any case, to drive.unfinished or run.unfinished if this
+    /// is not given
+    #[arg(long, value_name = "FILE")]
+    unfinished: Option<PathBuf>,
+}
+
+impl GoingOn {
+    /// Returns what keeps a run that was called so.
+    ///
+    /// # Errors
+    /// Bad input if there is nothing to go on with.
+    pub(super) fn keeper(&self, call: Call) -> Result<Keeper, Failure> {
+        let verb = call.verb();
+        let path = self.unfinished.clone();
+        let path = path.unwrap_or_else(|| PathBuf::from(format!("{verb}.unfinished")));
+        let former = self.from.as_deref().map(read).transpose()?;
+        let keeper = Keeper::new(path, call, former)?;
+        Ok(keeper.saving(match self.unfinished {
+            Some(_) => Saving::WhileItGoes,
+            None => Saving::AtItsEnd,
+        }))
+    }
+}
+
+/// What a run depends on: flags with their values, the verb first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Call(Vec<(String, String)>);
+
+impl Call {
+    pub(super) fn new(verb: &str) -> Self {
+        Self(vec![("the verb".to_owned(), verb.to_owned())])
+    }
+
+    /// Adds what a flag was given; nothing if it was not.
+    #[must_use]
+    pub(super) fn with(mut self, flag: &str, value: Option<impl ToString>) -> Self {
+        self.0
+            .extend(value.map(|value| (flag.to_owned(), value.to_string())));
+        self
+    }
+
+    fn verb(&self) -> &str {
+        self.0.first().map_or("", |(_, verb)| verb)
+    }
+
+    /// Returns what this says otherwise than `former`: the flag, what was said then, and now.
+    fn difference(&self, former: &Self) -> Option<String> {
+        let differs = |flag: &str| {
+            let of = |call: &Self| {
+                let mut values = call.0.iter().filter(|(given, _)| given == flag);
+                values.next().map(|(_, value)| value.clone())
+            };
+            let (then, now) = (of(former), of(self));
+            let told = |value: Option<String>| value.unwrap_or_else(|| "not given".to_owned());
+            (then != now).then(|| format!("{flag} was {}, and is {}", told(then), told(now)))
+        };
+        let flags = former.0.iter().chain(&self.0);
+        flags.map(|(flag, _)| flag).find_map(|flag| differs(flag))
+    }
+}
+
+/// The name of the format.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+enum Format {
+    #[serde(rename = "tolman-unfinished")]
+    Unfinished,
+}
+
+/// The version that is written and read.
+const VERSION: u32 = 1;
+
+/// An interrupted run as a file.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Unfinished {
+    format: Format,
+    version: u32,
+    call: Call,
+    /// How far it came.
+    done: Done,
+    /// Of everything that came of it until then.
+    checksum: String,
+    /// The map that it went on with, if it did.
+    map: Option<FormerMap>,
+}
+
+/// A map that a run went on with, whatever becomes of its file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FormerMap {
+    /// What messages call it.
+    pub(super) name: PathBuf,
+    /// All of it.
+    pub(super) text: String,
+}
+
+/// How far a run came.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Done {
+    /// Actions begun.
+    pub(super) actions: u32,
+    /// Time steps made.
+    pub(super) steps: u32,
+}
+
+impl Unfinished {
+    /// Reads the text of an interrupted run.
+    ///
+    /// # Errors
+    /// If it is another kind of file, or of a later version.
+    fn of_text(text: &str) -> Result<Self, Error> {
+        let read: Self = serde_json::from_str(text)?;
+        match read.version {
+            VERSION => Ok(read),
+            other => Err(anyhow!(
+                "its version is {other}, and this program reads {VERSION}; take the one that wrote it"
+            )),
+        }
+    }
+
+    /// Returns the map that it went on with.
+    pub(super) const fn map(&self) -> Option<&FormerMap> {
+        self.map.as_ref()
+    }
+}
+
+/// An interrupted run, with its file.
+pub(super) struct Former {
+    path: PathBuf,
+    run: Unfinished,
+}
+
+impl Former {
+    /// Returns the run of a file with this text; `None` if it is a file of another kind.
+    ///
+    /// # Errors
+    /// Bad input with what is wrong in it.
+    pub(super) fn of_text(path: &Path, text: &str) -> Result<Option<Self>, Failure> {
+        if !Kind::Unfinished.is_of(text) {
+            return Ok(None);
+        }
+        let run = Unfinished::of_text(text).with_context(|| path.display().to_string());
+        Ok(Some(Self {
+            path: path.to_owned(),
+            run: run.or_bad_input()?,
+        }))
+    }
+
+    /// Returns the run.
+    pub(super) const fn run(&self) -> &Unfinished {
+        &self.run
+    }
+}
+
+/// Reads an interrupted run.
+fn read(path: &Path) -> Result<Former, Failure> {
+    let name = path.display().to_string();
+    let context = || format!("cannot read {name}; give a file of an interrupted run");
+    let text = input::text(path).with_context(context).or_bad_input()?;
+    let former = Former::of_text(path, &text)?;
+    former.ok_or_else(|| {
+        let error = anyhow!("it is not an interrupted run, which Ctrl-C leaves behind");
+        Failure::BadInput(Kind::Unfinished.explain(&text, &name, error))
+    })
+}
+
+/// When a run is saved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Saving {
+    /// When it is interrupted.
+    AtItsEnd,
+    /// Now and then, too, for whatever else may end it.
+    WhileItGoes,
+}
+
+/// A run as it goes: what of the former one is still to be made again, and when it is saved.
+pub(super) struct Keeper {
+    path: PathBuf,
+    call: Call,
+    saving: Saving,
+    map: Option<FormerMap>,
+    /// The former run; `None` once all of it was made again, or if there is none.
+    former: Option<Former>,
+    trail: Trail,
+    done: Done,
+    next: Instant,
+    /// The files that hold this run.
+    written: Vec<PathBuf>,
+}
+
+/// The time between two saves, at least.
+const PERIOD: Duration = Duration::from_secs(1);
+
+/// The time between two saves, at least, as a multiple of what one takes.
+const PATIENCE: u32 = 20;
+
+/// All but the robot's way that came of a run so far, as a text, or why there is none.
+type State = Result<String, BoxError>;
+
+impl Keeper {
+    /// Keeps a run that was called so in the file at `path`, and goes on with `former`.
+    ///
+    /// # Errors
+    /// Bad input if that was called otherwise.
+    pub(super) fn new(path: PathBuf, call: Call, former: Option<Former>) -> Result<Self, Failure> {
+        if let Some(former) = &former
+            && let Some(difference) = call.difference(&former.run.call)
+        {
+            return Err(Failure::BadInput(anyhow!(
+                "{} is another run: {difference}; say all as it was said for it",
+                former.path.display()
+            )));
+        }
+        Ok(Self {
+            path,
+            call,
+            saving: Saving::WhileItGoes,
+            map: former.as_ref().and_then(|former| former.run.map.clone()),
+            written: former.iter().map(|former| former.path.clone()).collect(),
+            former,
+            trail: Trail::default(),
+            done: Done::default(),
+            next: Instant::now() + PERIOD,
+        })
+    }
+
+    /// Says when it is saved.
+    pub(super) fn saving(self, saving: Saving) -> Self {
+        Self { saving, ..self }
+    }
+
+    /// Says which map the run goes on with.
+    pub(super) fn with_map(self, map: Option<FormerMap>) -> Self {
+        let map = map.or(self.map);
+        Self { map, ..self }
+    }
+
+    /// Returns how far the former run came, while that is made again.
+    pub(super) fn again(&self) -> Option<Done> {
+        self.former.as_ref().map(|former| former.run.done)
+    }
+
+    /// Takes notice that the run has come as far as `done`, on this way and with these bumps.
+    ///
+    /// # Errors
+    /// If what came of the former run is something else.
+    pub(super) fn went(
+        &mut self,
+        done: Done,
+        path: &[Pose],
+        bumped: &[u32],
+        state: impl Fn() -> State,
+    ) -> Result<(), Failure> {
+        self.trail.follow(path, bumped);
+        self.done = done;
+        if let Some(former) = self.former.take_if(|former| former.run.done == done) {
+            if self.checksum(&state)? != former.run.checksum {
+                return Err(parted(&former));
+            }
+            self.next = Instant::now() + PERIOD;
+        }
+        let is_time = self.saving == Saving::WhileItGoes && Instant::now() >= self.next;
+        if is_time && self.former.is_none() {
+            let began = Instant::now();
+            // What cannot be saved now is saved, or complained of, at the end.
+            let _ = self.save(&state);
+            self.next = Instant::now() + PERIOD.max(began.elapsed() * PATIENCE);
+        }
+        Ok(())
+    }
+
+    /// Saves the run as it is now. A former run of which not all was made again stays as it was.
+    ///
+    /// # Errors
+    /// If its file cannot be written.
+    pub(super) fn save(&mut self, state: &impl Fn() -> State) -> Result<(), Failure> {
+        let run = match &self.former {
+            Some(former) => former.run.clone(),
+            None => Unfinished {
+                format: Format::Unfinished,
+                version: VERSION,
+                call: self.call.clone(),
+                done: self.done,
+                checksum: self.checksum(state)?,
+                map: self.map.clone(),
+            },
+        };
+        file::write(&self.path, serde_json::to_string(&run)?)?;
+        if !self.written.contains(&self.path) {
+            self.written.push(self.path.clone());
+        }
+        Ok(())
+    }
+
+    /// Returns how an interrupted run is gone on with.
+    pub(super) fn told(&self) -> String {
+        let Done { actions, steps } = self.again().unwrap_or(self.done);
+        format!(
+            "interrupted after {actions} actions, {steps} steps; go on with: {}",
+            called::going_on(&self.path)
+        )
+    }
+
+    /// Removes what was saved of a run that has come to its end.
+    ///
+    /// # Errors
+    /// If it came to its end before the former run did, so that it is another.
+    pub(super) fn finish(self) -> Result<(), Failure> {
+        if let Some(former) = &self.former {
+            return Err(parted(former));
+        }
+        for path in self.written {
+            // Somebody may have taken it away already.
+            let _ = fs::remove_file(path);
+        }
+        Ok(())
+    }
+
+    fn checksum(&self, state: &impl Fn() -> State) -> Result<String, Failure> {
+        let mut trail = self.trail.clone();
+        let state = state().map_err(Error::from_boxed)?;
+        trail.hash(state.as_bytes());
+        Ok(format!("{:016x}", trail.hash))
+    }
+}
+
+fn parted(former: &Former) -> Failure {
+    let Done { actions, .. } = former.run.done;
+    Failure::Failed(anyhow!(
+        "{}: its first {actions} actions, made again, came to something else; go on with the program that wrote it, or \
+         begin again without --from",
+        former.path.display()
+    ))
+}
+
+/// Returns the checksum of a text.
+pub(super) fn checksum(text: &str) -> String {
+    let mut trail = Trail::default();
+    trail.hash(text.as_bytes());
+    format!("{:016x}", trail.hash)
+}
+
+/// A checksum of a robot's way that grows with it: FNV-1a, 64 bits.
+#[derive(Clone, Debug)]
+struct Trail {
+    hash: u64,
+    poses: usize,
+    bumps: usize,
+}
+
+impl Default for Trail {
+    fn default() -> Self {
+        Self {
+            hash: 0xcbf2_9ce4_8422_2325,
+            poses: 0,
+            bumps: 0,
+        }
+    }
+}
+
+impl Trail {
+    /// Takes in what is new. O(new).
+    fn follow(&mut self, path: &[Pose], bumped: &[u32]) {
+        for pose in path.iter().skip(self.poses) {
+            let Pose { position, heading } = pose;
+            for number in [position.x, position.y, heading.radians()] {
+                self.hash(&number.to_bits().to_le_bytes());
+            }
+        }
+        for step in bumped.iter().skip(self.bumps) {
+            self.hash(&step.to_le_bytes());
+        }
+        (self.poses, self.bumps) = (path.len(), bumped.len());
+    }
+
+    fn hash(&mut self, bytes: &[u8]) {
+        self.hash = bytes.iter().fold(self.hash, |hash, byte| {
+            (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+    }
+}
