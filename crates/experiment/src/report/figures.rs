@@ -5,8 +5,7 @@ use maud::{Markup, html};
 use tolman_draw::Figure;
 
 /// Figures side by side where there is room.
-pub(super) fn grid<'a>(figures: impl Iterator<Item = &'a Figure>) -> Markup {
-    let figures: Vec<&Figure> = figures.collect();
+pub(super) fn grid(figures: &[&Figure]) -> Markup {
     html! {
         @if !figures.is_empty() {
             div.figures { @for figure in figures { (one(figure)) } }
@@ -14,17 +13,36 @@ pub(super) fn grid<'a>(figures: impl Iterator<Item = &'a Figure>) -> Markup {
     }
 }
 
-/// Returns the figures that belong to no table.
-pub(super) fn others(figures: &[Figure]) -> Markup {
-    let mut others = figures
-        .iter()
-        .filter(|figure| figure.table.is_none())
-        .peekable();
+/// Returns figures in a fold that names them; `more` than those that are seen before it.
+pub(super) fn folded(figures: &[&Figure], more: bool) -> Markup {
+    let count = match (figures.len(), more) {
+        (1, true) => "1 more figure".to_owned(),
+        (1, false) => "1 figure".to_owned(),
+        (count, true) => format!("{count} more figures"),
+        (count, false) => format!("{count} figures"),
+    };
     html! {
-        @if others.peek().is_some() {
+        @if !figures.is_empty() {
+            details.more { summary { (count) } (grid(figures)) }
+        }
+    }
+}
+
+/// Returns the figures that belong to no table.
+pub(super) fn of_no_table(figures: &[Figure]) -> Vec<&Figure> {
+    let figures = figures.iter().filter(|figure| figure.table.is_none());
+    figures.collect()
+}
+
+/// Returns the section of the figures that belong to no table, of which so many are seen.
+pub(super) fn others(figures: &[&Figure], shown: usize) -> Markup {
+    let (seen, rest) = figures.split_at(shown.min(figures.len()));
+    html! {
+        @if !figures.is_empty() {
             section {
                 h2 { "More figures" }
-                (grid(others))
+                (grid(seen))
+                (folded(rest, !seen.is_empty()))
             }
         }
     }

@@ -15,7 +15,7 @@ pub(super) fn header(outcome: &ExperimentOutcome) -> Markup {
             "{} runs in {} on {}",
             grouped(played),
             duration(outcome.elapsed),
-            counted(u64::from(outcome.jobs), "thread")
+            counted(outcome.jobs as usize, "thread")
         ),
     };
     html! {
@@ -130,7 +130,7 @@ fn short_compiler(compiler: &str) -> &str {
 }
 
 /// `1 thread`, `2 threads`.
-fn counted(count: u64, noun: &str) -> String {
+pub(super) fn counted(count: usize, noun: &str) -> String {
     match count {
         1 => format!("1 {noun}"),
         _ => format!("{count} {noun}s"),

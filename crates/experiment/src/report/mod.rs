@@ -2,11 +2,12 @@
 //!
 //! The page is put together from parts, each a function of the [`ExperimentOutcome`]: header, cards
 //! and contents (`header`), one section for each table (`table`), figures (`figures`), the notes
-//! that say how to read it all (`notes`), and the replays with the script (`replays`, `page.js`).
+//! that say how to read it all (`notes`), what of it is folded (`folds`), and the replays with the script (`replays`, `page.js`).
 //! `docs/report.md` names the ids and attributes that tests and other scripts may rely on.
 
 mod abstracts;
 mod figures;
+mod folds;
 mod header;
 mod notes;
 mod pairs;
@@ -19,9 +20,22 @@ pub use tour::tour_html;
 use maud::{DOCTYPE, PreEscaped, html};
 
 use crate::ExperimentOutcome;
+use folds::{Folds, Part};
 
 /// Returns the whole page.
 pub(crate) fn html(outcome: &ExperimentOutcome) -> String {
+    let main = outcome.entry.tour.map_or(&[][..], |tour| tour.tables);
+    let tables = outcome.analysis.tables.iter();
+    let parts: Vec<Part<'_>> = tables
+        .map(|table| {
+            let is_main = main.contains(&table.table.name.as_str());
+            Part::of(table, &outcome.figures, is_main)
+        })
+        .collect();
+    let mut folds = Folds::of_report();
+    let shown = folds.of_tables(&parts);
+    let others = figures::of_no_table(&outcome.figures);
+    let seen = folds.of_figures(&others);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -43,14 +57,15 @@ pub(crate) fn html(outcome: &ExperimentOutcome) -> String {
                     p.abstract { (abstracts::of(outcome)) }
                     (header::cards(outcome))
                     (header::contents(outcome))
-                    @for (number, table) in (1_u32..).zip(&outcome.analysis.tables) {
-                        (table::section(Some(number), table, &outcome.figures))
+                    @for (number, (part, shown)) in (1_u32..).zip(parts.iter().zip(&shown)) {
+                        (table::section(Some(number), part, *shown))
                     }
-                    (figures::others(&outcome.figures))
+                    (figures::others(&others, seen))
                     (notes::notes(outcome))
                 }
                 (replays::dialog(outcome))
                 (replays::scripts(outcome))
+                script { (PreEscaped(include_str!("folds.js"))) }
             }
         }
     };

@@ -9,7 +9,7 @@ use crate::TableAnalysis;
 pub(super) fn table(analysis: &TableAnalysis) -> Markup {
     let pairwise = analysis.table.pairwise.as_ref();
     html! {
-        table aria-label={ "Table " (analysis.table.name) ", each row with each" } {
+        div.wide tabindex="0" { table aria-label={ "Table " (analysis.table.name) ", each row with each" } {
             thead { tr {
                 th {
                     @if let Some(pairwise) = pairwise {
@@ -31,6 +31,6 @@ pub(super) fn table(analysis: &TableAnalysis) -> Markup {
                 td class=[(pair.contrast.p.value() < SIGNIFICANT).then_some("strong")] { (pair.contrast.p) }
                 td { (format!("{:.2}", pair.contrast.a12)) }
             } } }
-        }
+        } }
     }
 }

@@ -2,13 +2,14 @@
 
 use maud::{Markup, html};
 
-use super::header::SIGNIFICANT;
+use super::folds::{Part, Shown};
+use super::header::{SIGNIFICANT, counted};
 use super::{figures, pairs};
 use crate::{
     Comparison, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis, Verdict,
-    heading, ours, value_with_spread,
+    VerdictTally, heading, ours, value_with_spread,
 };
-use tolman_draw::{Figure, Series};
+use tolman_draw::Series;
 
 /// Returns the section of the table, with its figures; `number`, from 1, names it where it is the
 /// only one of that number on the page.
@@ -16,44 +17,80 @@ use tolman_draw::{Figure, Series};
 /// Each metric is a body of the table. A header with `data-sort` sorts the rows of every body by
 /// the `data-value` of their cells with that `data-column`. On a narrow page a row becomes a card:
 /// name and verdict above, the other cells below with their `data-label`.
-pub(super) fn section(number: Option<u32>, analysis: &TableAnalysis, figures: &[Figure]) -> Markup {
+pub(super) fn section(number: Option<u32>, part: &Part<'_>, shown: Shown) -> Markup {
+    let analysis = part.table;
     let table = &analysis.table;
-    let columns = Columns::of(analysis);
-    let varying = || {
-        analysis
-            .metrics
-            .iter()
-            .filter(|metric| !is_constant(metric))
-    };
+    let told: VerdictTally = analysis.verdicts().collect();
+    let metrics: Vec<&MetricAnalysis> = varying(analysis).collect();
+    let (first, more) = metrics.split_at(shown.metrics.min(metrics.len()));
     let constant = analysis.metrics.iter().filter(|metric| is_constant(metric));
     let constant = constant.filter_map(same).collect::<Vec<_>>().join("; ");
+    let (seen, folded) = part.figures.split_at(shown.figures.min(part.figures.len()));
     html! {
         section id=[number.map(|number| format!("table-{number}"))] {
-            h2 { "Table " (table.name) @if !table.title.is_empty() { " · " (table.title) } }
-            div.wide {
-                table class=[columns.paper.then_some("judged")] aria-label={ "Table " (table.name) } {
-                    thead { tr {
-                        (sortable("row", &html! { "row" }))
-                        @if columns.paper { (sortable("paper", &html! { "paper" })) }
-                        (sortable("ours", &html! { "ours" }))
-                        @if columns.also { th.also { "median or mean" } }
-                        th.interval { "95 % interval" }
-                        @if let Some(Comparison { reference, correction }) = columns.comparison {
-                            (sortable("p", &html! { "p vs. " (reference) " (" (correction.name()) ")" }))
-                            (sortable("effect", &html! { "A" sub { "12" } }))
-                        }
-                        @if columns.paper { (sortable("verdict", &html! { "verdict" })) }
-                    } }
-                    @for metric in varying() { (group(analysis, &columns, metric)) }
+            details.table open[shown.open] {
+                summary {
+                    h2 { "Table " (table.name) @if !table.title.is_empty() { " · " (table.title) } }
+                    @if told.all() > 0 { " " span.told { (told) } }
                 }
+                (matrix(analysis, first))
+                @if !more.is_empty() {
+                    details.more {
+                        summary { (counted(more.len(), "more metric")) ": " (titles(more)) }
+                        (matrix(analysis, more))
+                    }
+                }
+                @if !constant.is_empty() { p.note { "The same in every run: " (constant) "." } }
+                @if !analysis.pairs.is_empty() {
+                    details.more {
+                        summary { "Each row with each: " (counted(analysis.pairs.len(), "pair")) }
+                        (pairs::table(analysis))
+                    }
+                }
+                @for missing in table.missing() { p.note.missing { (missing) } }
+                @if !table.note.is_empty() { p.note { (table.note) } }
+                (figures::grid(seen))
+                (figures::folded(folded, !seen.is_empty()))
             }
-            @if !constant.is_empty() { p.note { "The same in every run: " (constant) "." } }
-            @if !analysis.pairs.is_empty() { (pairs::table(analysis)) }
-            @for missing in table.missing() { p.note.missing { (missing) } }
-            @if !table.note.is_empty() { p.note { (table.note) } }
-            (figures::grid(figures.iter().filter(|f| f.table.as_deref() == Some(&table.name))))
         }
     }
+}
+
+/// Returns the rows of these metrics beside the paper's.
+fn matrix(analysis: &TableAnalysis, metrics: &[&MetricAnalysis]) -> Markup {
+    let table = &analysis.table;
+    let columns = Columns::of(analysis);
+    html! {
+        div.wide {
+            table class=[columns.paper.then_some("judged")] aria-label={ "Table " (table.name) } {
+                thead { tr {
+                    (sortable("row", &html! { "row" }))
+                    @if columns.paper { (sortable("paper", &html! { "paper" })) }
+                    (sortable("ours", &html! { "ours" }))
+                    @if columns.also { th.also { "median or mean" } }
+                    th.interval { "95 % interval" }
+                    @if let Some(Comparison { reference, correction }) = columns.comparison {
+                        (sortable("p", &html! { "p vs. " (reference) " (" (correction.name()) ")" }))
+                        (sortable("effect", &html! { "A" sub { "12" } }))
+                    }
+                    @if columns.paper { (sortable("verdict", &html! { "verdict" })) }
+                } }
+                @for metric in metrics { (group(analysis, &columns, metric)) }
+            }
+        }
+    }
+}
+
+/// Returns the metrics that are not the same in every run.
+pub(super) fn varying(analysis: &TableAnalysis) -> impl Iterator<Item = &MetricAnalysis> {
+    let metrics = analysis.metrics.iter();
+    metrics.filter(|metric| !is_constant(metric))
+}
+
+/// Returns what the metrics are called, one after the other.
+fn titles(metrics: &[&MetricAnalysis]) -> String {
+    let titles = metrics.iter().map(|metric| metric.metric.title.as_str());
+    titles.collect::<Vec<_>>().join(", ")
 }
 
 /// Whether all rows have one value without spread, of which the paper says nothing.

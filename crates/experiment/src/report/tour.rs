@@ -2,6 +2,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use super::folds::{Folds, Part, Shown};
 use super::{figures, table};
 use crate::ExperimentOutcome;
 use tolman_draw::Figure;
@@ -12,6 +13,10 @@ use tolman_draw::Figure;
 #[must_use]
 pub fn tour_html(outcomes: &[ExperimentOutcome], last: &str) -> String {
     let numbered = || (1_usize..).zip(outcomes);
+    let stops: Vec<Stop<'_>> = outcomes.iter().map(Stop::of).collect();
+    let parts: Vec<Part<'_>> = stops.iter().flat_map(Stop::parts).collect();
+    let shown = Folds::of_tour(outcomes.len()).of_tables(&parts);
+    let mut shown = shown.into_iter();
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -24,7 +29,8 @@ pub fn tour_html(outcomes: &[ExperimentOutcome], last: &str) -> String {
                 title { "A tour of all experiments" }
                 style { (PreEscaped(tolman_draw::style())) (PreEscaped(include_str!("style.css"))) }
             }
-            body { main {
+            body {
+            main {
                 header {
                     h1 { "A tour of all experiments" }
                     p.source { "The main tables at small counts, beside the papers'. " (last) }
@@ -36,36 +42,57 @@ pub fn tour_html(outcomes: &[ExperimentOutcome], last: &str) -> String {
                         }
                     }
                 }
-                @for (number, outcome) in numbered() { (experiment(number, outcome)) }
-            } }
+                @for (number, stop) in (1..).zip(&stops) { (stop.section(number, &mut shown)) }
+            }
+            script { (PreEscaped(include_str!("folds.js"))) }
+            }
         }
     };
     page.into_string()
 }
 
-fn experiment(number: usize, outcome: &ExperimentOutcome) -> Markup {
-    // Ids are of one experiment, and the page has several.
-    let name = outcome.entry.name;
-    let figures: Vec<Figure> = outcome
-        .figures
-        .iter()
-        .map(|figure| Figure {
+/// What the page shows of one experiment.
+struct Stop<'a> {
+    outcome: &'a ExperimentOutcome,
+    /// Its figures, by names of its own: ids are of one experiment, and the page has several.
+    figures: Vec<Figure>,
+}
+
+impl<'a> Stop<'a> {
+    fn of(outcome: &'a ExperimentOutcome) -> Self {
+        let name = outcome.entry.name;
+        let figures = outcome.figures.iter().map(|figure| Figure {
             name: format!("{name}-{}", figure.name),
             ..figure.clone()
-        })
-        .collect();
-    let own = format!("{name}/report.html");
-    html! {
-        section id={ "experiment-" (number) } {
-            h1 { (number) " · " (outcome.entry.title) }
-            @if !outcome.entry.source.is_empty() { p.source { (outcome.entry.source) } }
-            p.meta {
-                (outcome.analysis.tally()) " of the paper's values · "
-                a href=(own) { "its own page, with replays" }
-                " · make it again: " code { (outcome.command) }
-            }
+        });
+        Self {
+            outcome,
+            figures: figures.collect(),
         }
-        @for analysis in &outcome.analysis.tables { (table::section(None, analysis, &figures)) }
-        (figures::others(&figures))
+    }
+
+    /// Its tables, of which the first is told before all but those of others.
+    fn parts(&self) -> impl Iterator<Item = Part<'_>> {
+        let tables = self.outcome.analysis.tables.iter().enumerate();
+        tables.map(|(place, table)| Part::of(table, &self.figures, place == 0))
+    }
+
+    fn section(&self, number: usize, shown: &mut impl Iterator<Item = Shown>) -> Markup {
+        let Self { outcome, figures } = self;
+        let name = outcome.entry.name;
+        let own = format!("{name}/report.html");
+        html! {
+            section id={ "experiment-" (number) } {
+                h1 { (number) " · " (outcome.entry.title) }
+                @if !outcome.entry.source.is_empty() { p.source { (outcome.entry.source) } }
+                p.meta {
+                    (outcome.analysis.tally()) " of the paper's values · "
+                    a href=(own) { "its own page, with replays" }
+                    " · make it again: " code { (outcome.command) }
+                }
+            }
+            @for (part, shown) in self.parts().zip(shown) { (table::section(None, &part, shown)) }
+            (figures::folded(&figures::of_no_table(figures), true))
+        }
     }
 }

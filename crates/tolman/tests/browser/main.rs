@@ -8,6 +8,7 @@
 
 mod client;
 mod devtools;
+mod pages;
 mod replay;
 mod report;
 mod tab;

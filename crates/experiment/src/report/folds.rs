@@ -1,0 +1,167 @@
+//! What of a page lies open, and what is folded until a reader asks for it.
+//!
+//! The story of a page takes at most six windows of a desk. The main tables come first, each with
+//! its first metrics and figures; the rest is one click away. Heights are estimated on the safe
+//! side, since a page that is written knows no browser.
+
+use tolman_draw::Figure;
+
+use super::table;
+use crate::TableAnalysis;
+
+/// Height of six windows of 1280 × 800 pixels.
+const STORY: f64 = 4800.0;
+
+/// Width of the page's text and figures, px.
+const WIDTH: f64 = 1200.0;
+
+/// Height of the page's head with abstract, cards and contents, and of what stands below the
+/// tables, px.
+const HEAD: f64 = 620.0;
+
+/// Height of a folded table, px.
+const FOLDED: f64 = 56.0;
+
+/// Height of a row whose verdict may take two lines, and of another, px.
+const JUDGED_ROW: f64 = 56.0;
+const ROW: f64 = 40.0;
+
+/// Height of a figure's caption, px.
+const CAPTION: f64 = 90.0;
+
+/// What is open of a table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Shown {
+    /// Whether it lies open at all.
+    pub(super) open: bool,
+    /// How many of its metrics that vary are seen when it is open.
+    pub(super) metrics: usize,
+    /// How many of its figures are seen when it is open.
+    pub(super) figures: usize,
+}
+
+/// What may lie open on a page.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Folds {
+    /// Height that is left, px.
+    left: f64,
+    /// Rows that a table shows at most, but for those of its first metric.
+    rows: usize,
+    /// Whether tables show figures.
+    figures: bool,
+}
+
+/// A table with its figures.
+#[derive(Clone, Debug)]
+pub(super) struct Part<'a> {
+    pub(super) table: &'a TableAnalysis,
+    pub(super) figures: Vec<&'a Figure>,
+    /// Whether it is told first.
+    pub(super) main: bool,
+}
+
+impl<'a> Part<'a> {
+    pub(super) fn of(table: &'a TableAnalysis, figures: &'a [Figure], main: bool) -> Self {
+        let own = figures
+            .iter()
+            .filter(|figure| figure.table.as_deref() == Some(&table.table.name));
+        Self {
+            table,
+            figures: own.collect(),
+            main,
+        }
+    }
+}
+
+impl Folds {
+    /// Returns the folds of the page of one experiment.
+    pub(super) const fn of_report() -> Self {
+        Self {
+            left: STORY - HEAD,
+            rows: 16,
+            figures: true,
+        }
+    }
+
+    /// Returns the folds of a tour of so many experiments.
+    pub(super) fn of_tour(experiments: usize) -> Self {
+        // Each has a heading, its source and the command that makes it again.
+        Self {
+            left: STORY - 340.0 - 165.0 * experiments as f64,
+            rows: 6,
+            figures: false,
+        }
+    }
+
+    /// Returns what is open of each table, in their order.
+    pub(super) fn of_tables(&mut self, parts: &[Part<'_>]) -> Vec<Shown> {
+        self.left -= FOLDED * parts.len() as f64;
+        let mut shown = vec![Shown::default(); parts.len()];
+        for wanted in [true, false] {
+            for (part, shown) in parts.iter().zip(&mut shown) {
+                if part.main == wanted {
+                    *shown = self.of_table(part);
+                }
+            }
+        }
+        shown
+    }
+
+    /// Returns how many of these figures lie open, and takes the room for them.
+    pub(super) fn of_figures(&mut self, figures: &[&Figure]) -> usize {
+        let (count, height) = first_line(figures);
+        if count > 0 && height <= self.left {
+            self.left -= height;
+            count
+        } else {
+            0
+        }
+    }
+
+    fn of_table(&mut self, part: &Part<'_>) -> Shown {
+        let analysis = part.table;
+        let row = match analysis.verdicts().next() {
+            Some(_) => JUDGED_ROW,
+            None => ROW,
+        };
+        let (mut metrics, mut rows) = (0, 0);
+        for metric in table::varying(analysis) {
+            let more = rows + metric.rows.len();
+            if metrics > 0 && more > self.rows {
+                break;
+            }
+            metrics += 1;
+            rows = more;
+        }
+        let notes = 44.0 * (analysis.table.missing().len() + 2) as f64;
+        let mut height = 150.0 + notes + row * rows as f64 + 44.0 * metrics as f64;
+        let (line, line_height) = match self.figures {
+            true => first_line(&part.figures),
+            false => (0, 0.0),
+        };
+        height += line_height;
+        let open = height <= self.left;
+        if open {
+            self.left -= height;
+        }
+        Shown {
+            open,
+            metrics,
+            figures: line,
+        }
+    }
+}
+
+/// Returns how many figures stand side by side in the first line, and its height.
+fn first_line(figures: &[&Figure]) -> (usize, f64) {
+    let (mut count, mut width, mut height) = (0, 0.0, 0.0_f64);
+    for figure in figures {
+        width += figure.drawing.width + 32.0;
+        if count > 0 && width > WIDTH {
+            break;
+        }
+        count += 1;
+        height = height.max(figure.drawing.height + CAPTION);
+    }
+    (count, height)
+}
