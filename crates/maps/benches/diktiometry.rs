@@ -1,5 +1,5 @@
-//! Times one move of a diktiometry's observer: while it learns an open world of look-alike places,
-//! once it knows that world, and with places of many looks.
+//! A move taken in by the observer of a diktiometry, on open worlds of places that all look alike:
+//! while the world is being learned and once it is known; and of places of many looks.
 //!
 //! Criterion measures moves on known maps; the table is of single moves, of which percentiles say
 //! more on a busy machine.

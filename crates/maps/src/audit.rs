@@ -16,9 +16,9 @@
 //!
 //! How: closures that odometry alone refutes are told in O(1) by sums of its covariance (`chain`).
 //! The others are held against each other in pairs (`consistency`); the greatest group without
-//! conflicts is believed first. Then a closure stays believed only while the surest way over
-//! odometry and other believed closures agrees with it (`belief`, `search`). This is a greatest
-//! fixed point.
+//! conflicts is believed first. Then a closure stays believed only as long as the surest way over
+//! odometry and other believed closures agrees with it (`belief`, `search`): a greatest fixed
+//! point.
 //!
 //! [`verify`] measures every cycle of an audit again. [`SigmaScale::estimate`] tells whether the
 //! stated covariances are those of the graph.

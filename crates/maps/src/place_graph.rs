@@ -5,8 +5,8 @@
 //! point", features in place of pixels, and a map that corrects the odometry. In the order data
 //! flows:
 //!
-//! 1. An [`Outline`] is what a snapshot shows of the robot's surroundings: points where things
-//!    stand on the floor, with their colours, and the arcs on which sonars heard them.
+//! 1. An [`Outline`] is what a snapshot shows of the things round the robot: points where they
+//!    stand on the floor, with their colours, and the arcs that sonars heard them on.
 //! 2. [`WheelError`] is what the map has found out about the wheels, and predicts where the robot
 //!    has come to.
 //! 3. The prediction is fitted to the map: the surfaces that all places have seen.

@@ -4,8 +4,8 @@
 //! In the order data flows:
 //!
 //! 1. A [`ScanMap`] takes in [how far](Advance) the robot came and what it sees there. It fits the
-//!    scan to the known walls and so corrects the position. Then it draws new walls on a
-//!    [`WallGrid`], and finds or adds the place.
+//!    scan to the walls that it knows and so corrects the position; then it draws the walls that
+//!    are new on a [`WallGrid`], and finds the place or adds it.
 //! 2. [`Clearings`] say where the robot can stand and has not been:
 //!    [where the map has gaps](WayToGap).
 //! 3. A [`ScanChart`] is what is left when nothing more is learned: the [ground](GroundPlan), two

@@ -5,8 +5,8 @@
 //!
 //! 1. A [`ScanStep`] brings a scan and how far the wheels came since the one before. Beams become
 //!    an outline of surface points.
-//! 2. The outline is matched to the last keyframes. Branch and bound searches all poses in a window
-//!    about the odometry's pose on a grid of likelihoods; Newton's steps refine the best.
+//! 2. The outline is matched to the last keyframes: all poses in a window about where the odometry
+//!    has it, by branch and bound on a grid of likelihoods, then Newton's steps from the best.
 //! 3. After some way the scan becomes a keyframe: a pose of a
 //!    [`PoseGraph`](crate::pose_graph::PoseGraph), joined to the one before with the information
 //!    that the match has.
@@ -19,8 +19,8 @@
 //!
 //! Sources: E. Olson: Real-Time Correlative Scan Matching, 2009; K. Konolige et al.: Efficient
 //! Sparse Pose Adjustment for 2D Mapping, 2010 (the program Karto). Unlike
-//! [`scan_map`](crate::scan_map), it needs no compass and estimates headings too. Old parts of its
-//! map move when a place is seen again.
+//! [`scan_map`](crate::scan_map), which has a compass and corrects positions on a map that never
+//! moves, it finds headings too, and old parts of its map move when a place is seen again.
 
 mod closures;
 mod config;

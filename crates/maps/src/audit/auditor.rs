@@ -26,9 +26,8 @@ use crate::pose_graph::PoseGraph;
 /// deviations is no positive number.
 ///
 /// # Complexity
-/// O(pairs + closures · (edges · log edges)). A pair is two closures that begin and end within
-/// [`pair_gap`](AuditConfig::pair_gap) poses of each other. A closure that odometry refutes costs
-/// O(1).
+/// O(pairs + closures · (edges · log edges)), where pairs are those of closures that begin and end
+/// within [`pair_gap`](AuditConfig::pair_gap) poses; a closure that odometry refutes costs O(1).
 ///
 /// ```
 /// use tolman_maps::audit::{AuditConfig, audit};
@@ -89,9 +88,9 @@ pub(super) fn check(config: &AuditConfig) -> Result<(), AuditError> {
     }
 }
 
-/// Returns, by the edge of each refuted closure, the χ² of its cycle with the true closure put in
-/// its place. This is how far its witnesses err. `poses` are the true ones. A certificate above the
-/// bound is not to be relied on.
+/// Returns of each refuted closure, by its edge, how far the cycle that refutes it is off, χ², if
+/// the closure is replaced by the truth: how far its witnesses err. `poses` are the true ones. A
+/// certificate above the bound is not to be relied on.
 ///
 /// # Errors
 /// As [`audit`].

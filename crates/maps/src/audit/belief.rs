@@ -96,8 +96,8 @@ impl<'a> Belief<'a> {
         self.refresh();
     }
 
-    /// Drops closures that a way without a run in common with their witness contradicts, then
-    /// restores those that have a witness. Closures supported by each other alone have none.
+    /// Drops what a way that shares no run with its witness speaks against, and believes again what
+    /// has a witness then: closures that bear witness to each other alone have none.
     fn drop_contested(&mut self) {
         let believed = self.open(true).into_iter();
         let contested: Vec<u32> = believed.filter(|link| self.is_contested(*link)).collect();

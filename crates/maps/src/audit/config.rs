@@ -5,8 +5,8 @@ use core::f64::consts::PI;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct AuditConfig {
-    /// Factor by which every stated standard deviation is multiplied, above 0. Below 1 for a graph
-    /// that states more than it errs, above 1 for one that states less. Positive; default 1.
+    /// By how much every stated standard deviation is multiplied: below 1 for a graph that states
+    /// more than it errs, above 1 for one that states less. Positive; default 1.
     pub sigma_scale: f64,
     /// How many standard deviations a cycle may be off, k (default 5: of right cycles with Gaussian
     /// errors 2 in 100,000 are farther off).

@@ -90,9 +90,9 @@ impl Pairs {
         both[b].push(a as u32);
     }
 
-    /// Returns groups of candidates without conflicts, joined by agreement, the largest first. It
-    /// repeatedly drops the closure with the most conflicts, less its agreements. O(pairs · log
-    /// closures).
+    /// Returns groups of candidates of which no two conflict, joined by agreement, the largest
+    /// first: again and again the closure is dropped that most conflict with, less those it agrees
+    /// with. O(pairs · log closures).
     pub(super) fn groups(
         &self,
         is_candidate: &[bool],

@@ -12,7 +12,7 @@ use super::motion::{Motion, Spread};
 use super::way::{Leg, Way};
 use crate::pose_graph::{PoseEdgeKind, PoseGraph};
 
-/// A cycle that begins with the closure in question, and its error.
+/// A cycle that begins with the closure in question, and how far it is off.
 ///
 /// Its product is that of the measurements along it, each inverted where it is walked against its
 /// direction. Were they exact, it would be the identity.

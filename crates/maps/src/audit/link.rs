@@ -95,8 +95,8 @@ pub(super) fn links(graph: &PoseGraph, chain: &Chain, config: &AuditConfig) -> V
 }
 
 impl Link {
-    /// Returns its error against odometry alone; `None` where odometry does not join its poses.
-    /// O(1).
+    /// Returns how far it is off from odometry alone; `None` where odometry does not join its
+    /// poses. O(1).
     pub(super) fn gap_to_odometry(&self, chain: &Chain) -> Option<Gap> {
         let joined = chain.joins(self.first, self.second);
         joined.then(|| {

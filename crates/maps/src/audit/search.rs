@@ -73,9 +73,9 @@ impl Search {
         }
     }
 
-    /// Returns the surest way from the lower pose of a closure to its higher one, or `None` if
-    /// there is none. It leads over odometry and `believed` closures, but not over the closure's
-    /// own run or runs of `shunned`.
+    /// Returns the surest way from the lower pose of a closure to its higher over odometry and
+    /// closures that are `believed`, but none of the closure's own run nor of the runs of
+    /// `shunned`; `None` if there is none.
     ///
     /// # Complexity
     /// O((stations + closures) · log stations).

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::pose_graph::{PoseEdgeKind, PoseGraph};
 
-/// Largest difference between a stated and a measured number of a certificate, as a share.
+/// How far a number of a certificate may lie from what it is measured to be again, as a share.
 const ROUNDING: f64 = 1e-7;
 
 /// Reason why a certificate does not hold.
@@ -155,10 +155,10 @@ impl AuditCertificateError {
     }
 }
 
-/// Checks every cycle of an audit from the graph alone: its steps, its numbers, and its side of the
-/// bound. A cycle may lead over odometry and supported closures only, of runs not counted yet. That
-/// no other cycle agrees with a refuted closure cannot be checked so. Undecided closures are passed
-/// over.
+/// Checks every cycle of an audit again, from the graph alone: that it is one, its numbers, on
+/// which side of its bound it lies, and that it leads over nothing but odometry and closures that
+/// are themselves supported, of runs that are not counted yet. That no other cycle agrees with a
+/// refuted closure cannot be checked so. Undecided closures are passed over.
 ///
 /// # Errors
 /// [`AuditCertificateError`] of the first certificate that does not hold.

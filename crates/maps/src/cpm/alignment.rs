@@ -3,10 +3,10 @@ use alloc::vec::Vec;
 
 use super::pattern::{Dictionary, PatternId};
 
-/// Aligns sequences with insertions, deletions and changes of speed instead of position by
-/// position. It is an edit distance (Wagner, Fischer 1974) in which a pattern may last longer in
-/// one sequence, as in dynamic time warping (Sakoe, Chiba 1978). Ours, not the paper's; costs are
-/// in parts of a whole pattern's mismatch.
+/// Sequences laid along each other with insertions, deletions and changes of speed, in place of
+/// position by position: an edit distance (Wagner, Fischer 1974) in which a pattern may also last
+/// longer in one of the two, as in dynamic time warping (Sakoe, Chiba 1978). Ours, not the paper's;
+/// costs are in parts of a whole pattern's mismatch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Alignment {
@@ -15,8 +15,8 @@ pub struct Alignment {
     /// What an observation costs that lasts one longer in one of the two, besides its difference; 0
     /// to `gap`.
     pub stutter: f64,
-    /// Distance of prototypes from which two patterns have nothing in common, as a share of the
-    /// dictionary's greatest distance; above 0, at most 1.
+    /// The distance of prototypes, as a part of the greatest in the dictionary, from which two
+    /// patterns have nothing in common; above 0, at most 1.
     pub unlike: f64,
     /// Above it two fragments are the same; 0 to 1.
     pub threshold: f64,

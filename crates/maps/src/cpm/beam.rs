@@ -10,9 +10,9 @@ use super::turn::{NoSuchTurn, Turn};
 
 /// The likeliest ways to understand all that the robot has met: a beam search over hypotheses.
 ///
-/// Where much is open at once a beam may lose the truth. A walk that no hypothesis explains shows
-/// it. Then all walks are replayed with a wider beam, which narrows again while everything is
-/// explained.
+/// Where much is open at once a beam may lose the truth. It is known by a walk that no hypothesis
+/// explains; all that was met is gone through again then with a wider beam, which grows narrow
+/// again while all is understood.
 #[derive(Clone, Debug)]
 pub(super) struct Beam {
     /// The likeliest first, never empty. Costs are counted from that of the first.
@@ -92,8 +92,8 @@ impl Beam {
             .map_or(&self.begin, |best| &best.mapper)
     }
 
-    /// Returns the probability of the likeliest map among the possible ones kept, 0 … 1, with
-    /// places at least `apart` m apart.
+    /// Returns how likely the likeliest map is among all that it keeps and that can be, with places
+    /// at least `apart` m apart, 0 … 1.
     pub(super) fn certainty(&self, apart: f64) -> f64 {
         let can_be = |other: &&Hypothesis| {
             let Mapper { map, at } = &other.mapper;
@@ -112,9 +112,9 @@ impl Beam {
     }
 
     /// Takes in a walk. O(width · fragments · log fragments), and a comparison for each pair of
-    /// sequences. Where the beam has to widen, all walks are replayed with each width tried, as
-    /// long as it fills up. The sum of these widths, which replaces the width, is less than twice
-    /// the widest.
+    /// sequences. Where the beam has to be wider all walks since the beginning are gone through
+    /// again with each width tried, as long as it is full at some time: the sum of these widths, in
+    /// place of the width, is less than twice the widest.
     ///
     /// # Errors
     /// If the place where the robot is has no such turn; nothing is changed then.

@@ -23,8 +23,8 @@ pub struct CpMapperConfig {
 pub enum Candidates {
     /// Each.
     All,
-    /// Number of fragments compared: those with the most patterns in common, weighted by rarity
-    /// (tf-idf, section 8). On smaller maps all are compared.
+    /// The number of fragments compared: those that have the most patterns in common with it,
+    /// counted the more the rarer they are (tf-idf, section 8); on smaller maps that is each.
     Best(u32),
 }
 
@@ -37,16 +37,17 @@ pub enum Mapping {
     /// *Offline CPM*: the robot takes ports at random and keeps all it has walked; the map is
     /// optimized once the goal is found.
     Offline {
-        /// Number of fragments without the goal after which it goes on *online*, so no loop can
-        /// hold it forever. `u32::MAX` does as the paper, whose robot "might be locked in infinite
-        /// loops of duplicated path-fragments".
+        /// Number of fragments without the goal after which it goes on *online*, so that no loop
+        /// can hold it forever; with `u32::MAX` it does as the paper, whose robot "might be locked
+        /// in infinite loops of duplicated path-fragments".
         patience: u32,
     },
     /// *Online CPM*, section 6: the map is optimized, and looked at, before each decision.
     Online,
-    /// Keeps several maps, online and for mazes with look-alike or symmetrical fragments, which the
-    /// paper excludes. Each map is one way to explain all walks; the likeliest is shown. Ours, in
-    /// the manner of the lazily searched trees of topological maps (Johnson, Kuipers 2012).
+    /// Online, and for mazes with fragments that look alike or symmetrical, which the paper
+    /// excludes: several maps are kept, each one way to understand all that was met, and the most
+    /// likely of them is looked at. Ours, in the manner of the lazily searched trees of topological
+    /// maps (Johnson, Kuipers 2012).
     ///
     /// Bounds of dead reckoning tell alike fragments apart and close loops on arrival; without
     /// them, fragments are told apart by their neighbours alone.

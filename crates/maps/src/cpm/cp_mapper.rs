@@ -122,9 +122,8 @@ const SURE: f64 = 0.5;
 pub(super) const MOST_PORTS: u32 = 1000;
 
 impl CpMapper {
-    /// Begins at a place that ends fragments, as if the robot had entered by port 0. Port 0 of a
-    /// dead end is its only port; elsewhere it is the first opening counter-clockwise from straight
-    /// behind the robot.
+    /// Begins at a place that ends fragments, as if the robot had come in by port 0: that of a dead
+    /// end; else the first opening counter-clockwise from straight behind it.
     ///
     /// A robot that stands in mid-fragment drives on to the first such place before, as the paper
     /// has it.
@@ -168,9 +167,9 @@ impl CpMapper {
         self.knowledge.mapper().at
     }
 
-    /// Returns the probability of the map among all that explain the walks, 0 … 1, by dead
-    /// reckoning and the looks of fragments. Places are at least `apart` m apart. `None` for a
-    /// mapper that keeps one hypothesis. O(width · places² · ports).
+    /// Returns how likely the map is among all that explain what was met, 0 … 1, by dead reckoning
+    /// and what fragments look like, in a world whose places are at least `apart` m apart; `None`
+    /// of a mapper that keeps one hypothesis. O(width · places² · ports).
     #[must_use]
     pub fn certainty(&self, apart: f64) -> Option<f64> {
         match &self.knowledge {
@@ -179,9 +178,9 @@ impl CpMapper {
         }
     }
 
-    /// Returns the evidence against the map, in a world whose places are at least `apart` m apart.
-    /// `None` if there is none, and for a mapper that keeps one hypothesis, which cannot tell. As
-    /// [`certainty`](Self::certainty).
+    /// Returns why the map is not to be believed in a world whose places are at least `apart` m
+    /// apart; `None` if nothing speaks against it, and of a mapper that keeps one hypothesis, which
+    /// cannot tell. As [`certainty`](Self::certainty).
     #[must_use]
     pub fn doubt(&self, apart: f64) -> Option<MapDoubt> {
         let certainty = self.certainty(apart)?;

@@ -59,8 +59,8 @@ struct Learned {
 pub struct Recollection {
     /// The environment it is of.
     pub environment: u32,
-    /// The recognized fragment and those that follow it on the learned path, each by the end at
-    /// which it is entered; to the end of the path, or until one repeats.
+    /// The fragment it is, and those that follow it on the path that was learned, each by the end
+    /// it is entered at; up to the end of the path, or until one comes again.
     pub chain: Vec<End>,
     /// How far the sequence's code is from that of the fragment it was taken for, per sample: a
     /// distance of prototypes.

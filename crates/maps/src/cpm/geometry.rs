@@ -13,9 +13,9 @@ use super::map::{CpMap, JunctionId, Port, PortState, Sign};
 /// What dead reckoning has to say of a map. Ours, not the paper's, which only suggests it: "Another
 /// good choice is to add the odometry data".
 impl CpMap {
-    /// Returns the position of each junction, by id, as seen from one of them. Each lies along the
-    /// way with the tightest bounds (Dijkstra 1959), or is `None` where no reckoned way leads.
-    /// O(ports · log junctions).
+    /// Returns where each of the junctions, by id, lies, seen from one of them: along the way on
+    /// which the bounds grow least (Dijkstra 1959), or `None` where no reckoned way leads. O(ports
+    /// · log junctions).
     pub(super) fn positions_from(&self, origin: JunctionId) -> Vec<Option<PointBox>> {
         let mut positions = vec![None; self.junctions.len()];
         let mut settled = vec![false; self.junctions.len()];
@@ -74,9 +74,10 @@ impl CpMap {
         })
     }
 
-    /// Returns the negative log-likelihood of a port's direction, given those of the junction's
-    /// other ports, up to a constant. It is least where ports are evenly spaced, and `None` if
-    /// bearings would not ascend with the ports' numbers.
+    /// Returns how unlikely it is that a port looks into some direction, given those of the
+    /// junction's other ports: none if it cannot be, as bearings would not ascend with the ports'
+    /// numbers; else a negative logarithm up to a constant, which is least where the ports are
+    /// evenly spaced.
     pub(super) fn bearing_cost(&self, port: Port, bearing: Interval) -> Option<f64> {
         let degree = self.degree(port.junction);
         let (mut cost, mut before) = (0.0_f64, None);

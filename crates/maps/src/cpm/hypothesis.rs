@@ -72,8 +72,8 @@ impl Hypothesis {
         Ok(all)
     }
 
-    /// Returns whether a walk has certainly led to a place of the map. That is the start, of which
-    /// there is only one, or a place that looks the same and lies too near to be another.
+    /// Returns whether a walk has led, for certain, to a place of the map: to the only start, if it
+    /// is known where that lies from here, or where one like it is and two do not fit.
     fn is_known_place(
         &self,
         walk: &Traversal,
@@ -90,7 +90,7 @@ impl Hypothesis {
         })
     }
 
-    /// Returns the hypothesis that the walk followed a fragment of the map.
+    /// Returns the walk followed a fragment of the map.
     fn along(
         &self,
         exit: Port,
@@ -292,8 +292,8 @@ fn bearings_cost(place: &Junction, port: u32, walk: &Traversal) -> f64 {
     (0.5 * off * off).min(MOST_EVIDENCE)
 }
 
-/// Returns the log-likelihood ratio of one place against two for places within a box of each other:
-/// the log of the area in which a place is expected, over the area of the box.
+/// Returns how much more likely two places are to be within a box of each other if they are one
+/// than if they are any two: the area in which one is expected, over that of the box.
 fn coincidence(apart: PointBox, area: f64) -> f64 {
     let side = |side: Interval| side.width().max(1e-3);
     libm::log(area / (side(apart.x) * side(apart.y))).clamp(-MOST_EVIDENCE, MOST_EVIDENCE)

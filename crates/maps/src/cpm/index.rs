@@ -67,9 +67,9 @@ impl FragmentIndex {
         Some(ranked.into_iter().map(|(id, _)| id).collect())
     }
 
-    /// Returns for each fragment, by id, how many patterns it shares with a sequence, weighted by
-    /// rarity, as a share of the longer of the two. Without that share, long fragments would
-    /// resemble everything.
+    /// For each fragment, by id, the occurrences of patterns it shares with a sequence, the rarer
+    /// the more, as a part of the longer of the two: else long fragments would have something in
+    /// common with all.
     fn in_common(&self, sequence: &[PatternId]) -> Vec<f64> {
         let seen = Bag::of(sequence);
         let bags = || self.bags.iter().map(|(_, bag)| bag).chain([&seen]);

@@ -17,8 +17,8 @@ use tolman_robot::Landmark;
 ///
 /// The paper's robot, left in mid-fragment, "continues moving forward until the first junction",
 /// and knows in which environment it is by its fourth layer. This one keeps a probability of every
-/// place of every map (a Bayes filter). It begins with the first observation and is updated by each
-/// observation, junction and turn.
+/// place of every map (a Bayes filter), which each observation, junction and turn moves on, and
+/// begins with the first observation.
 ///
 /// ```
 /// use tolman_maps::cpm::{CpMapperConfig, Dictionary, CpMapper, Localizer, LocalizerConfig, PatternId, Sighting, Traversal, Turn};
@@ -64,8 +64,8 @@ pub struct Localizer {
 pub struct LocalizerConfig {
     /// That an observation is another pattern than the map's; above 0, less than 1.
     pub mistake: f64,
-    /// Probability that an observation repeats the map's last one, and likewise that it skips one;
-    /// 0 to 0.4.
+    /// That the robot is, after an observation, still where the map has the one before, and
+    /// likewise that it has passed one over; 0 to 0.4.
     pub slip: f64,
     /// That it has been put elsewhere between two observations; above 0, at most 0.1. What it has
     /// come to believe wrongly it forgets by this.
@@ -311,8 +311,8 @@ impl Localizer {
         });
     }
 
-    /// Updates the belief at the end of a fragment, where a junction, dead end or landmark is seen,
-    /// with its ways unless the robot does not look. O(all sequences' lengths).
+    /// The end of a fragment is reached: a junction, dead end or landmark is seen, and where its
+    /// ways lead, unless the robot does not look. O(all sequences' lengths).
     pub fn arrive(&mut self, sighting: Sighting, bearings: Option<&Bearings>) {
         self.pass_all();
         self.weigh(|track| {
@@ -480,8 +480,8 @@ impl Localizer {
     }
 }
 
-/// Returns the prior probability of one place of each map: all maps with observations are equally
-/// likely, and all places of a map.
+/// Returns how likely it is to be at any one place of each map: each map that has observations is
+/// as likely as the others, and each place of it.
 fn anywhere(maps: usize, tracks: &[Track]) -> Vec<f64> {
     let mut places = vec![0_usize; maps];
     for track in tracks {
@@ -495,9 +495,10 @@ fn anywhere(maps: usize, tracks: &[Track]) -> Vec<f64> {
     places.iter().map(each).collect()
 }
 
-/// Mean distance of the observed prototype from the one on the map, as a share of the dictionary's
-/// greatest distance. Exponential, not normal: neighbouring observations err alike, so a far one
-/// says less than many independent ones would. With it beliefs are calibrated.
+/// How far the prototype of what is observed lies from that of what is there, as a part of the
+/// greatest distance in the dictionary, on average. Exponential, not normal: what is observed a
+/// stride further on is off by much the same, so that a far one says less than many independent
+/// ones would; with it beliefs are as often right as they are sure.
 const NEAR: f64 = 0.14;
 
 /// How likely a junction is seen as one it is not.

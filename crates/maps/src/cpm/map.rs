@@ -157,15 +157,14 @@ impl Junction {
         }
     }
 
-    /// Returns the directions of its ways as seen on entering by a port, or `None` if no robot has
-    /// looked.
+    /// Returns where its ways lead, for one who enters by a port, or `None` if no robot has looked.
     #[must_use]
     pub fn bearings_from(&self, port: u32) -> Option<Bearings> {
         Some(self.bearings.as_ref()?.counted_from(port))
     }
 
-    /// Difference between the directions of the ways and those seen by a robot that came in by a
-    /// port, rad; 0 if nobody has looked or their numbers differ.
+    /// By how much ways lead into other directions than those that a robot has seen which came by a
+    /// port, rad; 0 if nobody has looked or there are not as many.
     pub(super) fn apart(&self, port: u32, seen: Option<&Bearings>) -> f64 {
         let known = self.bearings_from(port);
         let apart = known.zip(seen).and_then(|(known, seen)| known.apart(seen));
@@ -316,7 +315,7 @@ impl CpMap {
         }
     }
 
-    /// Returns the place reached by leaving through a port, or `None` if that is not known.
+    /// Returns where one arrives who leaves by a port, or `None` if that is not known.
     #[must_use]
     pub fn beyond(&self, port: Port) -> Option<Port> {
         let end = self.end_at(port)?.opposite();
@@ -329,8 +328,8 @@ impl CpMap {
         junction.map_or(&[][..], |junction| &junction.ports)
     }
 
-    /// Returns the place reached by leaving through such a port: the junction's rank, and the
-    /// number of its port.
+    /// Returns where one arrives who leaves by such a port: the junction's rank, and the number of
+    /// its port.
     pub(super) fn led_to(&self, port: PortState) -> Option<(usize, u32)> {
         let PortState::Filled(end) = port else {
             return None;
@@ -339,8 +338,9 @@ impl CpMap {
         Some((self.junctions.rank(there.junction)?, there.number))
     }
 
-    /// Returns Λ2(X, Y) = Δ_{X→Y}, equation (6): the turn from an end of one fragment into an end
-    /// of another. `None` if the two ends are not at one junction.
+    /// Λ2(X, Y) = Δ_{X→Y}, equation (6): the turn of a robot that comes out of a fragment at one
+    /// end and shall enter another at another end, or `None` if the two ends are not at one
+    /// junction.
     ///
     /// As ports are kept, not transitions, all that (7) to (10) derive is there at once.
     #[must_use]

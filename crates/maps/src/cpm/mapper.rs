@@ -62,8 +62,8 @@ impl Mapper {
         self.append(adrift.port(turn.0), walk)
     }
 
-    /// Joins a new fragment to the last junction, "together with the performed transition". The
-    /// junction it led to is new as well, until unified with another.
+    /// Returns what is new is joined to the last junction, "together with the performed
+    /// transition"; the junction it led to is new as well, until unified with another.
     pub(super) fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let junction = self.map.add_junction(walk.sighting, walk.bearings.clone());
         self.at = junction.port(0);
@@ -200,8 +200,8 @@ impl Comparison<'_> {
         others
     }
 
-    /// Returns an online robot's verdict on a known fragment, entered at an end. It trusts the map
-    /// unless another fragment fits its observations and this one does not.
+    /// Returns how an online robot judges a fragment that it knows, entered at an end: it trusts
+    /// the map unless another fragment fits what it has observed, and this one does not.
     fn trusts(&self, map: &CpMap, walk: &Traversal, end: End) -> bool {
         let Self {
             matching,

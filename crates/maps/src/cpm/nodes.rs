@@ -1,9 +1,9 @@
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-/// The nodes of a map by id. Copies of the map share all nodes, and after a change the unchanged
-/// ones. A copy costs nothing; its first change costs a reference count for each node, whatever its
-/// size.
+/// The nodes of a map by id. Copies of the map share them all, and still the others once one of
+/// them has changed some: a copy costs nothing, the first change to it a count for each node,
+/// whatever is in it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Nodes<I, T>(Arc<Vec<(I, Arc<T>)>>);
 

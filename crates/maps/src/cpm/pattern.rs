@@ -9,9 +9,10 @@ pub struct PatternId(pub u32);
 
 /// C, the set of common patterns: the prototypes of what the robot observes.
 ///
-/// A dictionary only grows: a pattern keeps its number and its prototype. So sequences written with
-/// an earlier [version](Self::version) stay readable beside new ones. A version is a number of
-/// patterns, and its [fingerprint](Version::fingerprint) tells it from those of other robots.
+/// A dictionary only grows: a pattern keeps its number and its prototype for good, so that
+/// sequences that were written with an earlier [version](Self::version) stay readable beside new
+/// ones. A version is a number of patterns, and its [fingerprint](Version::fingerprint) tells it
+/// from those of other robots.
 ///
 /// ```
 /// use tolman_maps::cpm::{Dictionary, PatternId};
@@ -54,7 +55,7 @@ pub struct Version {
     pub fingerprint: u64,
 }
 
-/// Reason why a dictionary refuses its input.
+/// Reason why a dictionary refuses what it is given.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DictionaryError {
@@ -116,8 +117,8 @@ impl Dictionary {
         }
     }
 
-    /// Returns a finished dictionary of these prototypes. `half_turned` names for each the pattern
-    /// that is seen walking the other way. O(patterns²).
+    /// Returns a finished dictionary: the prototypes, and for each which of them is its vector
+    /// turned half round, for patterns that are seen walking the other way. O(patterns²).
     ///
     /// # Errors
     /// [`DictionaryError`] if a prototype is invalid, or `half_turned` does not lead back and
@@ -141,10 +142,10 @@ impl Dictionary {
         Ok(dictionary)
     }
 
-    /// Returns the pattern of an observation: the nearest within `tolerance`, else a new one made
-    /// of the observation. A new pattern for `half_turned`, the same seen the other way, is added
-    /// too unless it is known or nearly the same. The paper's own wish: "the CPs must be learned
-    /// incrementally". O(patterns · features).
+    /// Returns the pattern that stands for an observation: the nearest if it lies within
+    /// `tolerance`, else a new one, made of the observation, together with a new one for
+    /// `half_turned`, the same seen the other way, unless that is known or nearly the same. The
+    /// paper's own wish: "the CPs must be learned incrementally". O(patterns · features).
     ///
     /// # Errors
     /// [`DictionaryError`] if one of the observations or the tolerance is invalid. Nothing is

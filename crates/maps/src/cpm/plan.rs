@@ -25,8 +25,8 @@ pub struct PlanLeg {
     pub enter: End,
     /// Where it leads.
     pub arrive: Port,
-    /// Number of observations along the fragment, "used to estimate how many observation the robot
-    /// can skip"; 0 if it was too short for any.
+    /// How many observations were made along the fragment, "used to estimate how many observation
+    /// the robot can skip"; 0 where it was too short for any.
     pub observations: u32,
 }
 

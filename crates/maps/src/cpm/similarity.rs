@@ -102,8 +102,8 @@ impl FragmentMatching {
         }
     }
 
-    /// Similarity above which two fragments that would leave one port may be the same: other
-    /// similar fragments make up for a small shortfall from μ.
+    /// Above it two fragments may be one that would lead out of one port because others are
+    /// similar: what others say for it makes up for a little that is missing to μ.
     #[must_use]
     pub const fn threshold_at_port(&self) -> f64 {
         match self {
@@ -219,8 +219,8 @@ pub enum Span {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Sum {
-    /// Mean over the positions. The sum and the division of (3) amount to it, so long and short
-    /// fragments are measured alike.
+    /// Their mean over the positions, which is what the sum and the division of (3) make, so that
+    /// long fragments and short ones are measured alike.
     Mean,
     /// The root of the sum of their squares, (4); the sum of (3) over n times the same E, divided
     /// by n, is E.
@@ -228,8 +228,8 @@ pub enum Sum {
 }
 
 impl Similarity {
-    /// Returns our reading of the paper: distances of prototypes, whole sequences, means, μ = 0.9.
-    /// At one port it is half-way between 0.9 and 0.8; distinctive fragments stay below 0.8.
+    /// As we read the paper: distances of prototypes, whole sequences, means, μ = 0.9; at one port
+    /// half-way between that and 0.8, under which distinctive fragments stay.
     #[must_use]
     pub const fn paper() -> Self {
         Self {

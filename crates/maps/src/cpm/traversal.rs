@@ -8,9 +8,9 @@ use super::bearings::Bearings;
 use super::pattern::PatternId;
 use tolman_robot::Landmark;
 
-/// The view of a place that ends a fragment: a junction, a dead end (one port), or a landmark. A
-/// landmark ("other CP (some extra landmarks) might also be used to divide fragment as well") may
-/// stand in a corridor (two ports).
+/// What the robot sees of a place that ends a fragment: a junction, a dead end (one port), or a
+/// landmark ("other CP (some extra landmarks) might also be used to divide fragment as well"),
+/// which may stand in a corridor (two ports).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sighting {
     /// How many ways lead out, the port of entry among them; at least 1.
@@ -58,13 +58,14 @@ pub struct Traversal {
     pub motion: Option<DeadReckoning>,
     /// The place it led to.
     pub sighting: Sighting,
-    /// Directions of the ways out of that place, counted from the way of entry, or `None` if the
-    /// robot did not look, as in the paper.
+    /// Where the ways out of that place lead, counted from the one by which the robot came, or
+    /// `None` if it did not look, as the paper's.
     pub bearings: Option<Bearings>,
 }
 
-/// What dead reckoning knows of a walk. Its axes are those of the robot at its start and the same
-/// for all walks. The bounds allow for the drift of the heading since then.
+/// What dead reckoning knows of a walk. Its axes are the same for all walks: those the robot had at
+/// its start, as far as it knows them, with the drift of its heading since then allowed for in the
+/// bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DeadReckoning {

@@ -4,9 +4,9 @@ use thiserror::Error;
 /// port it came in by, which is 0.
 ///
 /// In a crossing, 1 turns right, 2 goes straight on, 3 turns left, whatever way the robot came. The
-/// paper counts from the robot's heading, which contradicts its equation (2). Counted from the port
-/// of entry, Δ runs from 1 to degree − 1, and N_w of (2) is degree − 1. [`BACK`](Self::BACK) is the
-/// turn of a dead end.
+/// paper counts from the robot's heading, which its equation (2) does not survive; counted from the
+/// port of entry, Δ runs from 1 to degree − 1 and N_w of (2) is degree − 1. [`BACK`](Self::BACK) is
+/// the turn of a dead end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Turn(pub u32);
 
@@ -61,8 +61,8 @@ impl Turn {
         Ok(Self(sum(0, degree - self.0, degree)))
     }
 
-    /// Returns the turn that this one and then `next` amount to, equations (9) and (10): (Δ + Δ')
-    /// mod n_junc with n_junc = `degree`.
+    /// Equations (9) and (10): the turn that leads to where first this turn and then `next` would
+    /// lead, (Δ + Δ') mod n_junc with n_junc = `degree`.
     ///
     /// # Errors
     /// If the junction has no such turn.

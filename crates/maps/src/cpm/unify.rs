@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 use super::map::{CpMap, End, Fragment, FragmentId, JunctionId, Port, PortState, Sign};
 use super::similarity::Sense;
 
-/// Greatest difference between two views of one way, rad. It is less than the quarter circle
-/// between the views of a side way from its three ends.
+/// Ways of one place are not seen so far apart from each other, rad: less than a quarter of a
+/// circle, by which those of a side way seen from its three ends differ.
 const MOST_APART: f64 = 1.0;
 
 /// Which fragments and junctions have become which.
@@ -48,17 +48,15 @@ impl CpMap {
     /// Returns the map in which two fragments are one, and what follows from it: "given that 𝔸₁ is
     /// approximately identical to 𝔸₂, then junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", or +
     /// to − if they are similar inverted. "Those similar junctions must be *unified*": laid over
-    /// each other, turned so that the fragment's ports meet. Where both then have a fragment at a
-    /// port, these are one as well, and so on. Where only one has, it is added to the other; these
-    /// are both sub-cases of equations (9) and (10). The older fragments and junctions stay.
+    /// each other, turned so that the fragment's ports meet. Where both have a fragment at a port
+    /// then, these are one as well, and so on; where one has, it is added to the other, which is
+    /// both sub-cases of equations (9) and (10). The older fragments and junctions stay.
     ///
     /// `agree` is asked of all pairs but the first. O(fragments + junctions) and the questions.
     ///
-    /// `None` if that leads to a contradiction:
-    ///
-    /// - two junctions would be one that differ in the number of ports, bearings or landmark;
-    /// - a junction would be itself, turned, or a fragment itself, inverted;
-    /// - two fragments that are not similar would leave one port.
+    /// `None` if something that follows is not so: two junctions would be one that have another
+    /// number of ports, other bearings or another landmark; one would be itself, turned; a fragment
+    /// would be itself, inverted; or two fragments would lead out of one port that are not similar.
     pub(super) fn unified(
         &self,
         one: FragmentId,

@@ -76,9 +76,10 @@ impl Observer {
         (to, Some(link))
     }
 
-    /// Relates the places met lately to the one just met by the way between them. The stopping
-    /// point within a place matters only at the ends of a way, but relations from each place to the
-    /// next count it at both ends of every move. Robots that stop at a point gain nothing here.
+    /// Relates the places met lately to the one just met by the way between them. Where in a place
+    /// the robot stopped matters at the ends of a way alone, while relations from each place to the
+    /// next count it at both ends of every move; so nothing is to be won where robots stop at a
+    /// point.
     fn relate_lately(&mut self, track: &Track, to: PlaceId, moved: PointBox) {
         if self.config.place_radius <= 0.0 {
             return;

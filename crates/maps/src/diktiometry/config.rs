@@ -9,8 +9,8 @@ use super::Action;
 
 /// What the observer is told of the robot and the world, and which parts of it are at work.
 ///
-/// The paper gives one number, the error of odometry (10 % of the distance), so there is no
-/// `Default`. [`Config::new`] has the values proposed here, each with its reason. Lengths are in
+/// The paper gives no numbers but the error of odometry (10 % of the distance), so there is no
+/// `Default`; [`Config::new`] has the values proposed here, each with its reason. Lengths are in
 /// metres of the odometry.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -40,8 +40,8 @@ pub struct Config {
     pub shared_scale: f64,
     /// Whether percepts come with moves.
     pub percepts: Percepts,
-    /// Half width above which a new place's box opens a frame of its own, in the frame it was
-    /// reached from, m, ≥ 0. At 0 every place has one.
+    /// A new place whose box in the frame it was reached from would be wider than twice this, m, ≥
+    /// 0, opens a frame of its own. At 0 every place has one.
     pub frame_half_width: f64,
     /// How far the reference graph is searched.
     pub search: SearchLimits,
@@ -150,7 +150,7 @@ pub struct SignatureKind {
     pub rows: usize,
     /// Columns, ≥ 1.
     pub columns: usize,
-    /// Largest difference between values of two views of one place, in units of the values, ≥ 0:
+    /// Values of two views of one place differ by no more than this, in units of the values, ≥ 0:
     /// twice the bound of the sensor's noise.
     pub tolerance: f64,
     /// Share of the columns that have to agree, 0 < … ≤ 1.

@@ -23,16 +23,16 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// Returns how many kinds of looks have to agree until coincidence has a probability below
-    /// `error`; `None` if there are not as many kinds. O(kinds²).
+    /// Returns how many kinds of looks have to agree before the chance that all of them do by
+    /// chance is below `error`; `None` if there are not as many kinds. O(kinds²).
     ///
-    /// For places whose looks are independent of their neighbours', the probability p that two look
-    /// alike has a beta distribution by the pairs seen (Jeffreys' prior). The probability of k in a
-    /// row is the mean of pᵏ. Where looks repeat from room to room, deceptive looks have deceptive
-    /// neighbours. Then it is at least the power of how often that was met.
+    /// For places whose looks have nothing to do with their neighbours', how often two look alike,
+    /// p, has a beta distribution by the pairs that were seen (Jeffreys' prior), and the chance of
+    /// k in a row is the mean of pᵏ. Where looks repeat, room for room, those that deceive have
+    /// neighbours that deceive, and it is at least the power of how often that was met.
     ///
-    /// A true place may be many places of a map that is not folded yet, and such pairs are no
-    /// independent evidence. So all pairs together count for as many as the kinds of looks make.
+    /// A true place may be many places of a map that is not yet folded, whose pairs are no evidence
+    /// of their own: all pairs count for as many as the kinds of looks make.
     pub(super) fn enough(&self, error: f64) -> Option<usize> {
         (1..=self.kinds as usize).find(|agreeing| self.chance(*agreeing) < error)
     }

@@ -77,9 +77,9 @@ impl Diktiometry {
         Some(self.reference.known(start, end)? + to - from)
     }
 
-    /// Returns all places that can be reached from `origin` in the reference graph, at positions to
-    /// draw: as seen from `origin`, at (0, 0). By id. O(frames · degree · log frames + places · log
-    /// places).
+    /// Returns all places that can be reached from `origin` in the reference graph, where they are
+    /// for the eye: as seen from `origin`, which is at (0, 0). By id. O(frames · degree · log
+    /// frames + places · log places).
     #[must_use]
     pub fn layout(&self, origin: PlaceId) -> Vec<DrawnPlace> {
         let Some(origin) = self.paths.resolve(origin) else {

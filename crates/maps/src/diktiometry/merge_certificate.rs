@@ -16,8 +16,8 @@
 //! reverse from there back. What follows from that is known without a route; a move along a way
 //! that was gone before has no certificate.
 //!
-//! [`certify_merges`] replays a journal and gives a certificate for each merge of the map.
-//! [`verify_merges`] checks certificates against the journal, and knows nothing of the map.
+//! [`certify_merges`] goes through a journal and has a certificate for each merge that the map
+//! made; [`verify_merges`] checks certificates against the journal, and knows nothing of the map.
 
 mod constraints;
 mod identities;
@@ -126,8 +126,8 @@ impl JournalSpan {
         }
     }
 
-    /// Returns the box of the displacement between the places at its ends, m. `None` if these moves
-    /// do not exist, are too many, or one was blocked.
+    /// Returns the box of the displacement between the places at its ends, m; `None` if there are
+    /// no such moves, too many, or one of them was blocked.
     fn displacement(self, moves: &[ObservedMove], config: &Config) -> Option<PointBox> {
         if self.end < self.begin {
             return Some(-self.reversed().displacement(moves, config)?);

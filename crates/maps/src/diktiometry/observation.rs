@@ -13,8 +13,8 @@ use super::{Action, Signature};
 pub struct ObservedMove {
     /// The control routine.
     pub action: Action,
-    /// Bounds that hold the true motion: the displacement from the start to the end of the move,
-    /// along the axes of the compass (x east, y north), m, and the heading by the compass, rad.
+    /// The displacement from where the move began to where it ended, along the axes of the compass
+    /// (x east, y north), m, and the heading by the compass, rad: bounds that hold the truth.
     ///
     /// A robot whose odometry is in its own axes turns it by its compass:
     /// `PoseBox::new(PointBox::ORIGIN, heading).transform(displacement)`.

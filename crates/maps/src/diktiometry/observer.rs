@@ -12,9 +12,9 @@ use super::{
 
 /// The adaptive state-space model: an observer that any robot can feed, and that drives none.
 ///
-/// Each [`step`](Self::step) is the loop of the paper's figure 1. The *estimator* (projector,
-/// indexer, matching engine) finds the place of every track; the *adapter* (updater, restructurer)
-/// then changes the map. A planner asks [`tracks`](Self::tracks), [`predict`](Self::predict),
+/// Each [`step`](Self::step) is the loop of the paper's figure 1: the *estimator* (projector,
+/// indexer, matching engine) finds where every track is, the *adapter* (updater, restructurer)
+/// changes the map by it. A planner asks [`tracks`](Self::tracks), [`predict`](Self::predict),
 /// [`plan`](Self::plan) and [`opportunities`](Self::opportunities), and does with the answers what
 /// it likes.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,10 +119,10 @@ impl Observer {
             .collect()
     }
 
-    /// Returns the few actions that most probably lead from one place to another, along links that
-    /// probably work now ([`PathGraph::likely`](super::PathGraph::likely)). If the world never
-    /// changed, they are the fewest. Empty if both are one, or `None` if no way is known. O(places
-    /// + links · (degree + log links)).
+    /// Returns the actions from one place to another that are the likeliest to lead there and few,
+    /// along links that probably work now ([`PathGraph::likely`](super::PathGraph::likely)); the
+    /// fewest where the world never changed. Empty if both are one, or `None` if no way is known.
+    /// O(places + links · (degree + log links)).
     #[must_use]
     pub fn plan(&self, from: PlaceId, to: PlaceId) -> Option<Vec<PlanStep>> {
         let from = self.map.paths.resolve(from)?;
@@ -215,8 +215,8 @@ impl Observer {
         report.tracks = lines.collect();
     }
 
-    /// Returns the position of one place as seen from another, m, by the relation of their two
-    /// frames, or by a search if they have none.
+    /// Returns where one place lies as seen from another by what is known of their two frames, m;
+    /// by a search only if they are not related.
     pub(super) fn motion(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
         self.map
             .related(from, to)

@@ -25,7 +25,7 @@ pub struct Opportunity {
     pub cost: f64,
 }
 
-/// Worth of a new link where the place may be another, which may have the link already: less than a
+/// What a new link is worth where the place may be another, which may have it already: less than a
 /// few walks round the loop that would tell.
 const IN_DOUBT: f64 = 0.03;
 
@@ -166,8 +166,8 @@ impl Observer {
         OpportunityKind::CloseLoop.offer(other, script, gain)
     }
 
-    /// Returns the effective number of walks along a script. The first tells most, and repeated
-    /// failures lower it, so no script is preferred forever.
+    /// Returns how many walks along a script there would be: the first tells most, and what did not
+    /// help often will not help, so that no script is preferred forever.
     fn walks(&self, script: &[Action]) -> f64 {
         let paths = &self.map.paths;
         let links = script.iter().scan(self.place(), |at, action| {
@@ -187,8 +187,9 @@ impl Observer {
         Some((steps.into_iter().map(|step| step.action).collect(), end))
     }
 
-    /// Returns whether a robot that goes along a link and back is recognized by geometry alone.
-    /// After a longer way going back would only make one more place that nobody can tell.
+    /// Returns whether a robot that goes along a link and back is recognized where it began, by
+    /// geometry alone: after a longer way it might be at a place of its own, and going back would
+    /// make one more place that nobody can tell.
     fn is_proved_by_return(&self, link: &Link) -> bool {
         self.map.related(link.from, link.to).is_some_and(|there| {
             // Another measurement within the same bounds: there and back are off by the box's width
@@ -205,9 +206,9 @@ impl Observer {
     }
 }
 
-/// The ways that scripts take: those a plan may follow, and untried actions back along a link the
-/// robot came by, if their end will be recognized. The world may have no such way; a script may
-/// fail.
+/// The ways that scripts take: those a plan may follow and, where the robot came along a link, the
+/// action back, if it was never tried and its end will be recognized. The world may have no such
+/// way; a script may fail.
 struct Walkable<'a>(&'a Observer);
 
 impl Walkable<'_> {

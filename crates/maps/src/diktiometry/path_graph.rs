@@ -279,8 +279,8 @@ impl PathGraph {
         })
     }
 
-    /// Returns the probability that a link still leads where it led. It assumes that the link and
-    /// its end are constant, and takes the less likely of the two. 0 for ids never given.
+    /// Returns the chance that a link leads now where it led: as long as it and the place at its
+    /// end are constant, by the less likely of both. 0 for ids never given.
     #[must_use]
     pub fn chance(&self, id: LinkId) -> f64 {
         let Some(link) = self.link(id) else {
@@ -290,8 +290,8 @@ impl PathGraph {
         link.constancy.chance(self.now).min(there)
     }
 
-    /// Returns the link most likely to work now for each action at a place. Ties go to the one met
-    /// more often lately, then to the older.
+    /// Returns the links that are most likely to work now, of each action at a place the one; of
+    /// equals the one that was met more often lately, then the older.
     pub fn likely(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
         self.outgoing(place).filter(move |(id, link)| {
             let along = self.along(place, link.action);
@@ -376,9 +376,9 @@ impl PathGraph {
 /// For planning: from every place, each action along the link that is most likely to work now. The
 /// nodes are the ids of places.
 ///
-/// A move costs `MOVE`. Each factor of e by which a move makes the plan less likely to work costs
-/// as much as a detour of `FAILURE` moves. Where the world never changed, the cheapest plan has the
-/// fewest moves.
+/// A move costs `MOVE`; that it may fail costs as much as going `FAILURE` moves about, for each
+/// factor of e by which it makes the plan less likely to work. Where the world never changed, the
+/// cheapest plan has the fewest moves.
 impl Graph for PathGraph {
     fn node_count(&self) -> usize {
         self.places.len()

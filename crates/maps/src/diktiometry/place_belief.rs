@@ -112,9 +112,9 @@ impl PlaceBelief {
         places
     }
 
-    /// Returns the first action of the shortest way on the map that tells the two likeliest places
-    /// apart. `None` if there is only one, or the map cannot tell them apart. Breadth-first over
-    /// pairs of places, 20,000 at most.
+    /// Returns the action with which the shortest way begins that tells the two likeliest places
+    /// apart by what the map has of them; `None` if there is only one, or nothing on the map tells
+    /// them apart. Breadth-first over pairs of places, 20,000 at most.
     #[must_use]
     pub fn telling_action(&self, observer: &Observer) -> Option<Action> {
         let places = self.places();

@@ -34,8 +34,8 @@ pub struct TrackReport {
     pub confidence: f64,
     /// What the map predicted before the move.
     pub predicted: Option<Predicted>,
-    /// The move by the updated map: from the previous place to the present one, m, or `None` if the
-    /// reference graph has no way.
+    /// How the map has the move now that it is updated: from the place it was to the one it is, m,
+    /// or `None` if it knows no way in the reference graph.
     pub motion: Option<PointBox>,
 }
 

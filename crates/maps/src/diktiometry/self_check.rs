@@ -14,15 +14,15 @@ const COMPARED: usize = 256;
 
 /// What a map says against itself, without any truth: counts of places.
 ///
-/// Beyond the paper. A map that is not folded has places that may be one. A map that confused two
-/// places has actions that lead to two places. See [`Self::certainty`].
+/// Beyond the paper. A map that is not folded has places which may be one with others; one in which
+/// two places were confused has ways that lead to two places. See [`Self::certainty`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SelfCheck {
     /// Places of the map.
     pub places: usize,
-    /// Places that may be one with another: the bounds leave room for that, they look alike, and so
-    /// does all that follows along the same actions.
+    /// Those of them that may be one with another: the bounds leave room for that, they look alike,
+    /// and so does all that follows along the same actions.
     pub doubtful: usize,
     /// Those of them from where an action of a static world leads to two places, or not back.
     pub torn: usize,
@@ -77,7 +77,7 @@ impl SelfCheck {
         }
     }
 
-    /// Returns the likeliest verdict.
+    /// Returns what it is most likely.
     #[must_use]
     pub const fn state(&self) -> MapState {
         match self {

@@ -114,8 +114,8 @@ impl Signature {
         self.values.get(from..from + self.rows).unwrap_or_default()
     }
 
-    /// Returns how many columns differ nowhere by more than `tolerance` from those of `other`
-    /// turned by `offset`: column c is compared with column c + offset there.
+    /// Returns how many columns differ nowhere by more than `tolerance` from those of `other`,
+    /// which is turned by `offset` columns: column c is compared with column c + offset there.
     pub(super) fn agreement(&self, other: &Self, offset: usize, tolerance: f64) -> usize {
         let columns = self.columns();
         (0..columns)

@@ -43,8 +43,8 @@ impl Observer {
         self.expect(from, action, None);
     }
 
-    /// Narrows the boxes of two places by an estimate of the displacement between them: the second
-    /// by the first (as in the paper), and back.
+    /// Narrows what is known of two places by an estimate of the displacement between them: the box
+    /// of the second by that of the first (as in the paper) and back.
     ///
     /// # Errors
     /// [`Excluded`] if it contradicts what is known of the two frames; the boxes then stay as they
@@ -96,8 +96,8 @@ impl Observer {
         self.map.place_mut(place).exits = exits.clone();
     }
 
-    /// Counts the links of an action, and the places they lead to, as expected, and the one
-    /// `taken`, if any, as met, on a way of that displacement.
+    /// Counts that the links of an action, and the places they lead to, were expected, and that one
+    /// of them, if any, was met: the one `taken`, on a way of that displacement.
     fn expect(&mut self, from: PlaceId, action: Action, taken: Option<(LinkId, PointBox)>) {
         let (fading, now) = (self.config.transients.fading, self.map.paths.now);
         let along = self.map.paths.along(from, action);
@@ -118,9 +118,9 @@ impl Observer {
         }
     }
 
-    /// Returns whether a way from a place ends before another place. Places are δ_sep apart, so a
-    /// way that is shorter by more than half of that ends before it. By the middles of the boxes,
-    /// along ways that do not turn.
+    /// Returns whether a way from a place ends before another place: two places are δ_sep apart, so
+    /// that it ends before it, and not there, if it is shorter by more than half of that. By the
+    /// middles of the boxes, along ways that do not turn.
     fn ends_before(&self, from: PlaceId, place: PlaceId, way: PointBox) -> bool {
         let length = |displacement: PointBox| displacement.middle().coords.norm();
         let there = self.map.related(from, place);
@@ -134,8 +134,9 @@ fn contract(place: &mut Place, estimate: PointBox) {
     }
 }
 
-/// Adds an estimate of a place's position to its nominal envelope. It joins the estims too, unless
-/// it is too wide to tell one place from the next: the middle of a wide box is no sighting.
+/// Takes an estimate of a place's position into its nominal envelope and, if it is not too wide to
+/// tell one place from the next, its estims: the middle of a wide box is no point where the place
+/// was seen.
 fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
     place.envelope = place.envelope.hull(robot);
     if robot.width() > separation {
@@ -151,8 +152,8 @@ fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
 /// "All estims within δ_sep of each other are merged, with new positions gotten by weighted
 /// averaging, and new weights the sum of the component's weights."
 ///
-/// Averaging lets an estim swallow a mode exactly δ_sep away. So estims merge within half of it,
-/// the closest pair first; of equal pairs the older.
+/// Averaging lets an estim swallow a mode exactly δ_sep away, so estims merge within half of it,
+/// the closest pair first, of equal pairs the older.
 pub(super) fn merge_estims(estims: &mut Vec<Estim>, separation: f64) {
     loop {
         let pairs =

@@ -93,9 +93,9 @@ pub enum GraphError {
 
 /// The finished graph of Phase II. Nodes are numbered from 0 in the order they were made.
 ///
-/// Every edge between nodes is entered both ways with opposite actions. Two edges of a node with
-/// the same action lead to nodes of different states. So an action and its resulting state name at
-/// most one edge.
+/// Every edge between nodes is entered both ways with opposite actions. Two edges of a node that
+/// bear one action lead to nodes of different states, so that an action and the state it led to
+/// name at most one edge.
 ///
 /// With the feature `serde` it is saved as its nodes. Reading checks them as
 /// [`from_nodes`](Self::from_nodes) does.

@@ -35,10 +35,10 @@ impl GraphMapper {
     /// before, instead of adding a new node it traces the graph back to the old node and when it
     /// eventually reaches a new state it adds on from there."
     ///
-    /// Since edges are entered both ways, whoever reverses an action finds the edge back. So only
-    /// an edge of this action to a node of this state has to be found. A new node hangs on one
-    /// edge, so only the exact reverse of the actions that led away from a node leads back to it.
-    /// O(degree of the node).
+    /// Since edges are entered both ways, whoever reverses an action finds the edge back. An edge
+    /// of this action to a node of this state is therefore all there is to look for; and as a new
+    /// node hangs on one edge, only the exact reverse of the actions that led away from a node
+    /// leads back to it. O(degree of the node).
     pub fn succeeded(&mut self, action: Direction, state: u32, zone: NodeZone) -> u32 {
         if let Some(known) = follow(&self.nodes, self.at, action, state) {
             self.at = known;

@@ -342,8 +342,7 @@ fn normal_equations(residuals: &[Residual]) -> (Matrix3<f64>, Vector3<f64>) {
     (information, pull)
 }
 
-/// Returns the log-likelihood of a fit up to a constant. A point that was found counts by its
-/// error, one that was not by the limit.
+/// Returns what was found counts by how far it is off; what was not, as far off.
 fn likelihood(outline: &Outline, residuals: &[Residual]) -> f64 {
     let worst = MOST_OFF * MOST_OFF;
     let of = outline.points.len() as f64 + ARC_SHARE * outline.arcs.len() as f64;

@@ -5,9 +5,9 @@ use tolman_robot::Picture;
 
 use super::OutlinePoint;
 
-/// Returns where things meet the floor in a picture: in each column, the first row from below that
-/// does not look like the floor below it. Points come in order of bearing, in the robot's frame.
-/// O(pixels).
+/// Returns where things stand on the floor in a picture: in each column, the first row from below
+/// that does not look like the floor below it. Points come in order of bearing, in the robot's
+/// frame. O(pixels).
 ///
 /// A column whose floor goes on to the horizon, or in which the floor does not show at all, has
 /// none.

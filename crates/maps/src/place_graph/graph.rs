@@ -153,9 +153,9 @@ impl PlaceGraph {
         map.put_down(true)
     }
 
-    /// Returns the map with another robot in it, at an unknown pose and with unknown wheels. It
-    /// adds new places only if `grows`. An empty map begins where the robot looks first, whether it
-    /// grows or not.
+    /// Returns the map with another robot in it, whose wheels are not known and which may be
+    /// anywhere, and which adds new places only if `grows`. An empty map begins where the robot
+    /// looks first, whether it grows or not.
     #[must_use]
     pub fn put_down(mut self, grows: bool) -> Self {
         self.wheels =

@@ -133,8 +133,8 @@ fn find_normals(points: &mut [OutlinePoint]) {
     }
 }
 
-/// Returns the normal of the line through a point and its collinear neighbours on either side;
-/// `None` if they lie on no line.
+/// Returns the normal of the line through a point and as many neighbours on either side as belong
+/// to it; `None` if they lie on none.
 fn normal(points: &[OutlinePoint], index: usize, beside: usize) -> Option<Vector> {
     let around = neighbours(points, index, beside)?;
     let line = Line::through(around)?;

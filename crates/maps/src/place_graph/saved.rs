@@ -10,8 +10,8 @@ use crate::pose_graph::{PoseEdge, PoseGraph, PoseGraphError};
 const FORMAT: &str = "tolman-place-graph";
 const VERSION: u32 = 1;
 
-/// A place graph as it lies in a file; any format of serde's will do. The robot's pose and wheels
-/// are left out: the loaded map is one on which a robot was [put down](PlaceGraph::put_down)
+/// A place graph as it lies in a file; any format of serde's will do. What is known of the robot in
+/// it is left out: the map comes back as one on which a robot was [put down](PlaceGraph::put_down)
 /// anywhere, and grows.
 ///
 /// [`PlaceGraph`] itself is serialized as this, and refuses to be made of what is invalid.

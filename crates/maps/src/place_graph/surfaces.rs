@@ -4,8 +4,8 @@ use tolman_geom::{Point, Pose, Vector};
 
 use super::{Outline, OutlinePoint};
 
-/// Surfaces seen from all places, in the map's frame: small patches, one for each cell of a grid,
-/// direction and colour.
+/// What all places together know of the surfaces of things, in the map's frame: little pieces of
+/// them, one for each cell of a grid, direction and colour.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Surfaces {
     pieces: BTreeMap<Key, Surface>,

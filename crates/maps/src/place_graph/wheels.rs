@@ -4,11 +4,11 @@ use tolman_robot::Odometry;
 
 use crate::tangent::difference;
 
-/// Estimate of the constant error of the wheels: both are larger or smaller than they should be,
-/// and one differs from the other.
+/// What is known of the constant error of the wheels: that they are larger or smaller than they
+/// should be, together and one beside the other.
 ///
-/// A robot that rolled `distance` and `turn` has truly driven `distance` · (1 + scale) and turned
-/// by `turn` · (1 + scale) + `distance` · curvature.
+/// A robot that rolled `distance` and `turn` has truly come `distance` · (1 + scale), and has truly
+/// turned by `turn` · (1 + scale) + `distance` · curvature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelError {
@@ -71,8 +71,8 @@ impl WheelError {
         }
     }
 
-    /// Learns from a localized pose: `off` is its difference from the prediction, `before` the
-    /// predicted covariance, `after` the corrected one, which includes the prediction.
+    /// Learns from where the robot was found: `off` from where it was predicted with the covariance
+    /// `before`, known with the covariance `after`, in which the prediction has a part.
     pub(super) fn learn(
         &mut self,
         predicted: &Rolled,

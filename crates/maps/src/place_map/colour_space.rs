@@ -6,8 +6,9 @@
 pub enum ColourSpace {
     /// Red, green and blue, each 0 … 1.
     Rgb,
-    /// Hue, saturation and value, each 0 … 1. Hue is not circular here, as in the paper (section
-    /// 3.4, "Features"): a red just below 1 and a red just above 0 are far apart.
+    /// Hue, saturation and value, each 0 … 1. Hue is taken plainly, as the paper takes it (section
+    /// 3.4, "Features"): a red just below 1 and a red just above 0 are far apart, although they are
+    /// neighbours on the circle of hues.
     Hsv,
 }
 

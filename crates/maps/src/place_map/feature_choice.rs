@@ -21,8 +21,8 @@ pub enum FeatureGroup {
 /// so x and y keep their ratio and so do the pixels.
 ///
 /// The paper does not scale, or does not say so: "the (unmodified) sensor values". Then the unit of
-/// a sensor and the number of its values decide its influence, and no weight between 0 and 1
-/// corrects that.
+/// a sensor and the number of its values decide what it counts for, and no weight between 0 and 1
+/// mends it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -34,8 +34,8 @@ pub enum FeatureScaling {
     /// Table 3.1, 0.63 for images and 0.33 for odometry, make sense only so.
     #[default]
     Group,
-    /// The values of a group have a mean variance of 1. So the influence of a group grows with its
-    /// number of values: 3600 for an image, 2 for the odometry.
+    /// The values of a group have a mean variance of 1, so a group counts for as much as it has
+    /// values: 3600 of an image, 2 of the odometry.
     Value,
     /// Values as they are: metres, and colours of 0 … 1.
     Raw,

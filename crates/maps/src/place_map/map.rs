@@ -8,8 +8,8 @@ use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Picture, Position}
 
 use super::{FeatureSpace, FeatureTable, PlaceMapConfig, PlaceMapError, PlaceRecord};
 
-/// A map of places: nodes of a growing neural gas, with links between neighbours (section 3.4,
-/// "Learning"). Each is the prototype of the images, ranges and odometry at some place.
+/// A map of places: nodes of a growing neural gas, each the prototype of what was seen, heard and
+/// rolled at some place, and links between neighbours (section 3.4, "Learning").
 ///
 /// It learns a whole table of records ([`learn`](Self::learn)), or one record at a time as a
 /// [`Mapper`].
@@ -152,9 +152,9 @@ impl PlaceMap {
         Ok(self.gng.nearest(features)?.id)
     }
 
-    /// Returns the node whose learned ranges are nearest to the known ones, m, by their squared
-    /// differences. The record may hold only a part of the ranges. `None` if no range is known, or
-    /// places are not told by ranges. O(nodes × ranges).
+    /// Returns the node whose learned ranges are nearest to those that are known, m, by their
+    /// squared differences: a record of which only a part was sensed. `None` if no range is known,
+    /// or places are not told by ranges. O(nodes × ranges).
     #[must_use]
     pub fn nearest_by_ranges(&self, known: &[Option<f64>]) -> Option<UnitId> {
         let count = known.iter().flatten().count();

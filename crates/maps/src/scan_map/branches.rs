@@ -32,10 +32,10 @@ pub(super) struct Branch {
     pub(super) narrowest: f64,
 }
 
-/// Length of a spur, in clearances where it begins, up to which it leads into a corner. In a square
-/// room it would be √2 less, and in a corridor of one more square it is 1.9.
+/// A spur of this length or less, in clearances where it begins, leads into a corner:
+/// it would be √2 less in a square room, and is 1.9 in a corridor of one more square.
 const SPUR: f64 = 1.5;
-/// Distance of two knots that are one place, as a share of the sum of their clearances. Two
+/// Knots are one place that lie no farther apart than this share of their clearances together: two
 /// junctions side by side are at least half of it apart.
 const SAME: f64 = 0.35;
 
@@ -144,8 +144,8 @@ impl Branches {
         }
     }
 
-    /// Merges knots that are one place: they lie close together, or a way of at least `open` m off
-    /// the walls joins them.
+    /// Makes one knot of those that are one place: because they lie so near to each other, or
+    /// because no way between them is narrower than `open` m off the walls.
     pub(super) fn merge(&mut self, open: f64) {
         while let Some(link) = self.shortest(|graph, degrees, branch| {
             let [a, b] = branch.ends;

@@ -131,8 +131,8 @@ impl<'a> Clearings<'a> {
         (None, cells)
     }
 
-    /// Returns the cells round a point in which the robot can stand, as far as no wall is between.
-    /// The robot's own cell is included, whatever the map says.
+    /// Returns the cells round a point in which the robot can stand, as far as no wall is between:
+    /// where it is, it stands, whatever the map says.
     fn stands_by(&self, at: Point) -> Vec<GridIndex> {
         let centre = index_of(at);
         let cells = (-BY..=BY)
@@ -152,7 +152,7 @@ impl<'a> Clearings<'a> {
 }
 
 impl WayToGap<'_> {
-    /// Returns the distance from a point, m; `None` where it was not computed.
+    /// Returns how far it is from a point, m; `None` where that was not worked out.
     #[must_use]
     pub fn metres(&self, from: Point) -> Option<f64> {
         let stands = self.clearings.stands_by(from).into_iter();

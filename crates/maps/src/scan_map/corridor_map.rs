@@ -9,8 +9,8 @@ use super::skeleton::Skeleton;
 use super::wall_grid::{GridIndex, index_of, middle};
 use super::{ScanChart, WallGrid};
 
-/// The places of a [`ScanChart`] and the ways between them: what is left of the middle lines of its
-/// ground. A place is where corridors meet or end, or where a landmark stands.
+/// The places of a [`ScanChart`] where its corridors meet or end or a landmark stands, and the ways
+/// between them: what is left of the middle lines of its ground.
 ///
 /// A room is one place from which ways lead through its gateways.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,10 +45,9 @@ const OPEN: f64 = 0.8;
 /// A knot so near to where a landmark was sensed is where it stands, as a share of the corridors'
 /// width.
 const STANDS_BY: f64 = 0.65;
-/// Distance from the middle of a place within which a robot is at it, as a share of the corridors'
-/// width.
+/// Whoever is nearer to the middle of a place is at it, as a share of the corridors' width.
 const REACH: f64 = 0.33;
-/// Distance within which a robot passes a place, as a multiple of that.
+/// Whoever comes by so near passes a place, as a multiple of that.
 const PASSED: f64 = 1.8;
 /// A goal is sensed so far into the next corridor's width before it counts as two, as a share of
 /// that.

@@ -36,8 +36,8 @@ const SUREST: f64 = 0.005;
 /// Fewest beams that can be compared.
 const FEWEST: usize = 10;
 
-/// Fits a scan to the walls of `grid`. The position is expected with `variance` (along each axis,
-/// m²), and at most `farthest` m off. O(positions tried · beams).
+/// Fits a scan to the walls of `grid`, expected at a position known to `variance` (along each axis,
+/// m²), no farther than `farthest` m from there. O(positions tried · beams).
 pub(super) fn fit(
     grid: &WallGrid,
     expected: Point,
@@ -93,8 +93,8 @@ fn best_of(centre: Vector, window: Vector, mesh: f64, total: impl Fn(Vector) -> 
     best.1
 }
 
-/// Returns the shift along one axis and its variance, given the other shift: the posterior mean, or
-/// the prior where the walls tell nothing.
+/// Returns the shift along one axis and its variance, the other shift given: the mean of the
+/// posterior, or the prior where the walls tell nothing.
 fn along(
     score: impl Fn(Vector) -> f64,
     best: Vector,

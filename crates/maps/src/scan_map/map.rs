@@ -137,8 +137,8 @@ impl ScanMap {
         self.agreement
     }
 
-    /// Returns its surprise, 0 … 1: the greatest share of beams of two successive scans that
-    /// contradicted the known walls.
+    /// Returns by how much it has been surprised, 0 … 1: the largest share of the beams of two
+    /// scans in a row that contradicted the walls which were known.
     #[must_use]
     pub const fn surprise(&self) -> f64 {
         self.surprise

@@ -64,8 +64,8 @@ impl Rays {
         Self { cells, ends, clear }
     }
 
-    /// Returns the ranges from a cell, beam by beam, in [`RANGE_UNIT`]s: the distance of the
-    /// nearest wall, or [`UNKNOWN`] where the beam leaves the known ground first. O(beams · range).
+    /// Returns the ranges from a cell, beam by beam, in [`RANGE_UNIT`]s: as far as the nearest
+    /// wall, [`UNKNOWN`] where the beam leaves what is known before. O(beams · range).
     pub(super) fn ranges<'a>(
         &'a self,
         ground: &'a GroundPlan,

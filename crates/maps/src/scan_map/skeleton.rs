@@ -6,8 +6,8 @@ use core::cmp::Reverse;
 use super::WallGrid;
 use super::wall_grid::GridIndex;
 
-/// The middle lines of the ground where a robot can stand. Cells are removed from its border if
-/// they neither hold it together nor end a line.
+/// The middle lines of the ground where a robot can stand: what is left when cells are taken away
+/// from its border on that neither hold it together nor end a line.
 #[derive(Debug)]
 pub(super) struct Skeleton {
     first: GridIndex,
@@ -139,9 +139,9 @@ impl Skeleton {
     }
 }
 
-/// Returns whether a cell with these neighbours may go: Yokoi's connection number is 1, and it has
-/// more than two neighbours, so it neither connects nor ends a line. Of two that a line of two
-/// cells' width ends with, one stays, or it would be taken away from its end on.
+/// Whether a cell with these round it holds nothing together and ends no line: Yokoi's number of
+/// connections is 1, and more than two cells lie beside. Of two that a line of two cells' width
+/// ends with, one stays, or it would be taken away from its end on.
 fn is_needless(around: [bool; 8]) -> bool {
     let connections = [0, 2, 4, 6].into_iter().filter(|way| {
         let [a, b, c] = [0, 1, 2].map(|next| around[(way + next) % 8]);

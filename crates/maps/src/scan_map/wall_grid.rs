@@ -213,8 +213,8 @@ impl WallGrid {
         self.cells[slot].been
     }
 
-    /// Returns whether a body of this radius, m, can stand with its middle in a cell that a beam
-    /// has passed, as far as walls are known.
+    /// Returns whether a body of this radius can stand with its middle in a cell that a beam has
+    /// passed, as far as walls are known.
     pub(super) fn stands(&self, index: GridIndex, radius: f64) -> bool {
         self.cell(index)
             .is_some_and(|cell| cell.passes > 0 && f64::from(cell.wall) * DISTANCE_UNIT >= radius)

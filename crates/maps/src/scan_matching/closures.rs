@@ -69,9 +69,9 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Compares the keyframes up to `here` with those about `there`, and returns whether they
-    /// match. They become one place if an earlier or later match agrees. Nothing matches if no
-    /// closures are looked for, or there are no such keyframes.
+    /// Holds the keyframes up to `here` against those about `there`, and takes them for the same
+    /// place if they match and an earlier or later match agrees; returns whether they match at all.
+    /// Nothing matches if no closures are looked for, or there are no such keyframes.
     ///
     /// # Errors
     /// If a measurement does not fit the graph.
@@ -141,8 +141,8 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Searches all closures again on the present map and corrects it, until the same ones are
-    /// found twice or the rounds are over. Then the map is final.
+    /// Looks for all closures again, on the map as it is, and makes it agree, until the same ones
+    /// are found twice or the rounds are over; then the map does not change any more.
     ///
     /// # Errors
     /// If a measurement does not fit the graph.

@@ -85,9 +85,9 @@ impl OccupancyGrid {
         }
     }
 
-    /// Returns how many beams of a scan end on the map, and how many of these end on floor. A cell
-    /// is floor if its share of hits, and that of all beside it, is below `wall`. Where walls stand
-    /// twice, many do. O(beams).
+    /// Returns how many beams of a scan end on the map, and how many of these end where the map has
+    /// floor: in a cell that, like all beside it, was more often passed than hit, by a share of
+    /// hits below `wall`. Where walls stand twice, many do. O(beams).
     #[must_use]
     pub fn contradicted(
         &self,

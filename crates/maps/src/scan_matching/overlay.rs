@@ -39,9 +39,9 @@ const AXIS_TURN: f64 = 0.07;
 const SAME: (f64, f64) = (1.0, 0.1);
 
 impl ScanMatching {
-    /// Aligns another map of the same building with this one. Both buildings' axes are known, so
-    /// stretches of its way are tried anywhere in all four quarter turns. The alignment is kept on
-    /// which the whole map fits best. `None` if a map is empty.
+    /// Looks for where another map of the same building lies on this one: stretches of its way, put
+    /// down anywhere and turned by any quarter, since both buildings' axes are known; the one is
+    /// kept on which the whole map lies best. `None` if a map is empty.
     ///
     /// O(stretches · cells of the grid), by branch and bound.
     #[must_use]
@@ -106,7 +106,7 @@ impl ScanMatching {
         grid
     }
 
-    /// Returns the middle of the robot's way and its greatest extent from there along an axis, m.
+    /// Returns the middle of the robot's way, and how far it reaches from there along an axis, m.
     fn extent(&self) -> Option<(Point, f64)> {
         let mut points = self.graph.poses().iter().map(|pose| pose.position);
         let first = points.next()?;

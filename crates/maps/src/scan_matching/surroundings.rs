@@ -14,7 +14,7 @@ const SHOWN: usize = 14;
 const ABOUT: usize = 20;
 
 impl ScanMatching {
-    /// Returns the ranges that a `ring` of beams along the axes of the map would see from a
+    /// Returns what a `ring` of beams that looks along the axes of the map would see from a
     /// keyframe, by the keyframes before and after; `None` if there is no such keyframe. A beam
     /// where none of them saw anything reads the ring's range. O(points of the keyframes).
     #[must_use]
@@ -23,8 +23,8 @@ impl ScanMatching {
         self.surroundings_of(keyframe, here, ring, ahead)
     }
 
-    /// Returns the ranges that a `ring` of beams along the axes of the map would see from a point,
-    /// by the keyframes about one; otherwise as [`surroundings`](Self::surroundings).
+    /// Returns what a `ring` of beams that looks along the axes of the map would see from a point,
+    /// by the keyframes about one; as [`surroundings`](Self::surroundings) else.
     #[must_use]
     pub fn surroundings_of(
         &self,
@@ -50,16 +50,16 @@ impl ScanMatching {
         Some(scan)
     }
 
-    /// Returns the direction of most surfaces, up to quarter turns: the axis of the building.
-    /// `None` before a surface was seen. O(keyframes).
+    /// Returns which way most surfaces run, up to quarter turns: the axis of the building. `None`
+    /// before a surface was seen. O(keyframes).
     #[must_use]
     pub fn axis(&self) -> Option<Heading> {
         self.axis_of(0..self.keyframes.len())
     }
 
-    /// Returns the direction of most surfaces seen from about a keyframe, where the map's heading
-    /// has drifted: the quarter turn next to the [axis](Self::axis) of the building. `None` before
-    /// a surface was seen. O(keyframes).
+    /// Returns which way most surfaces run that were seen from about a keyframe, where the heading
+    /// of the map has drifted: the quarter turn next to the [axis](Self::axis) of the building.
+    /// `None` before a surface was seen. O(keyframes).
     #[must_use]
     pub fn axis_about(&self, keyframe: usize) -> Option<Heading> {
         let end = (keyframe + ABOUT + 1).min(self.keyframes.len());

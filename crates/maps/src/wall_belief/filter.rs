@@ -35,8 +35,9 @@ pub struct FilterError {
     pub value: f64,
 }
 
-/// A mouse's pose as a cloud of particles: Monte Carlo localization (Probabilistic robotics, table
-/// 8.2). The low variance sampler of table 4.4 runs whenever half of the particles no longer count.
+/// Where a mouse is, as a cloud of particles: Monte Carlo localization (Probabilistic robotics,
+/// table 8.2), with the low variance sampler of table 4.4 whenever half of the particles no longer
+/// count.
 ///
 /// A ray is expected to end at any wall that may stand on its way ([`WallBelief::meetings`]); an
 /// unknown one stops it as often as not.

@@ -10,10 +10,10 @@ use super::RangeModel;
 
 /// What speaks for and against every wall of a maze of at most `N` × `N` cells, drawn to scale.
 ///
-/// Every wall has its log-odds to stand. A reading that meets a wall is evidence for it, one that
-/// passes is evidence against it. Both weigh as much as the sensor can be trusted at that range. A
-/// wall is believed in, or taken for open, beyond [`WallBelief::CONVINCED`]; it is unknown before
-/// and may be again.
+/// Every wall has its log-odds to stand. A reading that meets a wall speaks for it, one that passes
+/// speaks against it, each by as much as the sensor can be trusted at that range. A wall is
+/// believed in, or taken for open, beyond [`WallBelief::CONVINCED`]; it is unknown before and may
+/// be again.
 ///
 /// ```
 /// use tolman_geom::{Heading, Point, Pose};
@@ -119,8 +119,8 @@ impl<const N: usize> WallBelief<N> {
     /// Takes in one reading that `sensor` made at `pose`. One that is far from parallel to both
     /// axes says nothing. O(n²) for n cells along the ray.
     ///
-    /// Applies Bayes' rule to each wall on the ray by itself. It compares the likelihood of the
-    /// reading with and without the wall, the others as likely as believed so far.
+    /// By Bayes' rule, each wall on the ray by itself: how likely is the reading if it stands, and
+    /// if it does not, where the others stand as likely as is believed so far?
     pub fn observe(&mut self, pose: Pose, reading: RangeReading, sensor: &RangeModel) {
         let heading = pose.heading.turned(reading.bearing);
         let unit = heading.unit();
@@ -199,8 +199,9 @@ impl<const N: usize> WallBelief<N> {
         (line.distance - self.thickness / 2.0 / line.slope).max(0.0)
     }
 
-    /// Returns where a ray from `origin` of at most `max_range` m may end, the nearest first. These
-    /// are its crossings with grid lines where a wall may stand, up to the first believed wall.
+    /// Returns where a ray from `origin` may end that reaches `max_range`: at the lines of the grid
+    /// that it crosses where a wall may stand, the nearest first, up to the first that is believed
+    /// in.
     pub fn meetings(
         &self,
         origin: Point,

@@ -165,9 +165,9 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         })
     }
 
-    /// Adds the view from `cell` at one moment, each ray along its whole length, and returns how
-    /// many unknown walls are known now. Of two rays in one direction the first counts. O(cells
-    /// along the rays).
+    /// Takes in what is seen from `cell` at one moment, every ray along its whole length, and tells
+    /// how many walls that were unknown are known now. Of two rays in one direction the first
+    /// counts. O(cells along the rays).
     ///
     /// # Errors
     /// If a ray says the contrary of what is known, or leaves the maze; then nothing is taken in.

@@ -34,9 +34,9 @@ impl ActiveFrame {
 /// Returns the active frames after a displacement: "dropping frames which are not informative, and
 /// adding neighbors of active frames which appear both informative and relevant".
 ///
-/// `here` is the frame of the robot's place, with the robot in it. It is always active, and adds
-/// what it knows more precisely of a neighbour. At most `cap` frames are kept, those with the
-/// narrowest box. O(active frames · degree · log).
+/// `here` is the frame of the robot's place with the robot in it: always active, and where it says
+/// more of a neighbour than was carried along, that holds too. At most `cap` frames are kept, those
+/// with the narrowest box. O(active frames · degree · log).
 pub(crate) fn moved(
     map: &Diktiometry,
     active: &[ActiveFrame],
@@ -88,7 +88,7 @@ pub(crate) fn moved(
 }
 
 /// Returns the envelope of a frame, "the bounding interval of the position intervals of F's
-/// places". Nominal envelopes are used, because a frame with a single place would be a point
+/// places"; of their nominal envelopes, since a frame that one place alone defines is a point
 /// otherwise. None without places.
 fn envelope(map: &Diktiometry, frame: FrameId) -> Option<PointBox> {
     let places = map.frame(frame).places.iter();

@@ -64,9 +64,9 @@ impl Chosen {
 /// Applies the matchers to the sets of candidates, the best set first: "the maximal applicable
 /// matchers are used … If no matchers apply, a new place is created."
 ///
-/// `expected` is the first set. `plies` gives the sets of the other modules, which are asked only
-/// if no CONTINUE takes precedence over them. The first set with a match without an error wins.
-/// Only if there is none, the first with an error competes with a new place.
+/// `expected` is the first set; `plies` gives the sets of the other modules, asked for only where
+/// no CONTINUE takes precedence over all they could bring. The first set with a match that posits
+/// no error wins; only if there is none, the first with one that does stands against a new place.
 pub(crate) fn choose(
     situation: &Situation<'_>,
     expected: &[Candidate],
@@ -123,8 +123,8 @@ fn matched(situation: &Situation<'_>, set: &[Candidate], doubts: &mut Vec<PlaceI
     found.flatten().collect()
 }
 
-/// Returns the matches of the first set that has some without an error, else those with one error;
-/// these compete with a new place.
+/// Returns the matches of the first set that has some without an error or, if there is none, some
+/// with one; these stand against a new place.
 fn applicable(sets: &[Vec<Chosen>]) -> Vec<Chosen> {
     let normal = |set: &Vec<Chosen>| -> Vec<Chosen> {
         let all = set.iter().copied();

@@ -64,10 +64,9 @@ impl Constraints {
         }
     }
 
-    /// Returns the routes that bound the position of one place from another on each of the four
-    /// sides, without repetition. The list is empty if the places are not connected or the
-    /// constraints contradict each other. Bellman's and Ford's algorithm. O(places · pairs of
-    /// neighbours).
+    /// Returns the routes that bound where one place lies as seen from another from each of the
+    /// four sides, none twice; none if they are not connected, or if the constraints contradict
+    /// each other. Bellman's and Ford's algorithm. O(places · pairs of neighbours).
     pub(super) fn routes(&self, from: usize, to: usize) -> Vec<Vec<JournalSpan>> {
         let mut routes = Vec::new();
         for axis in 0..2 {

@@ -3,8 +3,8 @@ use alloc::vec::Vec;
 
 use crate::diktiometry::{Action, Config, WorldKind};
 
-/// Visits known to be to one place, and what follows. In a static world an action leads from one
-/// place to one place, and its reverse back.
+/// Which visits are known to be to one place, and what follows: in a static world an action leads
+/// from one place to one place, and its reverse from there back.
 ///
 /// A visit stands for its class by its number or that of any other in it.
 #[derive(Clone, Debug)]
@@ -122,8 +122,8 @@ mod tests {
 
     use super::*;
 
-    /// Returns the strict consequences: visits after the same action from one place are to one
-    /// place, and a reverse leads back to it.
+    /// Returns what follows by the letter: visits after the same action from one place are to one
+    /// place, and so is one that a reverse leads back to.
     fn by_the_letter(config: &Config, actions: &[Action], joined: &[[usize; 2]]) -> Vec<usize> {
         let mut class: Vec<usize> = (0..=actions.len()).collect();
         let rename = |class: &mut Vec<usize>, one: usize, other: usize| {

@@ -14,8 +14,8 @@ impl LookEvidence {
         }
     }
 
-    /// Returns the probability that this many kinds of looks agree at two different places. The
-    /// number of candidate places is taken as the number of kinds plus two.
+    /// Returns the probability that this many kinds of looks agree at two places, one of which may
+    /// be taken for as many as there are kinds, and two more.
     pub(super) fn stated(&self, config: &Config, journal: &Journal) -> f64 {
         let others = f64::from(self.looks.kinds) + 2.0;
         let chance = self.looks.chance(self.kinds(config, journal));

@@ -2,7 +2,7 @@ use super::{JournalSpan, LookEvidence, MergeCertificate, MergeProof};
 use crate::diktiometry::Action;
 
 /// A checksum of numbers: FNV-1a of 64 bits (Fowler, Noll and Vo). It tells that something was
-/// changed by accident, and does not protect against intent.
+/// changed by accident, and is no protection from those who mean to.
 struct Seal(u64);
 
 impl Seal {

@@ -21,11 +21,11 @@ pub(crate) struct Reached {
 /// Returns the frames around `start`, those of best known position first, `start` itself before
 /// all.
 ///
-/// Runs Dijkstra's algorithm on the width of the box. Where several ways lead to a frame, its
-/// position is the intersection of their boxes. O(frames · degree · log frames).
+/// Dijkstra's algorithm on the width of the box; where several ways lead to a frame from frames
+/// reached before, its position is what they all allow. O(frames · degree · log frames).
 ///
-/// The paper searches by plies, because "the farther a frame is in the reference graph, the less
-/// useful information (in general) it gives". Width measures that information directly.
+/// The paper searches the graph by plies and says that "the farther a frame is in the reference
+/// graph, the less useful information (in general) it gives"; width is that information itself.
 pub(crate) fn search(
     graph: &ReferenceGraph,
     start: FrameId,

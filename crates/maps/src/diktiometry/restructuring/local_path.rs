@@ -63,9 +63,9 @@ fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bo
 /// split is indicated."
 ///
 /// Images of different *actions* say only that the robot turned here or there; a split is indicated
-/// where the same action led to different places. The paper's images are of links, so links are
-/// compared. Two incoming links belong together if some action led from both to one place. They
-/// belong apart if none did although both know the action. O(degree²).
+/// where the same action led to different places. The paper's images are of links, so that is what
+/// they are compared by: two incoming links belong together when some action led from both to the
+/// same place, and apart when it never did although both know the action. O(degree²).
 pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     let limits = &config.restructuring;
     let here = map.place(place);

@@ -1,8 +1,8 @@
 //! Looks as evidence of identity, where the map has learned that they are.
 //!
 //! Beyond the paper, which compares histories of places that were considered and rejected. After a
-//! long way the box of a position has room for several places. Where looks are many, the looks of
-//! the places along the same actions tell which it is.
+//! long way the box of a position has room for several places; where looks are many, it is told by
+//! what the places along the same actions look like.
 
 use alloc::vec::Vec;
 
@@ -17,22 +17,22 @@ use crate::diktiometry::{
 /// Pairs of places that are compared at most.
 const COMPARED: usize = 64;
 
-/// Expected number of wrong candidates where an action relates the two places to one
-/// ([`share_a_way`]). This bounds how often an action leads elsewhere, or not back, because the
-/// world changed or the place is two.
+/// For how many places one may be taken where an action relates the two to one place
+/// ([`share_a_way`]): how often, at most, it leads elsewhere than it did, or not back, since the
+/// world has changed or the place is two.
 const ELSEWHERE: f64 = 1e-3;
 
 /// Returns whether two places may be merged by what they and the places along the same actions look
 /// like.
 ///
 /// Where the same actions lead from one place, there is the same place. If the two are different,
-/// so are the places to which the same actions lead from them. Each pair of those looks alike with
-/// probability about p ([`Looks`](crate::diktiometry::Looks)). With k kinds of looks in agreement
-/// and n candidate places, a wrong one agrees by coincidence with probability at most about n · pᵏ.
-/// Here p is the mean over all pairs, and some looks are commoner than others. The number of
-/// candidates is taken as the kinds of looks plus two: the number of places on the map says nothing
-/// while it is not folded. Where one action led from one place to both, the one is taken for the
-/// other only if the action has led elsewhere.
+/// so are the places that the same actions lead to from them, and each pair of them looks alike by
+/// a chance of about p ([`Looks`](crate::diktiometry::Looks)). With k kinds of looks in agreement
+/// and n places that the one may be taken for, one that it is not does all that with a chance of
+/// about n · pᵏ at most: p is the mean over all pairs, and some looks are commoner than others.
+/// There are as many places as kinds of looks, and two more, for all that is known: how many are on
+/// the map says nothing while it is not folded. Where one action led from one place to both, the
+/// one is taken for the other only if the action has led elsewhere.
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     if config.restructuring.look_merge == Use::Off {
         return Verdict::Abstain;
@@ -111,8 +111,8 @@ pub(crate) fn learn_of_two(
     map.looks.count(look, neighbours);
 }
 
-/// Returns the looks of two places from which the same action leads to a pair, or else those to
-/// which it leads from the pair. `None` if there are none of either.
+/// Returns how two places look from which the same action leads to those of a pair, or else to
+/// which it leads from them, or `None` if there are none of either.
 fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Option<Similarity> {
     let paths = &map.paths;
     let before = paths.incoming(a).find_map(|(_, link)| {
@@ -158,8 +158,8 @@ pub(super) enum Agreement {
     Broken,
 }
 
-/// Returns whether `wanted` kinds of looks agree along the same actions from two places, and
-/// nothing contradicts that the two are one.
+/// Returns whether `wanted` kinds of looks agree along the same actions from two places, wherever
+/// they are, and nothing speaks against it that the two are one.
 pub(super) fn agreement(
     map: &Diktiometry,
     a: PlaceId,

@@ -41,9 +41,9 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::propose_if(limits.geometric_merge.trusts_paths() && count >= limits.histories)
 }
 
-/// Returns the number of pairs of places along a history of one place that, by the same actions,
-/// could have ended at the other: matched, and considered but rejected. From the newest on, as far
-/// back as the map has the links.
+/// Returns how many pairs of places there are along a history that ended at the one and, with the
+/// same actions, could have ended at the other place: matched, and considered but rejected. From
+/// the newest on, as far back as the map has the links.
 fn seam(map: &Diktiometry, history: &[TrackEntry], other: PlaceId) -> usize {
     let mut pairs = 0;
     let mut there = other;

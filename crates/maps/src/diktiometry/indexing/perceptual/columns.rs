@@ -10,10 +10,10 @@ use crate::diktiometry::{Signature, SignatureKind, ViewRotation};
 /// When enough of a database signature's columns have been marked, the signature's place is
 /// suggested as a match candidate."
 ///
-/// What is found is that. But columns are indexed in groups as large as possible, because one
-/// column says little. If `enough` columns agree, at least one of `columns - enough + 1` groups
-/// agrees as a whole: the others are too few to spoil each group. Only views that share a group
-/// with the percept are compared with it column by column.
+/// What is found is that. But columns are indexed as many at once as possible, since one column
+/// says little: if `enough` of the columns agree, then of `columns - enough + 1` groups of columns
+/// at least one agrees as a whole, since those that do not are too few to spoil each. Only views
+/// that share a group with the percept are compared with it column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ColumnIndex {
     /// One a group; where views may be turned, one of the groups that begin at all columns.

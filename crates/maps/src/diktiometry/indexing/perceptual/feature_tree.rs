@@ -14,9 +14,9 @@ pub(super) struct Feature {
 /// Features that are not in a tree yet, at most.
 const LOOSE: usize = 32;
 
-/// A k-d tree of features that can be added one by one. It is several balanced trees, one for each
-/// binary digit of their number, and some loose features behind them. The middle of every range
-/// splits it, by each coordinate in turn.
+/// A k-d tree of features to which features are added one by one: in truth several balanced trees
+/// (the middle of every range splits it, by one coordinate after the other), one for each binary
+/// digit of their number, and some loose features behind them.
 ///
 /// Source: J. L. Bentley, J. B. Saxe, "Decomposable searching problems I: Static-to-dynamic
 /// transformation", the logarithmic method.

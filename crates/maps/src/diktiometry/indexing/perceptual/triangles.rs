@@ -68,10 +68,10 @@ impl Seen {
 impl TriangleIndex {
     /// Takes in a view. Views with fewer than three edges have no triangle and are never found.
     ///
-    /// An edge is kept only if noise alone cannot make it; a percept asks for all its borders. So a
-    /// view seen again within the tolerance is found by all its triangles in two cases: it has no
-    /// more borders than are asked for, or its edges are clearer than all others by four
-    /// tolerances.
+    /// An edge is kept if noise alone cannot make it, and borders of a percept are asked for
+    /// whether it can or not: so a view whose values are seen again within the tolerance is found
+    /// by all its triangles, as long as it has no more borders than are asked for or its edges are
+    /// clearer than all others by four tolerances.
     pub(super) fn insert(&mut self, view: &Signature, kind: &SignatureKind) {
         let mut edges = borders(view);
         edges.retain(|edge| edge.clearness() > kind.tolerance);
