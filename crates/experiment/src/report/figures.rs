@@ -34,7 +34,7 @@ pub(super) fn of_no_table(figures: &[Figure]) -> Vec<&Figure> {
     figures.collect()
 }
 
-/// Returns the section of the figures that belong to no table, of which so many are seen.
+/// Returns the section of the figures that belong to no table, of which the first `shown` are seen.
 pub(super) fn others(figures: &[&Figure], shown: usize) -> Markup {
     let (seen, rest) = figures.split_at(shown.min(figures.len()));
     html! {

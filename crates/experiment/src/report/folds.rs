@@ -83,7 +83,7 @@ impl Folds {
         }
     }
 
-    /// Returns the folds of a tour of so many experiments.
+    /// Returns the folds of a tour of `experiments` experiments.
     pub(super) fn of_tour(experiments: usize) -> Self {
         // Each has a heading, its source and the command that makes it again.
         Self {

@@ -87,7 +87,7 @@ pub(super) fn varying(analysis: &TableAnalysis) -> impl Iterator<Item = &MetricA
     metrics.filter(|metric| !is_constant(metric))
 }
 
-/// Returns what the metrics are called, one after the other.
+/// Returns what the metrics are called, in turn.
 fn titles(metrics: &[&MetricAnalysis]) -> String {
     let titles = metrics.iter().map(|metric| metric.metric.title.as_str());
     titles.collect::<Vec<_>>().join(", ")
