@@ -3,8 +3,8 @@
 //! The page is put together from parts, each a function of the [`ExperimentOutcome`]: header, cards
 //! and contents (`header`), one section for each table (`table`), figures (`figures`), the notes
 //! that say how to read it all (`notes`), what of it is folded (`folds`), and the replays with the
-//! script (`replays`, `page.js`). `docs/report.md` names the ids and attributes that tests and other
-//! scripts may rely on.
+//! script (`replays`, `page.js`). `docs/report.md` names the ids and attributes that tests and
+//! other scripts may rely on.
 
 mod abstracts;
 mod figures;

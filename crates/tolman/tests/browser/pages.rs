@@ -8,7 +8,7 @@ use std::env;
 use std::path::{Path, PathBuf};
 
 use crate::tab::{Scheme, Tab};
-use crate::{ended, folder, tab, tell, tolman};
+use crate::{tab, tell};
 
 /// At a desk and on a phone.
 const WINDOWS: [(u32, u32); 2] = [(1280, 800), (390, 844)];
