@@ -18,7 +18,7 @@ mod tour;
 
 pub use tour::tour_html;
 
-use maud::{DOCTYPE, PreEscaped, html};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::ExperimentOutcome;
 use folds::{Folds, Part};
@@ -40,18 +40,7 @@ pub(crate) fn html(outcome: &ExperimentOutcome) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="generator" content="tolman report";
-                meta http-equiv="Content-Security-Policy"
-                    content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
-                title { (outcome.entry.title) }
-                style {
-                    (PreEscaped(tolman_draw::style())) (PreEscaped(include_str!("style.css")))
-                    (PreEscaped(replays::style(outcome)))
-                }
-            }
+            (head(outcome.entry.title, replays::style(outcome)))
             body {
                 main {
                     (header::header(outcome))
@@ -71,4 +60,22 @@ pub(crate) fn html(outcome: &ExperimentOutcome) -> String {
         }
     };
     page.into_string()
+}
+
+/// Returns the head of a page, with the style of all pages and `style`, its own.
+fn head(title: &str, style: &str) -> Markup {
+    html! {
+        head {
+            meta charset="utf-8";
+            meta name="viewport" content="width=device-width, initial-scale=1";
+            meta name="generator" content="tolman report";
+            meta http-equiv="Content-Security-Policy"
+                content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
+            title { (title) }
+            style {
+                (PreEscaped(tolman_draw::style())) (PreEscaped(include_str!("style.css")))
+                (PreEscaped(style))
+            }
+        }
+    }
 }

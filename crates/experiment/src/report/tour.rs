@@ -3,7 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::folds::{Folds, Part, Shown};
-use super::{figures, table};
+use super::{figures, head, table};
 use crate::ExperimentOutcome;
 use tolman_draw::Figure;
 
@@ -20,15 +20,7 @@ pub fn tour_html(outcomes: &[ExperimentOutcome], last: &str) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="generator" content="tolman report";
-                meta http-equiv="Content-Security-Policy"
-                    content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
-                title { "A tour of all experiments" }
-                style { (PreEscaped(tolman_draw::style())) (PreEscaped(include_str!("style.css"))) }
-            }
+            (head("A tour of all experiments", ""))
             body {
             main {
                 header {
