@@ -14,6 +14,7 @@ mod golden;
 mod layers;
 mod mazes;
 mod prose;
+mod python;
 mod workspace;
 
 use std::ffi::OsString;
@@ -65,6 +66,9 @@ enum Verb {
     /// Checks that comments keep to 100 columns, and that comments, messages and pages use plain
     /// words
     Prose,
+    /// Builds the Python module, installs it into target/python and runs its tests; needs Python
+    /// and its packages, and says so where they are not there
+    Python,
     /// Builds the API documentation, makes the moving picture of README and checks the links of the
     /// written pages
     Docs,
@@ -79,6 +83,7 @@ fn main() -> ExitCode {
         Verb::Mazes => mazes::run(),
         Verb::Bench { name } => bench::run(name.as_deref()),
         Verb::Prose => prose::run(),
+        Verb::Python => python::run(),
         Verb::Docs => docs::run(),
     };
     match done {

@@ -226,7 +226,12 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    pub(crate) fn check(&self, input: &[S]) -> Result<(), InputError> {
+    /// Checks an input as [`observe`](crate::Quantizer::observe) does, and learns nothing.
+    ///
+    /// # Errors
+    /// If the input has another number of features than the network, or one that is NaN, infinite
+    /// or so large that squares overflow.
+    pub fn check(&self, input: &[S]) -> Result<(), InputError> {
         self.metric.check(input)
     }
 

@@ -45,6 +45,39 @@ pub enum LogSystem {
     PlaceGraph,
 }
 
+impl LogSystem {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Odometry,
+        Self::Matching,
+        Self::ScanMatching,
+        Self::Places,
+        Self::Diktiometry,
+        Self::Cpm,
+        Self::PlaceGraph,
+    ];
+
+    /// Returns its name, as `tolman map --log` takes it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Odometry => "odometry",
+            Self::Matching => "matching",
+            Self::ScanMatching => "scan-matching",
+            Self::Places => "places",
+            Self::Diktiometry => "diktiometry",
+            Self::Cpm => "cpm",
+            Self::PlaceGraph => "gngslam",
+        }
+    }
+
+    /// Returns the one of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|system| system.name() == name)
+    }
+}
+
 /// What was found in a log.
 #[derive(Clone, Debug)]
 pub struct MappedLog {

@@ -1,0 +1,28 @@
+"""Quantizers, mazes, robots, planners, and systems that learn maps of mazes.
+
+>>> import numpy as np, tolman
+>>> gng = tolman.GNG(max_units=20).fit(np.random.default_rng(1).random((2000, 2)))
+>>> gng.units_.shape
+(20, 2)
+>>> maze = tolman.Maze.generate("perfect", 5, 5, seed=1)
+>>> learned = tolman.learn(maze, "mslst-better", seed=1)
+"""
+
+from ._planners import Path, shortest_path
+from ._quantizers import GNG, SOINN, EquilibriumGNG, NotFittedError
+from ._tolman import Map, Maze, Robot, learn, map_log, systems
+
+__all__ = [
+    "GNG",
+    "SOINN",
+    "EquilibriumGNG",
+    "Map",
+    "Maze",
+    "NotFittedError",
+    "Path",
+    "Robot",
+    "learn",
+    "map_log",
+    "shortest_path",
+    "systems",
+]

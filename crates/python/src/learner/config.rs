@@ -1,0 +1,115 @@
+use pyo3::prelude::*;
+use tolman_quantizers::{
+    Denoising, ErrorInsertion, ErrorKind, GngConfig, GrowthGate, QuantizerConfigError, Removal,
+    SimilarityThreshold, SoinnConfig, StepOrder, Utility,
+};
+
+use crate::errors::{refused, wrong};
+use crate::params::Params;
+
+/// A gate, made of its threshold.
+type Gate = fn(f64) -> GrowthGate;
+
+/// Returns what Python says of a growing neural gas.
+pub(super) fn gng_config(params: &Params<'_, '_>) -> PyResult<GngConfig> {
+    let gate = match params.is_given("gate")? {
+        false => GrowthGate::Open,
+        true => {
+            let gates: [(&str, Gate); 2] = [
+                ("mean_error", |threshold| GrowthGate::MeanError {
+                    threshold,
+                }),
+                ("rate", |threshold| GrowthGate::Rate { threshold }),
+            ];
+            let gate = params.choice("gate", &gates)?;
+            gate(params.number("threshold")?)
+        }
+    };
+    let utility = match params.optional("utility_threshold")? {
+        None => None,
+        Some(threshold) => Some(Utility {
+            threshold,
+            removal: params.choice(
+                "removal",
+                &[
+                    ("every_input", Removal::EveryInput),
+                    ("when_full", Removal::WhenFull),
+                ],
+            )?,
+        }),
+    };
+    let max_units = params.optional_count("max_units")?;
+    Ok(GngConfig {
+        winner_rate: params.number("winner_rate")?,
+        neighbour_rate: params.number("neighbour_rate")?,
+        max_age: params.count("max_age")?,
+        growth_period: params.count("growth_period")?,
+        split_factor: params.number("split_factor")?,
+        decay: params.number("decay")?,
+        max_units: max_units.map_or(usize::MAX, |units| units as usize),
+        order: params.choice(
+            "order",
+            &[("fritzke", StepOrder::Fritzke), ("mslst", StepOrder::Mslst)],
+        )?,
+        error: params.choice(
+            "error",
+            &[
+                ("squared", ErrorKind::Squared),
+                ("absolute", ErrorKind::Absolute),
+                ("relative", ErrorKind::Relative),
+            ],
+        )?,
+        gate,
+        utility,
+    })
+}
+
+/// Returns what Python says of a SOINN.
+pub(super) fn soinn_config(params: &Params<'_, '_>) -> PyResult<SoinnConfig> {
+    let c = params.number("noise_factor")?;
+    let threshold = match params.optional("threshold")? {
+        None => SimilarityThreshold::Adaptive,
+        Some(distance) => SimilarityThreshold::Constant(distance),
+    };
+    Ok(SoinnConfig {
+        max_age: params.count("max_age")?,
+        period: params.count("period")?,
+        insertion: params.choice(
+            "insertion",
+            &[
+                ("unless_one_grew", ErrorInsertion::UnlessOneGrew),
+                ("unless_all_grew", ErrorInsertion::UnlessAllGrew),
+                ("off", ErrorInsertion::Off),
+            ],
+        )?,
+        denoising: params.choice(
+            "denoising",
+            &[
+                ("few_wins", Denoising::FewWins { c }),
+                ("low_rate", Denoising::LowRate { c }),
+                ("off", Denoising::Off),
+            ],
+        )?,
+        threshold,
+    })
+}
+
+/// Returns a `ValueError` that calls the field by the parameter's name.
+pub(super) fn named(error: QuantizerConfigError) -> PyErr {
+    match error {
+        QuantizerConfigError::OutOfRange {
+            field,
+            value,
+            range,
+        } => {
+            let parameter = match field {
+                "gate.threshold" => "threshold",
+                "utility.threshold" => "utility_threshold",
+                "denoising.c" => "noise_factor",
+                field => field,
+            };
+            wrong(format!("{parameter} is {value} but has to be {range}"))
+        }
+        error => refused("X", &error),
+    }
+}

@@ -1,0 +1,34 @@
+//! The Python module `tolman`, of which this is the part in Rust: `tolman._tolman`.
+//!
+//! `python/tolman` is the other part: the estimators, the environment and the types. What is slow
+//! or long happens here, with Python's lock released.
+
+mod errors;
+mod learner;
+mod log;
+mod map;
+mod maze;
+mod params;
+mod planners;
+mod robot;
+mod rows;
+mod system;
+
+/// The module as Python imports it.
+#[pyo3::pymodule]
+mod _tolman {
+    #[pymodule_export]
+    use crate::learner::PyLearner;
+    #[pymodule_export]
+    use crate::log::map_log;
+    #[pymodule_export]
+    use crate::map::PyMap;
+    #[pymodule_export]
+    use crate::maze::PyMaze;
+    #[pymodule_export]
+    use crate::planners::cheapest_path;
+    #[pymodule_export]
+    use crate::robot::PyRobot;
+    #[pymodule_export]
+    use crate::system::{learn, systems};
+}

@@ -1,0 +1,151 @@
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use tolman_arena::course::Course;
+use tolman_arena::episode::random_start;
+use tolman_arena::pioneer::{CoursePioneer, body, calibrated, without_noise};
+use tolman_geom::{Heading, Point, Pose};
+use tolman_robot::{Landmark, Robot, SensesLandmarks, TurnTranslate};
+use tolman_sim::robots::LaserPioneer;
+
+use crate::errors::{reasons, refused, wrong};
+use crate::maze::PyMaze;
+
+/// A pose as Python has it: x and y in metres, heading in radians counter-clockwise from east.
+pub(crate) type PoseTuple = (f64, f64, f64);
+
+/// A simulated Pioneer with a ring of laser beams, a compass and encoders, in a maze.
+#[pyclass(name = "Robot", module = "tolman")]
+pub(crate) struct PyRobot {
+    robot: CoursePioneer,
+    course: Course,
+}
+
+/// Where a robot is put.
+#[derive(FromPyObject)]
+enum Start {
+    Named(String),
+    At(PoseTuple),
+}
+
+#[pymethods]
+impl PyRobot {
+    /// Puts the robot into a maze: where the maze says (`"marked"`), anywhere (`"random"`) or at
+    /// (x, y, heading). `seed` is that of all random numbers; without `noise` motors and sensors
+    /// are perfect.
+    #[new]
+    #[pyo3(
+        signature = (maze, *, seed = 1, start = Start::Named("marked".to_owned()), noise = true),
+        text_signature = "(maze, *, seed=1, start='marked', noise=True)"
+    )]
+    fn new(maze: &PyMaze, seed: u64, start: Start, noise: bool) -> PyResult<Self> {
+        let course = Course::for_body(&maze.name, &maze.file, &body());
+        let course = course.map_err(|error| refused("maze", &error))?;
+        let start = match start {
+            Start::Named(name) if name == "marked" => {
+                course.start().map_err(|error| refused("start", &error))?
+            }
+            Start::Named(name) if name == "random" => random_start(&course, &body(), seed),
+            Start::Named(name) => {
+                return Err(wrong(format!(
+                    "start is '{name}' but has to be 'marked', 'random' or (x, y, heading)"
+                )));
+            }
+            Start::At((x, y, heading)) if [x, y, heading].iter().all(|part| part.is_finite()) => {
+                Pose::new(Point::new(x, y), Heading::from_radians(heading))
+            }
+            Start::At(_) => return Err(wrong("start has a part that is not finite".to_owned())),
+        };
+        let config = match noise {
+            true => calibrated(),
+            false => without_noise(&calibrated()),
+        };
+        let robot = LaserPioneer::new(config).map_err(|error| refused("noise", &error))?;
+        let robot = course.robot_at(start, robot, seed);
+        let robot = robot.map_err(|error| refused("start", &error))?;
+        Ok(Self { robot, course })
+    }
+
+    /// Turns by `turn` of the full turn of a step, counter-clockwise, and drives by `translate` of
+    /// its full length, ahead; both from −1 to 1.
+    fn step(&mut self, py: Python<'_>, turn: f64, translate: f64) -> PyResult<()> {
+        for (name, value) in [("turn", turn), ("translate", translate)] {
+            if !value.is_finite() {
+                return Err(wrong(format!(
+                    "{name} is {value} but has to be a finite number"
+                )));
+            }
+        }
+        let command = TurnTranslate { turn, translate };
+        let robot = &mut self.robot;
+        py.detach(|| robot.step(&command))
+            .map_err(|error| wrong(reasons(&error)))
+    }
+
+    /// Returns the ranges of the laser's beams, m, counter-clockwise, the first one ahead; `None`
+    /// if the laser gave nothing.
+    #[getter]
+    fn ranges<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        let scan = self.robot.sensing().scan.as_ref();
+        scan.map(|scan| PyArray1::from_slice(py, &scan.ranges))
+    }
+
+    /// Returns the heading by the compass, rad, counter-clockwise from east.
+    #[getter]
+    fn compass(&self) -> Option<f64> {
+        self.robot.sensing().compass.map(Heading::radians)
+    }
+
+    /// Returns what the wheels rolled in the last step: distance, m, and turn, rad.
+    #[getter]
+    fn odometry(&self) -> Option<(f64, f64)> {
+        let odometry = self.robot.sensing().odometry;
+        odometry.map(|rolled| (rolled.distance, rolled.turn))
+    }
+
+    /// Returns whether it touched something in the last step.
+    #[getter]
+    fn bump(&self) -> bool {
+        self.robot.sensing().bump.unwrap_or(false)
+    }
+
+    /// Returns whether it stands in the goal.
+    #[getter]
+    fn at_goal(&self) -> bool {
+        self.robot.landmark() == Some(Landmark::Goal)
+    }
+
+    /// Returns where it truly is, which it does not sense.
+    #[getter]
+    fn pose(&self) -> PoseTuple {
+        tuple(self.robot.truth().pose)
+    }
+
+    /// Returns the number of steps it has made.
+    #[getter]
+    fn steps(&self) -> u64 {
+        self.robot.truth().tick
+    }
+
+    /// Returns the number of beams of its laser.
+    #[getter]
+    fn beams(&self) -> u32 {
+        self.robot.model().config().ring.beams
+    }
+
+    /// Returns how far its laser reaches, m.
+    #[getter]
+    fn reach(&self) -> f64 {
+        self.robot.model().config().ring.max_range
+    }
+
+    /// Returns the steps after which a run has failed in the tables of MSLST's paper, in proportion
+    /// to the length of all corridors.
+    #[getter]
+    fn step_limit(&self) -> u32 {
+        self.course.step_limit()
+    }
+}
+
+pub(crate) fn tuple(pose: Pose) -> PoseTuple {
+    (pose.position.x, pose.position.y, pose.heading.radians())
+}

@@ -1,0 +1,98 @@
+use std::sync::OnceLock;
+
+use pyo3::prelude::*;
+use tolman_arena::contest::{
+    Condition, Contest, ContestRobot, Contestant, LearnRecord, Moment, Schooling,
+};
+use tolman_arena::run::TaskEnd;
+
+use crate::errors::{refused, wrong};
+use crate::map::PyMap;
+use crate::maze::PyMaze;
+
+/// Returns the names of the systems that learn a map of a maze.
+#[pyfunction]
+pub(crate) fn systems() -> Vec<String> {
+    let all = Contestant::ALL.into_iter();
+    all.filter(|system| system.learns())
+        .map(|system| system.name().to_lowercase().replace(' ', "-"))
+        .collect()
+}
+
+/// Lets a system learn a map of a maze with a simulated robot: that of its paper (`"own"`) or the
+/// laser Pioneer (`"pioneer"`). The same `seed` gives the same map.
+#[pyfunction]
+#[pyo3(signature = (maze, system = "mslst-better", seed = 1, *, robot = "own"))]
+pub(crate) fn learn(
+    py: Python<'_>,
+    maze: &PyMaze,
+    system: &str,
+    seed: u64,
+    robot: &str,
+) -> PyResult<PyMap> {
+    let found = Contestant::named(system).filter(|found| found.learns());
+    let Some(contestant) = found else {
+        return Err(wrong(format!(
+            "system is '{system}' but has to be one of {}",
+            systems().join(", ")
+        )));
+    };
+    let robot = match robot {
+        "own" => ContestRobot::Own,
+        "pioneer" => ContestRobot::Pioneer,
+        other => {
+            return Err(wrong(format!(
+                "robot is '{other}' but has to be 'own' or 'pioneer'"
+            )));
+        }
+    };
+    let contest = Contest {
+        contestant,
+        robot,
+        maze: maze.maze(),
+        name: &maze.name,
+        condition: Condition::AsMade,
+        starts: 0,
+        seed,
+        stopwatch: None,
+    };
+    py.detach(|| learned(&contest))
+}
+
+/// What systems have learned before, once for all.
+static SCHOOLING: OnceLock<Schooling> = OnceLock::new();
+
+fn learned(contest: &Contest<'_>) -> PyResult<PyMap> {
+    let mut seen = None;
+    let schooling = SCHOOLING.get_or_init(Schooling::default);
+    let record = contest.play(schooling, |outing, moment| {
+        if moment == Moment::Over {
+            seen = Some((outing.map(), outing.path().to_vec()));
+        }
+    });
+    let record = record.map_err(|error| refused("maze", &error))?;
+    if let Some(why) = record.abstained {
+        let name = contest.contestant.name();
+        return Err(wrong(format!("maze: {name} cannot learn it: {why}")));
+    }
+    let (Some(learned), Some((view, poses))) = (record.learned, seen) else {
+        return Err(wrong("system: it learns no map".to_owned()));
+    };
+    Ok(PyMap {
+        view,
+        poses,
+        system: contest.contestant.name().to_owned(),
+        outcome: outcome(&learned),
+        certainty: learned.certainty,
+        is_right: Some(learned.judgement.is_right),
+        closures: None,
+    })
+}
+
+fn outcome(learned: &LearnRecord) -> String {
+    match &learned.end {
+        TaskEnd::Done => "done".to_owned(),
+        TaskEnd::OutOfTime => "out of time".to_owned(),
+        TaskEnd::GaveUp { why } => format!("gave up: {why}"),
+    }
+}

@@ -1,0 +1,31 @@
+"""What the page and the example show runs as it stands."""
+
+import re
+import runpy
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[3]
+PAGE = ROOT / "docs" / "python.md"
+EXAMPLE = ROOT / "crates" / "python" / "examples" / "learn_a_maze.py"
+
+
+def test_the_page_runs(monkeypatch, capsys):
+    pieces = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.S)
+    assert len(pieces) == 2
+    monkeypatch.chdir(ROOT)
+    names: dict = {}
+    for piece in pieces:
+        exec(compile(piece, str(PAGE), "exec"), names)
+    assert names["nearest"].shape == (5, 2)
+    assert "(1000, 2)" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("arguments", [[], [str(ROOT / "mazes" / "star.maze")]])
+def test_the_example_runs(monkeypatch, capsys, arguments):
+    monkeypatch.setattr(sys, "argv", [str(EXAMPLE), *arguments])
+    runpy.run_path(str(EXAMPLE), run_name="__main__")
+    told = capsys.readouterr().out
+    assert "right: True" in told and "30 prototypes" in told and "way on the map: [0" in told

@@ -1,0 +1,51 @@
+"""Shortest paths on graphs of one's own."""
+
+import random
+
+import pytest
+from tolman import Path, shortest_path
+
+
+def test_a_cheap_detour_is_taken():
+    graph = {"a": {"b": 2, "c": 9}, "b": {"c": 2}, "c": {}}
+    assert shortest_path(graph, "a", "c") == Path(["a", "b", "c"], 4)
+    assert shortest_path(graph, "c", "a") is None
+    assert shortest_path(graph, "b", "b") == (["b"], 0)
+    assert shortest_path({"a": ["b", "c"], "b": ["c"], "c": []}, "a", "c") == (["a", "c"], 1)
+
+
+def test_it_is_as_short_as_that_of_networkx():
+    networkx = pytest.importorskip("networkx")
+    rng = random.Random(5)
+    graph = networkx.gnp_random_graph(60, 0.06, seed=5, directed=True)
+    for edge in graph.edges.values():
+        edge["metres"] = rng.randrange(20)
+    found = 0
+    for target in range(1, 60):
+        for weight in ("metres", None):
+            path = shortest_path(graph, 0, target, weight=weight)
+            if path is None:
+                assert not networkx.has_path(graph, 0, target)
+                continue
+            found += 1
+            assert path.cost == networkx.shortest_path_length(graph, 0, target, weight=weight)
+            assert path.nodes[0] == 0 and path.nodes[-1] == target
+    assert found > 40
+
+
+@pytest.mark.parametrize(
+    ("graph", "source", "target", "weight", "said"),
+    [
+        ({"a": []}, "z", "a", None, "source is 'z'"),
+        ({"a": []}, "a", "z", None, "target is 'z'"),
+        ({"a": ["z"]}, "a", "a", None, "graph: 'a' leads to 'z'"),
+        ({"a": {"b": -1}, "b": {}}, "a", "b", None, "the cost from 'a' to 'b' is -1"),
+        ({"a": {"b": 0.5}, "b": {}}, "a", "b", None, "the cost from 'a' to 'b' is 0.5"),
+        ({"a": {"b": "x"}, "b": {}}, "a", "b", None, "the cost from 'a' to 'b' is 'x'"),
+        ({"a": {"b": {"m": 1}}, "b": {}}, "a", "b", "km", "weight: the arc from 'a' to 'b' has no attribute 'km'"),
+        ({"a": {"b": 1}, "b": {}}, "a", "b", "km", "weight is for graphs"),
+    ],
+)
+def test_wrong_input_is_named(graph, source, target, weight, said):
+    with pytest.raises(ValueError, match=said):
+        shortest_path(graph, source, target, weight=weight)
