@@ -1,3 +1,4 @@
+use alloc::collections::BTreeSet;
 use alloc::sync::Arc;
 
 use tolman_geom::{Point, Pose};
@@ -178,14 +179,28 @@ impl World {
     ///
     /// # Errors
     /// If there is a zone of that name, or a number of it is not one.
-    pub fn with_zone(mut self, zone: Zone) -> Result<Self, WorldError> {
-        if self.zone(zone.name()).is_some() {
-            return Err(WorldError::ZoneTwice {
-                name: zone.name().to_owned(),
-            });
+    pub fn with_zone(self, zone: Zone) -> Result<Self, WorldError> {
+        self.with_zones([zone])
+    }
+
+    /// This world with further zones. O(n log n).
+    ///
+    /// # Errors
+    /// As [`World::with_zone`], of the first zone that does not fit.
+    pub fn with_zones(mut self, zones: impl IntoIterator<Item = Zone>) -> Result<Self, WorldError> {
+        let mut names: BTreeSet<String> = self
+            .zones
+            .iter()
+            .map(|zone| zone.name().to_owned())
+            .collect();
+        for zone in zones {
+            let name = zone.name().to_owned();
+            if !names.insert(name.clone()) {
+                return Err(WorldError::ZoneTwice { name });
+            }
+            zone.check()?;
+            self.zones.push(zone);
         }
-        zone.check()?;
-        self.zones.push(zone);
         Ok(self)
     }
 
@@ -194,25 +209,23 @@ impl World {
     /// # Errors
     /// If there is a door of that name, it has no length, a number of it is not one, or its
     /// schedule is not in order of time.
-    pub fn with_door(mut self, door: Door) -> Result<Self, WorldError> {
-        if self.doors.iter().any(|other| other.name == door.name) {
-            return Err(WorldError::DoorTwice { name: door.name });
+    pub fn with_door(self, door: Door) -> Result<Self, WorldError> {
+        self.with_doors([door])
+    }
+
+    /// This world with further doors. O(n log n).
+    ///
+    /// # Errors
+    /// As [`World::with_door`], of the first door that does not fit.
+    pub fn with_doors(mut self, doors: impl IntoIterator<Item = Door>) -> Result<Self, WorldError> {
+        let mut names: BTreeSet<String> = self.doors.iter().map(|door| door.name.clone()).collect();
+        for door in doors {
+            if !names.insert(door.name.clone()) {
+                return Err(WorldError::DoorTwice { name: door.name });
+            }
+            check(&door)?;
+            self.doors.push(door);
         }
-        if let Err(what) = door.wall().check() {
-            let name = door.name;
-            return Err(WorldError::Door { name, what });
-        }
-        if let Some(late) = door
-            .schedule
-            .windows(2)
-            .find(|pair| pair[0].time_us >= pair[1].time_us)
-        {
-            return Err(WorldError::DoorSchedule {
-                time_us: late[1].time_us,
-                name: door.name,
-            });
-        }
-        self.doors.push(door);
         Ok(self)
     }
 
@@ -343,5 +356,21 @@ impl World {
         pose.is_finite()
             && self.is_floor(pose.position)
             && contact::is_clear(self, &[], &Placed::new(body.clone(), pose))
+    }
+}
+
+/// Refuses a door that cannot be.
+fn check(door: &Door) -> Result<(), WorldError> {
+    if let Err(what) = door.wall().check() {
+        let name = door.name.clone();
+        return Err(WorldError::Door { name, what });
+    }
+    let mut pairs = door.schedule.windows(2);
+    match pairs.find(|pair| pair[0].time_us >= pair[1].time_us) {
+        Some(late) => Err(WorldError::DoorSchedule {
+            time_us: late[1].time_us,
+            name: door.name.clone(),
+        }),
+        None => Ok(()),
     }
 }

@@ -82,6 +82,8 @@ pub struct Office {
     pub course: Course,
     /// Passages that are doorways, each named from its south or west cell, in order.
     doorways: Vec<(Cell, Direction)>,
+    /// Their numbers.
+    numbers: BTreeMap<(Cell, Direction), usize>,
     /// The cells that belong to it, in the order of the grid.
     cells: Vec<Cell>,
     config: OfficeConfig,
@@ -175,17 +177,16 @@ impl Office {
             material: paint(),
         });
         let walls = walls.collect();
-        let mut world = World::from_segments(walls)?.with_cells_of(&bare);
-        for zone in bare.zones() {
-            world = world.with_zone(zone.clone())?;
-        }
-        for (number, (cell, direction)) in doorways.iter().enumerate() {
-            for door in config.leaves(number, *cell, *direction) {
-                world = world.with_door(door)?;
-            }
-        }
+        let world = World::from_segments(walls)?.with_cells_of(&bare);
+        let numbered = doorways.iter().enumerate();
+        let doors = numbered
+            .flat_map(|(number, (cell, direction))| config.leaves(number, *cell, *direction));
+        let world = world
+            .with_zones(bare.zones().iter().cloned())?
+            .with_doors(doors)?;
         Ok(Self {
             course: Course::in_world("", maze.clone(), config.corridor_width, world),
+            numbers: doorways.iter().copied().zip(0..).collect(),
             doorways,
             cells,
             config: *config,
@@ -234,7 +235,7 @@ impl Office {
         let play = (0.5 * width - body.radius()).max(0.0) * 0.99;
         let is_doorway = self
             .passage(cell, direction)
-            .is_some_and(|at| self.doorways.contains(&at));
+            .is_some_and(|at| self.numbers.contains_key(&at));
         let shut_out = if is_doorway {
             0.5 * DOORWAY_DEPTH * width + body.radius()
         } else {
@@ -303,7 +304,8 @@ impl Office {
     }
 
     fn site_of_doorway(&self, number: usize) -> u32 {
-        (self.course.maze.grid().cells().count() + number) as u32
+        let grid = self.course.maze.grid();
+        u32::from(grid.width()) * u32::from(grid.height()) + number as u32
     }
 
     /// Returns a passage as doorways are named.
@@ -375,15 +377,16 @@ struct Chart<'a> {
 
 impl Chart<'_> {
     fn doorway(&self, cell: Cell, direction: Direction) -> Option<usize> {
-        let wanted = self.office.passage(cell, direction);
-        let mut doorways = self.office.doorways.iter();
-        doorways.position(|at| Some(*at) == wanted)
+        let wanted = self.office.passage(cell, direction)?;
+        self.office.numbers.get(&wanted).copied()
     }
 
     fn is_open(&self, cell: Cell, direction: Direction) -> bool {
-        let doorway = self.doorway(cell, direction);
-        self.office.course.maze.is_open(cell, direction)
-            && !doorway.is_some_and(|number| self.shut.contains(&number))
+        let is_shut = || {
+            let doorway = self.doorway(cell, direction);
+            doorway.is_some_and(|number| self.shut.contains(&number))
+        };
+        self.office.course.maze.is_open(cell, direction) && !(!self.shut.is_empty() && is_shut())
     }
 
     /// Returns whether the corridors do anything but lead straight on through a cell.

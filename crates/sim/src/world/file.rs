@@ -151,13 +151,7 @@ impl World {
         {
             return Err(WorldFileError::Lattice);
         }
-        for zone in file.zones {
-            world = world.with_zone(zone)?;
-        }
-        for door in file.doors {
-            world = world.with_door(door)?;
-        }
-        Ok(world)
+        Ok(world.with_zones(file.zones)?.with_doors(file.doors)?)
     }
 }
 
