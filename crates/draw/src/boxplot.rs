@@ -72,7 +72,8 @@ pub struct BoxPlot {
 impl BoxPlot {
     /// Returns the finished picture.
     pub fn drawing(&self) -> Drawing {
-        let width = LEFT + SLOT * (self.groups.len().max(1) as f64) + 8.0;
+        let boxes = LEFT + SLOT * (self.groups.len().max(1) as f64) + 8.0;
+        let width = boxes.max(words::broad(&self.axis));
         let names = self
             .groups
             .iter()

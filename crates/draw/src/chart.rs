@@ -445,7 +445,7 @@ impl Frame<'_> {
                     node.position =
                         at.map_or(Point::new(f64::NAN, f64::NAN), |(x, y)| Point::new(x, y));
                 }
-                graph.markup(&|at| (at.x, at.y))
+                graph.markup(&|at| (at.x, at.y), (self.width, self.height))
             }
             Layer::Pinned(pinned) => self.pinned(pinned),
         }

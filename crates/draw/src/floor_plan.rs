@@ -5,6 +5,7 @@ use tolman_geom::{Point, Vector};
 use tolman_sim::{Bounds, World};
 
 use super::number::{line, short_line, tenths};
+use super::plan_key::{KeyMark, PlanKey};
 use super::simplify::simplified;
 use super::words;
 use super::{Drawing, GraphPicture, Image, Region, Series, Shade};
@@ -37,6 +38,8 @@ pub struct FloorPlan {
     walls: Markup,
     /// What the colours of cells mean.
     legend: Option<Shade>,
+    /// What the signs mean, and how long a metre is.
+    key: PlanKey,
 }
 
 impl FloorPlan {
@@ -67,13 +70,19 @@ impl FloorPlan {
             layers: Vec::new(),
             walls: html! {},
             legend: None,
+            key: PlanKey::default(),
         }
     }
 
     /// Returns a plan that is `width` user units wide and holds all walls. Walls lie above every
     /// layer. Without a wall of some extent the plan shows one square metre around it.
     pub fn of_walls(walls: &[[Point; 2]], width: f64) -> Self {
-        let bounds = Bounds::of(walls.iter().flatten().copied());
+        Self::of_walls_and(walls, &[], width)
+    }
+
+    fn of_walls_and(walls: &[[Point; 2]], held: &[Point], width: f64) -> Self {
+        let points = walls.iter().flatten().chain(held);
+        let bounds = Bounds::of(points.copied());
         let mut plan = Self::of_bounds(&bounds, width);
         let lines = walls.iter().map(|wall| line(wall.map(|end| plan.at(end))));
         let path: String = lines.collect();
@@ -81,11 +90,29 @@ impl FloorPlan {
         plan
     }
 
-    /// Returns a plan of a world that is `width` user units wide, with its walls and nothing else.
+    /// Returns a plan of a world that is `width` user units wide, with its walls and a scale bar.
     pub fn of_world(world: &World, width: f64) -> Self {
+        Self::of_world_holding(world, &[], width)
+    }
+
+    /// Returns a plan of a world that is large enough for these points, too, as what a robot
+    /// believes may lie beyond the walls.
+    pub fn of_world_holding(world: &World, held: &[Point], width: f64) -> Self {
         let walls = world.walls().iter();
         let walls: Vec<[Point; 2]> = walls.map(|wall| [wall.start, wall.end]).collect();
-        Self::of_walls(&walls, width)
+        let mut plan = Self::of_walls_and(&walls, held, width);
+        plan.scale_bar();
+        plan
+    }
+
+    /// Adds a scale bar below the plan, which a plan of a world has: its units are metres.
+    pub fn scale_bar(&mut self) {
+        self.key.scale = Some(self.scale);
+    }
+
+    /// Says below the plan what a sign means.
+    pub fn key(&mut self, mark: KeyMark, series: Series, meaning: impl Into<String>) {
+        self.key.entries.push((mark, series, meaning.into()));
     }
 
     /// Adds a zone given by its corners in order.
@@ -160,7 +187,8 @@ impl FloorPlan {
 
     /// Adds a graph, each node at its coordinates.
     pub fn graph(&mut self, graph: &GraphPicture) {
-        let markup = graph.markup(&|position| self.at(position));
+        let frame = (self.width, self.height);
+        let markup = graph.markup(&|position| self.at(position), frame);
         self.layers.push(markup);
     }
 
@@ -251,9 +279,8 @@ impl FloorPlan {
     pub fn label(&mut self, position: Point, text: &str) {
         let (x, y) = self.at(position);
         self.layers.push(html! {
-            text x=(tenths(x)) y=(tenths(y)) text-anchor="middle" dominant-baseline="central" {
-                (text)
-            }
+            text class="halo" x=(tenths(x)) y=(tenths(y)) text-anchor="middle"
+                dominant-baseline="central" { (text) }
         });
     }
 
@@ -272,16 +299,18 @@ impl FloorPlan {
 
     /// Returns the finished picture; `description` says in words what it shows.
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
+        let legend = self.legend.as_ref().map_or(0.0, |_| Shade::LEGEND + 8.0);
+        let (key, key_height) = self.key.markup(MARGIN, self.height + legend, self.width);
         let body = html! {
             rect class="floor" width=(tenths(self.width)) height=(tenths(self.height)) {}
             @for layer in &self.layers { (layer) }
             (self.walls)
             @if let Some(shade) = &self.legend { (shade.legend(MARGIN, self.height + 8.0)) }
+            (key)
         };
-        let legend = self.legend.map_or(0.0, |_| Shade::LEGEND + 8.0);
         Drawing {
             width: self.width,
-            height: self.height + legend,
+            height: self.height + legend + key_height,
             description: description.into(),
             body,
         }

@@ -124,8 +124,9 @@ impl GraphPicture {
         self.edges.push(edge);
     }
 
-    /// Returns the elements, with coordinates as `at` gives them.
-    pub(super) fn markup(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Markup {
+    /// Returns the elements, with coordinates as `at` gives them, in a picture of this width and
+    /// height, which labels of nodes do not leave where they need not.
+    pub(super) fn markup(&self, at: &dyn Fn(Point) -> (f64, f64), frame: (f64, f64)) -> Markup {
         html! {
             g class="graph" {
                 @for (series, line, path) in self.lines(at) {
@@ -138,7 +139,7 @@ impl GraphPicture {
                 @for node in self.nodes.iter().filter(|node| is_finite(node)) {
                     (self.node_markup(node, at(node.position)))
                 }
-                @for (label, (x, y)) in self.labels(at) {
+                @for (label, (x, y)) in self.labels(at, frame) {
                     text class="label" x=(tenths(x)) y=(tenths(y)) { (label) }
                 }
                 @for (edge, [from, to]) in self.sound_edges().filter(|(edge, _)| !edge.label.is_empty()) {
@@ -170,7 +171,11 @@ impl GraphPicture {
 
     /// Returns the labels of nodes, each with where its text begins: beside its node, where it
     /// covers least of the nodes, the signs and the labels before it.
-    fn labels(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(&str, (f64, f64))> {
+    fn labels(
+        &self,
+        at: &dyn Fn(Point) -> (f64, f64),
+        frame: (f64, f64),
+    ) -> Vec<(&str, (f64, f64))> {
         let nodes = self.nodes.iter().filter(|node| is_finite(node));
         let labelled = nodes.clone().filter(|node| !node.label.is_empty());
         let nodes = nodes.map(|node| Patch::about(at(node.position), self.radius, self.radius));
@@ -184,10 +189,12 @@ impl GraphPicture {
         }
         let mut placed = Vec::new();
         for node in labelled {
-            let width = words::width(&node.label) * LABEL;
+            let width = words::broad(&node.label) * LABEL;
             let covered = |(x, y): (f64, f64)| {
                 let label = Patch::of_text(x, y, width);
-                taken.iter().map(|other| label.overlap(other)).sum::<f64>()
+                let covered = taken.iter().map(|other| label.overlap(other)).sum::<f64>();
+                // What is cut off cannot be read at all.
+                covered + 10.0 * label.outside(frame)
             };
             let places = self.beside_node(at(node.position), width);
             // Of equals the first.
@@ -202,7 +209,7 @@ impl GraphPicture {
     }
 
     /// Returns where the label of a node may begin, the best place first.
-    fn beside_node(&self, (x, y): (f64, f64), width: f64) -> [(f64, f64); 8] {
+    fn beside_node(&self, (x, y): (f64, f64), width: f64) -> [(f64, f64); 12] {
         let gap = self.radius + 2.0;
         let (east, west, middle) = (x + gap, x - gap - width, x - width / 2.0);
         let (above, below) = (y - self.radius, y + self.radius + 8.0);
@@ -215,6 +222,11 @@ impl GraphPicture {
             (middle, below + 3.0),
             (east + 2.0, y + 3.5),
             (west - 2.0, y + 3.5),
+            // Farther off, where all that is near is taken.
+            (east + 6.0, above - 8.0),
+            (east + 6.0, below + 8.0),
+            (west - 6.0, above - 8.0),
+            (west - 6.0, below + 8.0),
         ]
     }
 
@@ -305,6 +317,16 @@ impl Patch {
             x: (x, x + width),
             y: (y - 8.0, y + 2.0),
         }
+    }
+
+    /// Returns the area that lies outside a picture of this width and height.
+    fn outside(&self, frame: (f64, f64)) -> f64 {
+        let area = (self.x.1 - self.x.0) * (self.y.1 - self.y.0);
+        let inside = Self {
+            x: (0.0, frame.0),
+            y: (0.0, frame.1),
+        };
+        area - self.overlap(&inside)
     }
 
     /// Returns the area that both cover.
@@ -417,8 +439,11 @@ fn is_finite(node: &GraphNode) -> bool {
 mod tests {
     use super::*;
 
+    /// Large enough for all nodes and labels.
+    const FRAME: (f64, f64) = (1000.0, 1000.0);
+
     fn drawn(graph: &GraphPicture) -> String {
-        let markup = graph.markup(&|at| (10.0 * at.x, -10.0 * at.y));
+        let markup = graph.markup(&|at| (10.0 * at.x, -10.0 * at.y), FRAME);
         markup.into_string()
     }
 
@@ -456,9 +481,12 @@ mod tests {
     #[test]
     fn labels_of_nodes_cover_neither_nodes_nor_signs_nor_each_other() {
         let place = |graph: &GraphPicture, label: &str| {
-            let at = |at: Point| (10.0 * at.x, -10.0 * at.y);
-            let labels = graph.labels(&at);
-            labels.iter().find(|placed| placed.0 == label).unwrap().1
+            let at = |at: Point| (500.0 + 10.0 * at.x, 500.0 - 10.0 * at.y);
+            let labels = graph.labels(&at, FRAME);
+            {
+                let (x, y) = labels.iter().find(|placed| placed.0 == label).unwrap().1;
+                (x - 500.0, y - 500.0)
+            }
         };
         let mut graph = GraphPicture::new();
         graph.node(GraphNode::at(Point::new(0.0, 0.0)).label("goal"));

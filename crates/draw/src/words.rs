@@ -12,6 +12,11 @@ pub(super) fn width(text: &str) -> f64 {
     6.6 * text.chars().count() as f64
 }
 
+/// As much as a text may take in a broad font, user units: room for it to end in.
+pub(super) fn broad(text: &str) -> f64 {
+    7.6 * text.chars().count() as f64
+}
+
 /// Returns the words of a text in lines of at most `most` characters where words allow it; at most
 /// three lines, of which the last may end in `…`.
 pub(super) fn lines(text: &str, most: usize) -> Vec<String> {

@@ -1,10 +1,11 @@
 //! A learned map over the world it was learned in, as the paper's figures 3(a) and 4.
 
+use tolman_geom::Point;
 use tolman_sim::Bounds;
 
 use tolman_arena::diktiometry::{Office, Survey};
 use tolman_draw::{
-    Drawing, EdgeLine, FloorPlan, GraphEdge, GraphNode, GraphPicture, Region, Series,
+    Drawing, EdgeLine, FloorPlan, GraphEdge, GraphNode, GraphPicture, KeyMark, Region, Series,
 };
 
 /// Width of a plan, user units.
@@ -13,19 +14,27 @@ const WIDTH: f64 = 560.0;
 /// More boxes than these lie over each other and hide the world.
 const MOST_BOXES: usize = 100;
 
-/// Returns the places with the boxes that hold them, as seen from where the robot began, and the
-/// links, over the walls. Maps of more than a hundred places are drawn without boxes.
+/// Returns the places with their numbers and the boxes that hold them, as seen from where the robot
+/// began, and the links, over the walls. The picture holds all boxes. Maps of more than a hundred
+/// places are drawn without boxes and numbers.
 #[must_use]
 pub fn map_over_world(office: &Office, survey: &Survey) -> Drawing {
-    let mut plan = FloorPlan::of_world(&office.course.world, WIDTH);
     let drawn = survey.drawn();
-    for place in drawn.iter().filter(|_| drawn.len() <= MOST_BOXES) {
+    let boxed = || drawn.iter().filter(|_| drawn.len() <= MOST_BOXES);
+    let held: Vec<Point> = boxed()
+        .flat_map(|place| [place.bounds.min, place.bounds.max])
+        .collect();
+    let mut plan = FloorPlan::of_world_holding(&office.course.world, &held, WIDTH);
+    for place in boxed() {
         plan.region(&Region::within(&place.bounds), Series(1));
     }
     let mut graph = GraphPicture::new();
     let nodes = drawn.iter().map(|place| {
         let Bounds { min, max } = place.bounds;
-        let node = GraphNode::at(min + 0.5 * (max - min)).note(&place.label);
+        let mut node = GraphNode::at(min + 0.5 * (max - min)).note(&place.label);
+        if drawn.len() <= MOST_BOXES {
+            node = node.label(place.id.to_string());
+        }
         (place.id, graph.node(node))
     });
     let nodes: Vec<(u32, usize)> = nodes.collect();
@@ -41,5 +50,10 @@ pub fn map_over_world(office: &Office, survey: &Survey) -> Drawing {
     }
     plan.graph(&graph);
     let places = drawn.len();
+    plan.key(KeyMark::Ring, Series(0), "place with its number");
+    plan.key(KeyMark::Line, Series(0), "link");
+    if boxed().next().is_some() {
+        plan.key(KeyMark::Box, Series(1), "where the place can lie");
+    }
     plan.drawing(format!("A learned map over its world: {places} places."))
 }

@@ -3,7 +3,7 @@
 use alloc::collections::BTreeMap;
 
 use tolman_arena::course::Course;
-use tolman_draw::{Drawing, GraphEdge, GraphNode, GraphPicture, NodeMark, Series};
+use tolman_draw::{Drawing, GraphEdge, GraphNode, GraphPicture, KeyMark, NodeMark, Series};
 use tolman_robot::{Landmark, MapView};
 
 /// Width of a plan, user units.
@@ -34,5 +34,8 @@ pub fn places_over_world(course: &Course, map: &MapView) -> Drawing {
     }
     let mut plan = crate::plan_of_course(course, WIDTH);
     plan.graph(&graph);
+    plan.key(KeyMark::Ring, Series(0), format!("{} places", drawn.len()));
+    plan.key(KeyMark::Disc, Series(0), "places of the goal");
+    plan.key(KeyMark::Line, Series(0), "ways between them");
     plan.drawing(format!("The places of a map over {}.", course.name))
 }

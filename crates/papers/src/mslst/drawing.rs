@@ -4,7 +4,7 @@ use tolman_maps::mslst_graph::NodeZone;
 
 use crate::plan::model_scan;
 use tolman_arena::course::Course;
-use tolman_draw::{Drawing, GraphEdge, GraphNode, GraphPicture, NodeMark, Series, Tiles};
+use tolman_draw::{Drawing, GraphEdge, GraphNode, GraphPicture, KeyMark, NodeMark, Series, Tiles};
 use tolman_systems::mslst::Learned;
 
 /// Width of a plan, user units.
@@ -25,36 +25,63 @@ pub fn states(learned: &Learned) -> Drawing {
     tiles.drawing(format!("The {count} states of a map."))
 }
 
-/// How many actions of Phase II a picture of the graph shows: a part of it, as the paper's, since
-/// all of it would be a blot.
+/// How many actions of Phase II the paper's picture of the graph shows.
 pub const SHOWN_ACTIONS: u32 = 500;
 
 /// Returns the paper's figure 4, over the maze: each node of the first [`SHOWN_ACTIONS`] where the
 /// robot truly was when it was made, those of the destination filled.
 #[must_use]
 pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
-    let mut graph = GraphPicture::new().radius(2.0);
     let made_by = learned.survey.made_by.iter();
-    let shown = made_by
-        .take_while(|action| **action <= SHOWN_ACTIONS)
-        .count();
-    let nodes = &learned.map.graph.nodes()[..shown];
+    let shown = made_by.take_while(|action| **action <= SHOWN_ACTIONS);
+    let shown = shown.count();
+    over_maze(course, learned, shown, 2.0)
+}
+
+/// Returns the whole graph over the maze, each node where the robot truly was when it was made,
+/// those of the destination filled and in a colour of their own.
+#[must_use]
+pub fn whole_graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
+    over_maze(course, learned, learned.map.graph.len(), 1.1)
+}
+
+fn over_maze(course: &Course, learned: &Learned, shown: usize, radius: f64) -> Drawing {
+    let mut graph = GraphPicture::new().radius(radius);
+    let all = learned.map.graph.nodes();
+    let nodes = &all[..shown.min(all.len())];
     for (node, position) in nodes.iter().zip(&learned.survey.positions) {
-        let mark = match node.zone {
-            NodeZone::Destination => NodeMark::Disc,
-            NodeZone::Elsewhere => NodeMark::Ring,
-        };
-        graph.node(GraphNode::at(*position).mark(mark).series(Series(0)));
+        let node_picture = GraphNode::at(*position);
+        graph.node(match node.zone {
+            NodeZone::Destination => node_picture.mark(NodeMark::Disc).series(DESTINATION),
+            NodeZone::Elsewhere => node_picture.mark(NodeMark::Ring).series(NODE),
+        });
     }
     for (from, node) in nodes.iter().enumerate() {
         // Every edge is entered both ways; once is enough to draw.
         let heads = node.edges.iter().filter_map(|edge| edge.head);
         let heads = heads.map(|head| head as usize);
-        for head in heads.filter(|head| (from..shown).contains(head)) {
+        for head in heads.filter(|head| (from..nodes.len()).contains(head)) {
             graph.edge(GraphEdge::between(from, head));
         }
     }
+    let destination = |node: &&tolman_maps::mslst_graph::Node| node.zone == NodeZone::Destination;
+    let at_goal = nodes.iter().filter(destination).count();
     let mut plan = crate::plan_of_course(course, WIDTH);
     plan.graph(&graph);
+    let of = match nodes.len() == all.len() {
+        true => format!("{} nodes", nodes.len()),
+        false => format!("the first {} of {} nodes", nodes.len(), all.len()),
+    };
+    plan.key(KeyMark::Ring, NODE, of);
+    plan.key(
+        KeyMark::Disc,
+        DESTINATION,
+        format!("{at_goal} of them in the destination"),
+    );
+    plan.key(KeyMark::Line, NODE, "actions");
     plan.drawing(format!("The graph of a map over {}.", course.name))
 }
+
+/// The colours of nodes and of those in the destination.
+const NODE: Series = Series(0);
+const DESTINATION: Series = Series(4);

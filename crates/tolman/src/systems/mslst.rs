@@ -6,7 +6,7 @@ use tolman_arena::course::Terrain;
 use tolman_arena::pioneer::{LASER_PIONEER, body};
 use tolman_arena::{Outing, Sent};
 use tolman_draw::Drawing;
-use tolman_papers::mslst::drawing::graph_over_maze;
+use tolman_papers::mslst::drawing::whole_graph_over_maze;
 use tolman_systems::mslst::{self, GrowthRecord, Learned, MapFile, MslstConfig};
 use tolman_systems::{Actor, Origin};
 
@@ -174,7 +174,7 @@ impl LearnedMap for MapFile {
 
     fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
         let course = terrain.course(&self.origin.world, &body())?;
-        Ok(graph_over_maze(&course, &self.learned))
+        Ok(whole_graph_over_maze(&course, &self.learned))
     }
 
     fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
