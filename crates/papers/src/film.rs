@@ -6,7 +6,7 @@ use tolman_arena::Outing;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_replay::{
     Belief, Floor, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Scenery,
-    TimeSeries,
+    Shape, TimeSeries,
 };
 use tolman_robot::{Landmark, Position};
 
@@ -34,6 +34,17 @@ pub struct Film {
     lifts: Vec<u32>,
     /// Where the frame lies in which the map has its places.
     world_from_map: Pose,
+}
+
+/// What a system knows at a moment, in the world's frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Glimpse {
+    /// Where the places of its map lie.
+    pub places: Vec<Point>,
+    /// The ways between them, each once.
+    pub ways: Vec<[Point; 2]>,
+    /// Where it believes to be, the likeliest first.
+    pub belief: Vec<Point>,
 }
 
 impl Film {
@@ -159,6 +170,32 @@ impl Film {
         for (a, b) in wanted {
             let edge = self.edges.entry((a, b));
             edge.or_insert_with(|| MapEdge::new(a, b, step));
+        }
+    }
+
+    /// Returns what the system knew when it was last seen. O(map).
+    #[must_use]
+    pub fn glimpse(&self) -> Glimpse {
+        let places: BTreeMap<u32, Point> = self
+            .nodes
+            .iter()
+            .filter(|(_, node)| node.died.is_none())
+            .map(|(id, node)| (*id, node.latest()))
+            .collect();
+        let alive = self.edges.values().filter(|edge| edge.died.is_none());
+        let ways = alive.filter_map(|edge| Some([*places.get(&edge.a)?, *places.get(&edge.b)?]));
+        let believed = self.belief.entries.last().map(|entry| &entry.shapes);
+        let belief = believed
+            .into_iter()
+            .flatten()
+            .filter_map(|shape| match shape {
+                Shape::Point { position, .. } => Some(*position),
+                _ => None,
+            });
+        Glimpse {
+            ways: ways.collect(),
+            belief: belief.collect(),
+            places: places.into_values().collect(),
         }
     }
 

@@ -29,7 +29,7 @@ mod venue;
 
 use tolman_experiment::Entry;
 
-pub use film::Film;
+pub use film::{Film, Glimpse};
 pub use plan::plan_of_course;
 pub use recorder::Recorder;
 

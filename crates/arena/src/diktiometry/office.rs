@@ -382,11 +382,15 @@ impl Chart<'_> {
     }
 
     fn is_open(&self, cell: Cell, direction: Direction) -> bool {
-        let is_shut = || {
-            let doorway = self.doorway(cell, direction);
-            doorway.is_some_and(|number| self.shut.contains(&number))
-        };
-        self.office.course.maze.is_open(cell, direction) && !(!self.shut.is_empty() && is_shut())
+        self.office.course.maze.is_open(cell, direction) && !self.is_shut(cell, direction)
+    }
+
+    fn is_shut(&self, cell: Cell, direction: Direction) -> bool {
+        if self.shut.is_empty() {
+            return false;
+        }
+        let doorway = self.doorway(cell, direction);
+        doorway.is_some_and(|number| self.shut.contains(&number))
     }
 
     /// Returns whether the corridors do anything but lead straight on through a cell.

@@ -12,6 +12,7 @@ use tolman_papers::Film;
 use tolman_replay::{Chapter, Mark, Marks, Replay, moving_picture};
 
 use super::replay_file::{self, Overwrite};
+use super::watched::Watched;
 use super::{Failure, OrBadInput, file, maze};
 
 /// Lets a robot explore an unknown maze, puts it down elsewhere, and lets it find out where it is
@@ -27,6 +28,7 @@ that is taken.
 
 Examples:
   tolman demo
+  tolman demo --live
   tolman demo --system cpm-better
   tolman demo --system micromouse --out mouse.html
   tolman demo --maze mazes/forks.maze --seed 3 --svg forks.svg")]
@@ -50,6 +52,10 @@ pub(super) struct Arguments {
     /// Write a moving picture, too
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Show it on the terminal as it goes, with its map and where it believes to be; space pauses,
+    /// → steps, + and - change the speed, q stops looking
+    #[arg(long)]
+    live: bool,
 }
 
 /// The mazes come with the program, so that it runs in any folder.
@@ -112,7 +118,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         seed: arguments.seed.unwrap_or(seed),
         stopwatch: None,
     };
-    let (record, replay) = shown(&contest)?;
+    let (record, replay) = shown(&contest, arguments.live)?;
     if let Some(path) = &arguments.svg {
         file::write(path, moving_picture(&replay, &chapters(&record, &replay)))?;
     }
@@ -156,7 +162,8 @@ fn named(file: MazeFile) -> (String, Maze) {
 }
 
 /// Shows the contestant, and returns what came of it with the replay.
-fn shown(contest: &Contest<'_>) -> Result<(ShowRecord, Replay), Failure> {
+fn shown(contest: &Contest<'_>, is_live: bool) -> Result<(ShowRecord, Replay), Failure> {
+    let mut live: Option<Result<Watched, Failure>> = None;
     let mut film: Option<Film> = None;
     let mut replay = None;
     let record = contest.show(&Schooling::default(), |outing, moment| {
@@ -165,8 +172,17 @@ fn shown(contest: &Contest<'_>) -> Result<(ShowRecord, Replay), Failure> {
             Film::laid_at(outing, laid)
         });
         match moment {
-            Moment::Begun => {}
-            Moment::Acted => film.see(outing),
+            Moment::Begun => {
+                let name = contest.contestant.name();
+                let watched = is_live.then(|| Watched::open(outing, name, contest.seed, None));
+                live = watched;
+            }
+            Moment::Acted => {
+                film.see(outing);
+                if let Some(Ok(live)) = &mut live {
+                    live.see(outing, film);
+                }
+            }
             Moment::PutDown => film.lifted(outing),
             Moment::Over => {
                 let title = format!("{} in the maze {}", contest.contestant.name(), contest.name);
@@ -174,6 +190,13 @@ fn shown(contest: &Contest<'_>) -> Result<(ShowRecord, Replay), Failure> {
             }
         }
     });
+    if let Some(live) = live {
+        let told = match &record {
+            Ok(record) if record.home.is_some() => "it came to the goal",
+            _ => "it did not come to the goal",
+        };
+        live?.close(told)?;
+    }
     let record = record.map_err(anyhow::Error::from).or_bad_input()?;
     let mut replay = replay.context("the demo ended before it was over")?;
     let found = &record.found;

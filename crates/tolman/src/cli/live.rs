@@ -17,6 +17,7 @@ use std::io::{self, IsTerminal};
 use indicatif::ProgressBar;
 use ratatui::crossterm::terminal;
 use screen::Screen;
+use tolman_papers::Glimpse;
 use view::{LEAST_COLUMNS, LEAST_ROWS, View};
 pub(super) use view::{Now, Scene, see};
 
@@ -67,6 +68,13 @@ impl Live {
                 line.inc(1);
             }
             Self::Closed(_) => {}
+        }
+    }
+
+    /// Takes in what the system knows by now, which only a picture shows.
+    pub(super) fn know(&mut self, glimpse: impl FnOnce() -> Glimpse) {
+        if let Self::Screen(screen) = self {
+            screen.view().known = glimpse();
         }
     }
 

@@ -41,6 +41,7 @@ mod stdout;
 mod systems;
 mod trial;
 mod unfinished;
+mod watched;
 mod words;
 
 use std::io::Write;

@@ -9,9 +9,9 @@ use tolman_arena::{BoxError, Outing};
 use tolman_robot::{Standing, Task};
 
 use super::bar::Doing;
-use super::live::{Live, Now, Scene};
 use super::looks::Looks;
 use super::unfinished::{Done, Keeper};
+use super::watched::Watched;
 use super::{Failure, file, interrupt, picture, replay_file};
 use crate::system::{MapText, Setup, slug};
 use tolman_papers::Film;
@@ -39,12 +39,12 @@ pub(super) fn send(
     let overwrite = looks.overwrite()?;
     let stop = interrupt::flag()?;
     let mut live = match looks.live {
-        true => Some(Live::open(scene(outing, setup, word))?),
+        true => Some(Watched::open(outing, word, setup.seed, setup.steps)?),
         false => None,
     };
     let mut doing = Doing::new(looks.live);
-    let mut film = looks.replay.as_ref().map(|_| Film::new(outing));
-    let mut shown = 1;
+    let filmed = looks.live || looks.replay.is_some();
+    let mut film = filmed.then(|| Film::new(outing));
     let mut done = Done::default();
     let mut broken_off = None;
     let ended = run::until_done(outing, |outing| {
@@ -59,21 +59,13 @@ pub(super) fn send(
             broken_off = Some(failure);
             return Ok(Standing::gave_up("it is another run"));
         }
-        let path = outing.path();
-        // What is made again was seen before.
-        if let (Some(live), None) = (&mut live, keeper.again()) {
-            let (words, bumped) = (outing.words(), outing.bumped());
-            for (step, pose) in path.iter().enumerate().skip(shown) {
-                live.watch(&Now {
-                    pose: *pose,
-                    bump: bumped.binary_search(&(step as u32)).is_ok(),
-                    action: &words,
-                    ended: None,
-                    scan: outing.scan(),
-                });
+        if let (Some(live), Some(film)) = (&mut live, &film) {
+            match keeper.again() {
+                // What is made again was seen before.
+                Some(_) => live.skip(outing),
+                None => live.see(outing, film),
             }
         }
-        shown = path.len();
         doing.show(|| doing_words(word, done, keeper.again(), outing));
         if standing == Standing::UnderWay && stop.load(Ordering::Relaxed) {
             let saved = keeper.save(&|| state(outing));
@@ -91,7 +83,7 @@ pub(super) fn send(
         .with_context(|| format!("{word} broke off after {} steps", outing.steps()))?;
     let told = told(&ended, outing, word);
     if let Some(live) = live {
-        live.close(&told).context("the terminal has gone")?;
+        live.close(&told)?;
     }
     match broken_off {
         Some(failure) => return Err(failure),
@@ -128,18 +120,6 @@ fn doing_words(word: &str, done: Done, again: Option<Done>, outing: &dyn Outing)
             "{word}: {actions} actions, {steps} steps; {}",
             outing.words()
         ),
-    }
-}
-
-fn scene(outing: &dyn Outing, setup: &Setup<'_>, word: &str) -> Scene {
-    Scene {
-        course: outing.course().clone(),
-        word: word.to_owned(),
-        seed: setup.seed,
-        start: outing.path()[0],
-        step_us: outing.robot().step_us,
-        radius: outing.robot().body.radius(),
-        step_limit: setup.steps,
     }
 }
 

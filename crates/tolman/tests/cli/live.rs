@@ -59,6 +59,8 @@ fn every_verb_that_drives_draws_on_a_terminal() {
         "run wall-follow --maze a.maze --live",
         "learn --system mslst --preset j --maze a.maze --live --out map.json",
         "drive --map map.json --maze a.maze --live",
+        "race grid.maze --live",
+        "demo --live --out demo.html",
     ] {
         let command = command.replace("TOLMAN", env!("CARGO_BIN_EXE_tolman"));
         let Some((code, screen)) = drawn(&folder, &command) else {

@@ -8,6 +8,10 @@ pub(super) const WALLS: Color = Color::Reset;
 pub(super) const TRAIL: Color = Color::Cyan;
 pub(super) const BEAMS: Color = Color::DarkGray;
 pub(super) const DESTINATION: Color = Color::Green;
+/// The map that the robot learned.
+pub(super) const MAP: Color = Color::Blue;
+/// Where the robot believes to be.
+pub(super) const BELIEF: Color = Color::Yellow;
 pub(super) const ROBOT: Color = Color::Magenta;
 /// Where the robot bumps.
 pub(super) const BUMP: Color = Color::Red;

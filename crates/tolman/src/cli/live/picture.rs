@@ -68,6 +68,16 @@ fn paint(view: &View, window: Window, context: &mut Context<'_>) {
     for wall in course.world.walls() {
         line(context, wall.start, wall.end, inked(palette::WALLS));
     }
+    for [from, to] in &view.known.ways {
+        line(context, *from, *to, inked(palette::MAP));
+    }
+    let coordinates = |points: &[Point]| points.iter().map(|at| (at.x, at.y)).collect::<Vec<_>>();
+    let places = coordinates(&view.known.places);
+    context.draw(&Points::new(&places, inked(palette::MAP)));
+    for at in &view.known.belief {
+        let radius = 0.6 * view.scene.radius;
+        context.draw(&Circle::new(at.x, at.y, radius, inked(palette::BELIEF)));
+    }
     let Pose { position, heading } = view.pose;
     context.draw(&Circle::new(
         position.x,

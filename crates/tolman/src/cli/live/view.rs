@@ -12,10 +12,11 @@ use tolman_arena::episode::{Step, Trial};
 use tolman_control::Outcome;
 use tolman_experiment::Ink;
 use tolman_geom::{Point, Pose};
+use tolman_papers::Glimpse;
 use tolman_robot::{Robot, Scan};
 
 use super::pace::{Motion, Pace};
-use super::palette::{BUMP, LABEL, inked};
+use super::palette::{BELIEF, BUMP, LABEL, MAP, inked};
 use super::picture;
 use super::wish::Wish;
 
@@ -91,6 +92,8 @@ pub(super) struct View {
     pub(super) scan: Option<Scan>,
     pub(super) trail: VecDeque<Point>,
     pub(super) beams: Beams,
+    /// The map that was learned so far, and where the robot believes to be.
+    pub(super) known: Glimpse,
     /// The outcome, once the run is over.
     pub(super) told: Option<String>,
 }
@@ -119,6 +122,7 @@ impl View {
             scan: None,
             trail: VecDeque::from([start.position]),
             beams: Beams::Hidden,
+            known: Glimpse::default(),
             told: None,
         }
     }
@@ -202,7 +206,7 @@ impl View {
             (None, Motion::Running) => format!("{} steps/s", pace.steps_per_second()),
         };
         let line = |label: &str, value: String| field(label, Span::raw(value));
-        vec![
+        let mut lines = vec![
             Line::from(format!(" {}", tail(&self.scene.course.name))).bold(),
             Line::from(format!(" {}, seed {}", self.scene.word, self.scene.seed)),
             line(
@@ -219,7 +223,22 @@ impl View {
             line("heading", format!("{:.0}°", self.pose.heading.degrees())),
             field("bumps", Span::styled(self.bumps.to_string(), bumps)),
             line("speed", speed),
-        ]
+        ];
+        let Glimpse { places, belief, .. } = &self.known;
+        if !places.is_empty() {
+            let value = format!("{} places", places.len());
+            let style = Style::new().fg(inked(MAP, self.ink));
+            lines.push(field("map", Span::styled(value, style)));
+        }
+        if !belief.is_empty() {
+            let value = match belief.len() {
+                1 => "1 place".to_owned(),
+                count => format!("{count} places"),
+            };
+            let style = Style::new().fg(inked(BELIEF, self.ink));
+            lines.push(field("may be", Span::styled(format!("at {value}"), style)));
+        }
+        lines
     }
 }
 
@@ -316,6 +335,38 @@ o---o---o
             .draw(|frame| view.draw(frame, Pace::default()))
             .unwrap();
         terminal
+    }
+
+    #[test]
+    fn a_map_and_a_belief_are_drawn_and_told() {
+        let course = course();
+        let trial = trial(&course);
+        let mut view = View::new(Scene::of(&trial, "mslst"), Ink::Coloured);
+        let mut shown = |known: Glimpse| {
+            view.known = known;
+            let mut terminal = Terminal::new(TestBackend::new(60, 18)).unwrap();
+            let frame = terminal.draw(|frame| view.draw(frame, Pace::default()));
+            let buffer = frame.unwrap().buffer.clone();
+            let maze = |colour| {
+                let cells = buffer.content().chunks(60).flat_map(|row| &row[..33]);
+                cells.filter(|cell| cell.fg == colour).count()
+            };
+            let text: String = buffer.content().iter().map(|cell| cell.symbol()).collect();
+            (maze(MAP), maze(BELIEF), text)
+        };
+        let (map, belief, text) = shown(Glimpse::default());
+        assert_eq!((map, belief), (0, 0));
+        assert!(!text.contains("places") && !text.contains("may be"));
+        let (map, belief, text) = shown(Glimpse {
+            places: vec![Point::new(0.5, 0.5), Point::new(1.5, 0.5)],
+            ways: vec![[Point::new(0.5, 0.5), Point::new(1.5, 0.5)]],
+            belief: vec![Point::new(1.2, 1.4)],
+        });
+        assert!(map > 3 && belief > 0, "{map} {belief}");
+        assert!(
+            text.contains("map     2 places") && text.contains("may be  at 1 place"),
+            "{text}"
+        );
     }
 
     const FRAME: &str = "\
