@@ -351,7 +351,11 @@ o---o---o
                 let cells = buffer.content().chunks(60).flat_map(|row| &row[..33]);
                 cells.filter(|cell| cell.fg == colour).count()
             };
-            let text: String = buffer.content().iter().map(|cell| cell.symbol()).collect();
+            let text: String = buffer
+                .content()
+                .iter()
+                .map(ratatui::buffer::Cell::symbol)
+                .collect();
             (maze(MAP), maze(BELIEF), text)
         };
         let (map, belief, text) = shown(Glimpse::default());
