@@ -1,6 +1,3 @@
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use tolman_fuzz::is_a_graph_or_refused;
-
-fuzz_target!(|bytes: &[u8]| is_a_graph_or_refused(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| tests::fuzz::check("g2o", bytes));

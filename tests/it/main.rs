@@ -9,6 +9,7 @@
 
 extern crate alloc;
 
+mod fuzz;
 mod golden;
 mod mazes;
 mod mslst;

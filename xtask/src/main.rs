@@ -10,6 +10,7 @@ mod bench;
 mod ci;
 mod docs;
 mod experiment;
+mod fuzz;
 mod golden;
 mod layers;
 mod mazes;
@@ -66,6 +67,18 @@ enum Verb {
     /// Checks that comments keep to 100 columns, and that comments, messages and pages use plain
     /// words
     Prose,
+    /// Gives every reader of files, or those named, almost valid ones; exits 1 if one panics, takes
+    /// longer than 2 s or holds more than 1 GiB
+    Fuzz {
+        /// How long altogether, seconds
+        #[arg(long, default_value_t = 60)]
+        seconds: u64,
+        /// What the files are drawn from
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// Formats, such as `carmen` or `map_of_cpm`; all of them when left out
+        targets: Vec<String>,
+    },
     /// Builds the Python module, installs it into target/python and runs its tests; needs Python
     /// and its packages, and says so where they are not there
     Python,
@@ -83,6 +96,11 @@ fn main() -> ExitCode {
         Verb::Mazes => mazes::run(),
         Verb::Bench { name } => bench::run(name.as_deref()),
         Verb::Prose => prose::run(),
+        Verb::Fuzz {
+            seconds,
+            seed,
+            targets,
+        } => fuzz::run(seconds, seed, &targets),
         Verb::Python => python::run(),
         Verb::Docs => docs::run(),
     };

@@ -14,9 +14,9 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
-use mcap::records::Record;
+use mcap::records::op;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
-use mcap::{McapResult, parse_record};
+use mcap::{McapError, McapResult};
 use tolman_geom::Pose;
 use tolman_robot::{TimedPose, Trajectory};
 
@@ -26,6 +26,9 @@ use mounts::Mounts;
 
 /// Longest record of a bag of scans that is accepted, bytes.
 const LONGEST: usize = 1 << 26;
+
+/// Bytes of a message before its data: the channel, a number and two times.
+const MESSAGE_HEADER: usize = 22;
 
 const SCAN: &str = "sensor_msgs/msg/LaserScan";
 const ODOMETRY: &str = "nav_msgs/msg/Odometry";
@@ -62,6 +65,31 @@ struct Reader {
     /// The frame whose pose the odometry tells.
     base: String,
     mounts: Mounts,
+}
+
+/// The fields of a record that are not read yet. (`mcap::parse_record` sets aside as many bytes as
+/// a text says that it has, up to 4 GiB, before it looks whether they are there.)
+struct Fields<'a>(&'a [u8]);
+
+impl<'a> Fields<'a> {
+    fn bytes(&mut self, count: usize) -> McapResult<&'a [u8]> {
+        let split = self.0.split_at_checked(count);
+        let (bytes, rest) = split.ok_or(McapError::UnexpectedEof)?;
+        self.0 = rest;
+        Ok(bytes)
+    }
+
+    fn number(&mut self) -> McapResult<u16> {
+        let bytes = self.bytes(2)?;
+        Ok(u16::from_le_bytes([bytes[0], bytes[1]]))
+    }
+
+    fn text(&mut self) -> McapResult<String> {
+        let size = self.bytes(4)?;
+        let size = u32::from_le_bytes([size[0], size[1], size[2], size[3]]);
+        let bytes = self.bytes(size as usize)?;
+        Ok(String::from_utf8_lossy(bytes).into_owned())
+    }
 }
 
 impl RosBag {
@@ -110,24 +138,33 @@ impl Reader {
                     let read = source.read(reader.insert(needed))?;
                     reader.notify_read(read);
                 }
-                LinearReadEvent::Record { data, opcode } => match parse_record(opcode, data)? {
-                    Record::Schema { header, .. } => {
-                        self.schemas.insert(header.id, header.name);
-                    }
-                    Record::Channel(channel) => {
-                        let kind = self.schemas.get(&channel.schema_id).cloned();
-                        let kind = kind.unwrap_or_else(|| "no schema".to_owned());
-                        self.channels.insert(channel.id, [channel.topic, kind]);
-                    }
-                    Record::Message { header, data } => {
-                        self.report.lines += 1;
-                        let channel = self.channels.get(&header.channel_id).cloned();
-                        let [topic, kind] = channel.unwrap_or_default();
-                        self.take(&topic, &kind, &data);
-                    }
-                    _ => {}
-                },
+                LinearReadEvent::Record { data, opcode } => self.take_record(opcode, data)?,
             }
+        }
+        Ok(())
+    }
+
+    fn take_record(&mut self, opcode: u8, record: &[u8]) -> McapResult<()> {
+        let mut fields = Fields(record);
+        match opcode {
+            op::SCHEMA => {
+                let (id, name) = (fields.number()?, fields.text()?);
+                self.schemas.insert(id, name);
+            }
+            op::CHANNEL => {
+                let (id, schema, topic) = (fields.number()?, fields.number()?, fields.text()?);
+                let kind = self.schemas.get(&schema).cloned();
+                let kind = kind.unwrap_or_else(|| "no schema".to_owned());
+                self.channels.insert(id, [topic, kind]);
+            }
+            op::MESSAGE => {
+                let channel = self.channels.get(&fields.number()?).cloned();
+                let [topic, kind] = channel.unwrap_or_default();
+                self.report.lines += 1;
+                let message = record.get(MESSAGE_HEADER..).unwrap_or_default();
+                self.take(&topic, &kind, message);
+            }
+            _ => {}
         }
         Ok(())
     }

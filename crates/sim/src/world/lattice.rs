@@ -210,7 +210,7 @@ impl Lattice {
     pub(super) fn is_sound(&self) -> bool {
         let (columns, rows) = (&self.columns, &self.rows);
         let axis = |axis: &Axis| {
-            axis.cells > 0
+            (1..usize::MAX).contains(&axis.cells)
                 && axis.origin.abs() <= 1e6
                 && (1e-6..=1e6).contains(&axis.pitch)
                 && axis.thickness >= 0.0

@@ -1,0 +1,27 @@
+//! `cargo xtask fuzz`: every reader of files gets almost valid ones.
+
+use std::env;
+use std::process::Command;
+
+use anyhow::Result;
+
+use crate::workspace::{cargo, succeed, target_folder};
+
+/// Mutates the seeds of these targets, or of all, for `seconds` altogether. Overflow checks are on.
+/// Files that show a fault go to `target/fuzz`.
+///
+/// # Errors
+/// If a reader panics, takes longer than 2 s or holds more than 1 GiB.
+pub(crate) fn run(seconds: u64, seed: u64, targets: &[String]) -> Result<()> {
+    // Named by the whole workspace, so that what the tests have compiled serves.
+    succeed(&mut cargo(
+        "build --workspace --all-features --bin fuzz --quiet",
+    ))?;
+    let target = target_folder()?;
+    let program = target
+        .join("debug")
+        .join(format!("fuzz{}", env::consts::EXE_SUFFIX));
+    let mut fuzz = Command::new(program);
+    fuzz.args([seconds.to_string(), seed.to_string()]);
+    succeed(fuzz.arg(target.join("fuzz")).args(targets))
+}
