@@ -483,10 +483,9 @@ mod tests {
         let place = |graph: &GraphPicture, label: &str| {
             let at = |at: Point| (500.0 + 10.0 * at.x, 500.0 - 10.0 * at.y);
             let labels = graph.labels(&at, FRAME);
-            {
-                let (x, y) = labels.iter().find(|placed| placed.0 == label).unwrap().1;
-                (x - 500.0, y - 500.0)
-            }
+            let (x, y) = labels.iter().find(|placed| placed.0 == label).unwrap().1;
+            let tenths = |value: f64| (10.0 * value).round() / 10.0;
+            (tenths(x - 500.0), tenths(y - 500.0))
         };
         let mut graph = GraphPicture::new();
         graph.node(GraphNode::at(Point::new(0.0, 0.0)).label("goal"));
