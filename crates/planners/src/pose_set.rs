@@ -70,10 +70,22 @@ impl<const N: usize> PoseSet<N> {
     /// # Errors
     /// If the maze has more than `N` columns or rows.
     pub fn anywhere(grid: Grid) -> Result<Self, TooLarge> {
+        let headings = |cell| Direction::ALL.map(|heading| (cell, heading));
+        Self::among(grid, grid.cells().flat_map(headings))
+    }
+
+    /// Returns the set of these poses: of the cells it has been in, say, or with the heading that
+    /// its compass tells.
+    ///
+    /// # Errors
+    /// If the maze has more than `N` columns or rows.
+    pub fn among(
+        grid: Grid,
+        poses: impl IntoIterator<Item = (Cell, Direction)>,
+    ) -> Result<Self, TooLarge> {
         const { assert!(N <= 32, "a row of cells is a word of 32 bits") };
         TooLarge::check(grid, N)?;
-        let headings = |cell| Direction::ALL.map(|heading| (cell, heading));
-        Ok(Self::of(grid, grid.cells().flat_map(headings), None))
+        Ok(Self::of(grid, poses.into_iter(), None))
     }
 
     fn of(
@@ -206,8 +218,8 @@ impl<const N: usize> PoseSet<N> {
         None
     }
 
-    /// South-western cells first, and northern headings.
-    fn iter(&self) -> impl Iterator<Item = (Cell, Direction)> {
+    /// Returns the poses that are left: south-western cells first, and northern headings.
+    pub fn iter(&self) -> impl Iterator<Item = (Cell, Direction)> {
         let grid = self.grid;
         grid.cells()
             .flat_map(|cell| Direction::ALL.map(|heading| (cell, heading)))

@@ -886,6 +886,7 @@ mod tests {
             Contestant::MslstBetter,
             Contestant::CpmBetter,
             Contestant::DiktiometryBetter,
+            Contestant::Micromouse,
         ] {
             let record = play(contestant, "star", ContestRobot::Own);
             let found = &record.found[0];

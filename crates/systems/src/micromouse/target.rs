@@ -64,7 +64,7 @@ fn path_to_target(view: &SearchView<'_>) -> Result<Vec<Direction>, TooLarge> {
 }
 
 /// As far along the path as one step goes.
-fn leap(view: &SearchView<'_>, path: &[Direction]) -> Result<Option<Leap>, TooLarge> {
+pub(super) fn leap(view: &SearchView<'_>, path: &[Direction]) -> Result<Option<Leap>, TooLarge> {
     let known = Passages::<SIDE>::new(view.map, Unknown::Closed)?;
     let Some(&direction) = path.first() else {
         return Ok(None);
@@ -76,7 +76,7 @@ fn leap(view: &SearchView<'_>, path: &[Direction]) -> Result<Option<Leap>, TooLa
 
 /// Returns a shortest path to the nearest of `targets`, straight on where it can: the sides by
 /// which it leaves its cells.
-fn path(passages: &Passages<SIDE>, from: Cell, targets: &[Cell]) -> Vec<Direction> {
+pub(super) fn path(passages: &Passages<SIDE>, from: Cell, targets: &[Cell]) -> Vec<Direction> {
     let steps = StepMap::new(passages, targets.iter().copied());
     let mut path = Vec::new();
     let mut at = from;

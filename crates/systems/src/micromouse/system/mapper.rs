@@ -43,8 +43,15 @@ impl<S: Search> Mapper for MazeMouse<S> {
     }
 
     fn belief(&self) -> Vec<Guess> {
-        let at = Position::Place(self.id(self.at));
-        vec![Guess { at, weight: 1.0 }]
+        let cells: Vec<Cell> = match &self.lost {
+            Some(lost) => lost.poses.iter().map(|(cell, _)| cell).collect(),
+            None => vec![self.at],
+        };
+        let guess = |cell: &Cell| Guess {
+            at: Position::Place(self.id(*cell)),
+            weight: 1.0 / cells.len() as f64,
+        };
+        cells.iter().map(guess).collect()
     }
 }
 

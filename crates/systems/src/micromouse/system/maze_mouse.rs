@@ -9,10 +9,11 @@ use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 use tolman_robot::{Compass, Mapper, Ranges, Robot, Rolls, Standing, System, Task, TurnTranslate};
 
 use super::choice::Choice;
+use super::lost::Lost;
 use super::pilot::{Arrival, Body, PATIENCE, Pilot};
 use super::{CellSight, MazeMouseConfig, MazeMouseError};
 use crate::micromouse::{
-    Brief, Certificate, Certify, MouseError, RunTwo, SIDE, Search, TargetSearch,
+    Brief, Certificate, Certify, MouseError, RunTwo, SIDE, Search, Survey, TargetSearch,
 };
 
 /// A mouse that explores a grid maze with any robot that has a laser ring, a compass and encoders,
@@ -22,7 +23,9 @@ use crate::micromouse::{
 /// - `Reach` drives a best run on walls known to be open, or else on those not known to stand. The
 ///   landmarks are the start and the goals; a place is a cell, by
 ///   [`Grid::index`](tolman_maze::Grid::index).
-/// - `Localize` is given up: the mouse is told where it starts.
+/// - `Localize` is done when one cell is left in which it can be. Where it starts it is told; put down
+///   elsewhere, it drives to where the cells it has been in differ. `Explore` and `Reach` begin with
+///   that.
 ///
 /// Every action is one cell: the mouse looks at the walls, chooses, and drives to the middle of the
 /// next cell. It gives up where the walls contradict its map, or the robot does not get there.
@@ -34,11 +37,13 @@ pub struct MazeMouse<S> {
     pub(super) run_two: RunTwo,
     pub(super) walls: WallMap<SIDE>,
     pub(super) at: Cell,
-    pilot: Pilot,
+    pub(super) pilot: Pilot,
     /// What it was last asked to do.
     task: Option<Task>,
     /// The sides by which it leaves the next cells, the next one last.
-    route: Vec<Direction>,
+    pub(super) route: Vec<Direction>,
+    /// What it knows of where it is, from when it was put down until it has found itself.
+    pub(super) lost: Option<Lost>,
 }
 
 impl MazeMouse<Certify> {
@@ -51,6 +56,16 @@ impl MazeMouse<Certify> {
         let (explorer, rollouts) = (MoveExplorerConfig::tuned(), RolloutConfig::tuned());
         let search = Certify::new(explorer, Some(rollouts), brief.grid, brief.start)?;
         Self::new(brief, config, search, RunTwo::FewestMoves)
+    }
+}
+
+impl MazeMouse<Survey> {
+    /// Returns a mouse that explores until it has been everywhere.
+    ///
+    /// # Errors
+    /// If the maze is too large or a number of `config` is out of its range.
+    pub fn survey(brief: Brief, config: MazeMouseConfig) -> Result<Self, MazeMouseError> {
+        Self::new(brief, config, Survey, RunTwo::FewestMoves)
     }
 }
 
@@ -92,6 +107,7 @@ impl<S: Search> MazeMouse<S> {
             pilot: Pilot::new(pose, config),
             task: None,
             route: Vec::new(),
+            lost: None,
         })
     }
 
@@ -129,6 +145,9 @@ where
         if self.task.replace(task) != Some(task) {
             self.route.clear();
         }
+        if let Some(lost) = self.lost.take() {
+            return self.find_itself(lost, robot, task);
+        }
         if let Some(standing) = self.look(robot)? {
             return Ok(standing);
         }
@@ -146,6 +165,10 @@ where
             Some(side) => self.leave_by(robot, side),
             None => Ok(Standing::UnderWay),
         }
+    }
+
+    fn put_down(&mut self) -> Standing {
+        self.lose_itself()
     }
 }
 
@@ -181,7 +204,7 @@ impl<S: Search> MazeMouse<S> {
         Ok(self.standing(arrival))
     }
 
-    fn standing(&self, arrival: Arrival) -> Standing {
+    pub(super) fn standing(&self, arrival: Arrival) -> Standing {
         match arrival {
             Arrival::Arrived => Standing::UnderWay,
             Arrival::OutOfPatience => Standing::gave_up(format!(

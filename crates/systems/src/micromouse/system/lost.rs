@@ -1,0 +1,111 @@
+//! A mouse that was put down somewhere finds out where.
+
+use tolman_control::heading_of;
+use tolman_geom::Point;
+use tolman_maps::wall_map::{CellRay, RayEnd};
+use tolman_maze::{Cell, Direction, Walls};
+use tolman_planners::{PoseKnowledge, PoseSet};
+use tolman_robot::{Standing, Task};
+
+use super::MazeMouse;
+use super::pilot::Body;
+use crate::micromouse::{SIDE, Search};
+
+/// What a mouse knows of where it is that was put down somewhere in the maze.
+#[derive(Clone, Debug)]
+pub(super) struct Lost {
+    /// Where it can be; it knows how it looks, by its compass.
+    pub(super) poses: PoseSet<SIDE>,
+    looks: Direction,
+    /// The middle of its cell, m, in a frame that is right but for whole cells.
+    middle: Point,
+}
+
+impl Lost {
+    /// Takes in what is seen of the walls of its cell.
+    fn see(&mut self, walls: &impl Walls, rays: &[CellRay]) {
+        for ray in rays {
+            let is_open = ray.open > 0;
+            if is_open || ray.end == RayEnd::Wall {
+                let side = ray.direction.seen_from(self.looks);
+                self.poses.see(walls, side, is_open);
+            }
+        }
+    }
+
+    /// Goes on to the next cell on a side of its own, and returns that cell's middle.
+    fn drive(&mut self, walls: &impl Walls, side: Direction, pitch: f64) -> Point {
+        self.poses.drive(walls, side);
+        self.looks = self.looks.turned(side);
+        self.middle += heading_of(self.looks).unit() * pitch;
+        self.middle
+    }
+}
+
+impl<S: Search> MazeMouse<S> {
+    /// Forgets where it is: it can be in all cells that it has been in.
+    pub(super) fn lose_itself(&mut self) -> Standing {
+        let looks = Direction::North;
+        let cells = self.brief.grid.cells();
+        let known = cells.filter(|cell| self.walls.visits(*cell) > 0);
+        let poses = PoseSet::among(self.brief.grid, known.map(|cell| (cell, looks)));
+        let middle = self.config.middle(self.brief.start);
+        self.route.clear();
+        self.pilot.put_at(middle);
+        match poses {
+            Ok(poses) => {
+                self.lost = Some(Lost {
+                    poses,
+                    looks,
+                    middle,
+                });
+                Standing::UnderWay
+            }
+            Err(too_large) => Standing::gave_up(alloc::format!("{too_large}")),
+        }
+    }
+
+    /// Makes the next action of a mouse that is lost: it looks, and drives to where the cells that
+    /// it can be in differ.
+    pub(super) fn find_itself<R: Body>(
+        &mut self,
+        mut lost: Lost,
+        robot: &mut R,
+        task: Task,
+    ) -> Result<Standing, R::Error> {
+        if let Some(rays) = self.pilot.look(robot, lost.middle)? {
+            lost.see(&self.walls, &rays);
+            match lost.poses.location() {
+                PoseKnowledge::Found { cell, .. } => {
+                    return Ok(self.found_itself(&lost, cell, task));
+                }
+                PoseKnowledge::Nowhere => {
+                    return Ok(Standing::gave_up("what it sees fits nowhere on its map"));
+                }
+                PoseKnowledge::Among { poses } => {
+                    let Some(side) = lost.poses.next_drive(&self.walls) else {
+                        return Ok(Standing::gave_up(alloc::format!(
+                            "its map cannot tell {poses} cells apart"
+                        )));
+                    };
+                    let target = lost.drive(&self.walls, side, self.config.pitch);
+                    let arrival = self.pilot.drive_to(robot, target)?;
+                    self.lost = Some(lost);
+                    return Ok(self.standing(arrival));
+                }
+            }
+        }
+        self.lost = Some(lost);
+        Ok(Standing::UnderWay)
+    }
+
+    fn found_itself(&mut self, lost: &Lost, cell: Cell, task: Task) -> Standing {
+        let position = self.pose().position + (self.config.middle(cell) - lost.middle);
+        self.pilot.put_at(position);
+        self.at = cell;
+        match task {
+            Task::Localize => Standing::Done,
+            Task::Explore | Task::Reach(_) => Standing::UnderWay,
+        }
+    }
+}
