@@ -12,7 +12,7 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 
 use crate::workspace::{self, cargo, installed, succeed};
-use crate::{docs, golden, layers, mazes, prose};
+use crate::{docs, fuzz, golden, layers, mazes, prose, python};
 
 /// How a step went when it did not fail.
 pub(crate) enum Outcome {
@@ -59,7 +59,6 @@ const STEPS: &[Step] = &[
     ("commands", commands),
     ("bare metal", bare_metal::check),
     ("firmware", firmware::check),
-    ("fuzz", fuzz_targets),
     ("msrv", msrv::check),
     ("licences", || {
         if_installed("cargo-deny", || passes("deny --all-features check"))
@@ -69,15 +68,29 @@ const STEPS: &[Step] = &[
     }),
 ];
 
-/// Runs all steps; the first failure ends it unless `keep_going`.
+/// What takes longer than a change should wait for.
+const THOROUGH: &[Step] = &[
+    ("fuzz", fuzz_targets),
+    ("fuzzing", || passed(fuzz::run(FUZZING, 1, &[]))),
+    ("golden, all", || passed(golden::run(&[], false))),
+    ("python", python::check),
+];
+
+/// How long all readers get mutated files, seconds.
+const FUZZING: u64 = 600;
+
+/// Runs all steps, with `thorough` also the long ones; the first failure ends it unless
+/// `keep_going`.
 ///
 /// # Errors
 /// If a step failed.
-pub(crate) fn run(keep_going: bool) -> Result<()> {
+pub(crate) fn run(keep_going: bool, thorough: bool) -> Result<()> {
     let start = Instant::now();
     let mut table = Vec::new();
     let mut failures = 0;
-    for (name, step) in STEPS {
+    let long = if thorough { THOROUGH } else { &[] };
+    let steps: Vec<&Step> = STEPS.iter().chain(long).collect();
+    for (name, step) in &steps {
         eprintln!("\n== {name}");
         let begun = Instant::now();
         let verdict = match step() {
@@ -95,10 +108,10 @@ pub(crate) fn run(keep_going: bool) -> Result<()> {
         }
     }
     print_table(&table, start.elapsed());
-    let not_run = STEPS.len() - table.len();
+    let not_run = steps.len() - table.len();
     match (failures, not_run) {
         (0, _) => Ok(()),
-        (_, 0) => bail!("{failures} of {} steps failed", STEPS.len()),
+        (_, 0) => bail!("{failures} of {} steps failed", steps.len()),
         _ => bail!("a step failed, {not_run} more were not run (--keep-going runs them)"),
     }
 }

@@ -45,15 +45,25 @@ const TABLES: &[(&str, &[&str])] = &[(
     ],
 )];
 
-/// Plays the runs and compares them with those in `tests/golden`; `bless` puts them there instead.
+/// Plays the runs of these experiments, or of all, and compares them with those in `tests/golden`;
+/// `bless` puts them there instead.
 ///
 /// They are made without the data of others, which are not everywhere.
 ///
 /// # Errors
-/// If an experiment fails or a value is another.
-pub(crate) fn run(bless: bool) -> Result<()> {
+/// If there is no such experiment, one fails or a value is another.
+pub(crate) fn run(names: &[String], bless: bool) -> Result<()> {
+    let known: Vec<&str> = PINNED.iter().map(|pinned| pinned.0).collect();
+    for name in names {
+        ensure!(
+            known.contains(&name.as_str()),
+            "no runs of `{name}` are pinned: give one of {}",
+            known.join(", ")
+        );
+    }
     succeed(&mut cargo("build --release --quiet --package tolman"))?;
-    run_all_but(&[], bless, "release")
+    let is_asked_for = |name: &str| names.is_empty() || names.iter().any(|one| one == name);
+    run_those(is_asked_for, bless, "release")
 }
 
 /// What takes longest, and is left to `cargo xtask golden` by hand.
@@ -64,14 +74,14 @@ const SLOW: &[&str] = &["mslst", "mslst-sweeps", "diktiometry", "gngslam"];
 /// # Errors
 /// If an experiment fails or a value is another.
 pub(crate) fn run_quick() -> Result<()> {
-    run_all_but(SLOW, false, "debug")
+    run_those(|name| !SLOW.contains(&name), false, "debug")
 }
 
-fn run_all_but(left_out: &[&str], bless: bool, profile: &str) -> Result<()> {
+fn run_those(is_asked_for: impl Fn(&str) -> bool, bless: bool, profile: &str) -> Result<()> {
     let target = workspace::target_folder()?;
     let tolman = || Command::new(target.join(profile).join("tolman"));
     let mut moved = Vec::new();
-    for (name, runs, more) in PINNED.iter().filter(|pinned| !left_out.contains(&pinned.0)) {
+    for (name, runs, more) in PINNED.iter().filter(|pinned| is_asked_for(pinned.0)) {
         let made = target.join("golden").join(name);
         if made.exists() {
             fs::remove_dir_all(&made)

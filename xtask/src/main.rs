@@ -46,10 +46,15 @@ enum Verb {
         /// Run the remaining steps after one has failed
         #[arg(long)]
         keep_going: bool,
+        /// Also what takes long: fuzzing, the slowest golden runs, the Python module
+        #[arg(long)]
+        thorough: bool,
     },
     /// Plays a few runs of every experiment and compares them, to the bit, with those in
     /// tests/golden
     Golden {
+        /// The experiments; all of them when left out
+        names: Vec<String>,
         /// Put the runs into tests/golden instead
         #[arg(long)]
         bless: bool,
@@ -90,8 +95,11 @@ enum Verb {
 fn main() -> ExitCode {
     let done = match Arguments::parse().verb {
         Verb::Experiment { arguments } => return experiment::run(&arguments),
-        Verb::Ci { keep_going } => ci::run(keep_going),
-        Verb::Golden { bless } => golden::run(bless),
+        Verb::Ci {
+            keep_going,
+            thorough,
+        } => ci::run(keep_going, thorough),
+        Verb::Golden { names, bless } => golden::run(&names, bless),
         Verb::Layers => layers::run(),
         Verb::Mazes => mazes::run(),
         Verb::Bench { name } => bench::run(name.as_deref()),

@@ -23,10 +23,10 @@ const WITHOUT_MDP: &[&str] = &["numpy"];
 /// Where the crate lies.
 const CRATE: &str = "crates/python";
 
-/// Builds the wheel in release, installs it and runs its tests, or says why it does not.
+/// Tests the module, or says why it does not.
 ///
 /// # Errors
-/// If a step fails for another reason than that Python or its packages are not there.
+/// As [`check`].
 pub(crate) fn run() -> Result<()> {
     match check()? {
         Outcome::Passed => eprintln!("the Python module passes its tests"),
@@ -35,7 +35,12 @@ pub(crate) fn run() -> Result<()> {
     Ok(())
 }
 
-fn check() -> Result<Outcome> {
+/// Builds the wheel in release, installs it and runs its tests, if Python and its packages are
+/// there.
+///
+/// # Errors
+/// If a step fails for another reason than that they are not.
+pub(crate) fn check() -> Result<Outcome> {
     let Some(system) = system_python() else {
         let why = "there is no Python 3.9 or newer with the module venv (PYTHON names another)";
         return Ok(Outcome::Skipped(why.to_owned()));

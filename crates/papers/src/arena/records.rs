@@ -319,7 +319,7 @@ pub(super) fn sizes(name: &str) -> Table {
 /// Returns what a reader must know.
 pub(super) fn note(task: ArenaTask, robot: ContestRobot) -> String {
     let worlds = "Small and middle worlds in turns, the same for all rows; of GNG-SLAM Better, which takes seconds in each, one of each kind and none on the laser Pioneer, unless `--runs` asks for more; who abstained stays in the denominator.";
-    let places = "Places are junctions, dead ends, start and goal; of the diktiometry corners in place of start and goal. MSLST and the micromouse do not claim that a map is whole, and count as undecided. A micromouse is told the grid, its start and the goal.";
+    let places = "Places are junctions, dead ends, start and goal; of the diktiometry corners in place of start and goal. MSLST does not claim that a map is whole, and counts as undecided. A micromouse is told the grid, its start and the goal.";
     let robots = match robot {
         ContestRobot::Own => {
             "Each on its paper's robot: CPM on the e-puck, the diktiometry on the Pioneer with a camera among walls of eight colours, all others on the laser Pioneer."

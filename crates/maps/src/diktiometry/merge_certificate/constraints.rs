@@ -13,6 +13,8 @@ use super::identities::Joined;
 pub(super) struct Constraints {
     /// By the places' classes, from one to the other.
     tightest: BTreeMap<usize, BTreeMap<usize, [Most; 2]>>,
+    /// Whether they were found to contradict each other: that stays so, whatever comes later.
+    contradict: bool,
 }
 
 /// One place lies at most so far beyond another, m.
@@ -67,11 +69,14 @@ impl Constraints {
     /// Returns the routes that bound where one place lies as seen from another from each of the
     /// four sides, none twice; none if they are not connected, or if the constraints contradict
     /// each other. Bellman's and Ford's algorithm. O(places · pairs of neighbours).
-    pub(super) fn routes(&self, from: usize, to: usize) -> Vec<Vec<JournalSpan>> {
+    pub(super) fn routes(&mut self, from: usize, to: usize) -> Vec<Vec<JournalSpan>> {
         let mut routes = Vec::new();
         for axis in 0..2 {
             routes.extend(self.tightest_route(axis, from, to));
             let back = self.tightest_route(axis, to, from);
+            if self.contradict {
+                return Vec::new();
+            }
             routes.extend(
                 back.map(|back| back.into_iter().rev().map(JournalSpan::reversed).collect()),
             );
@@ -85,7 +90,10 @@ impl Constraints {
         seen
     }
 
-    fn tightest_route(&self, axis: usize, from: usize, to: usize) -> Option<Vec<JournalSpan>> {
+    fn tightest_route(&mut self, axis: usize, from: usize, to: usize) -> Option<Vec<JournalSpan>> {
+        if self.contradict {
+            return None;
+        }
         let size = 1 + *self.tightest.keys().next_back()?;
         let mut least = vec![f64::INFINITY; size.max(from + 1)];
         let mut came: Vec<Option<(usize, JournalSpan)>> = vec![None; least.len()];
@@ -97,7 +105,9 @@ impl Constraints {
             is_waiting[here] = false;
             rounds[here] += 1;
             if rounds[here] > self.tightest.len() {
-                return None; // A circle that is shorter than nothing: some bound does not hold.
+                // A circle that is shorter than nothing: some bound does not hold.
+                self.contradict = true;
+                return None;
             }
             for (next, most) in self.tightest.get(&here).into_iter().flatten() {
                 let Most { by, span } = most[axis];

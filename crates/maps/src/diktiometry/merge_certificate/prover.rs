@@ -161,7 +161,7 @@ impl Prover<'_> {
         true
     }
 
-    fn by_bounds(&self, pair: [usize; 2]) -> Option<MergeCertificate> {
+    fn by_bounds(&mut self, pair: [usize; 2]) -> Option<MergeCertificate> {
         let visits = self.alike(pair).unwrap_or(pair);
         let [from, to] = pair.map(|visit| self.identities.find(visit));
         let routes = self.constraints.routes(from, to);
