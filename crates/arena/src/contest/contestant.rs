@@ -332,7 +332,7 @@ impl Contestant {
                     turn_per_step: robot.turn_per_step,
                     translate_per_step: robot.translate_per_step,
                 };
-                let mouse = MazeMouse::survey(brief(maze)?, config)?;
+                let mouse = MazeMouse::whole_maze(brief(maze)?, config)?;
                 let body = laser_pioneer(&course, condition, seed)?;
                 Ok(sent(course, body, mouse))
             }

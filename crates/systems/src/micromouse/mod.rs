@@ -7,7 +7,7 @@
 //!
 //! A [`Driver`] has a [`Search`] for its first run and a plan for its second, [`RunTwo`].
 //! [`Certify`] stops when the best run is proven and hands out a [`Certificate`]; [`TargetSearch`],
-//! [`CounterSearch`] and [`RandomSearch`] are the paper's; [`Survey`] goes everywhere. A [`Searcher`] is one of them by name.
+//! [`CounterSearch`] and [`RandomSearch`] are the paper's; [`WholeMaze`] goes everywhere. A [`Searcher`] is one of them by name.
 //!
 //! [`system`] puts the searches behind the interface of all systems, to drive a robot with a laser
 //! ring. [`noisy`] is the same mouse for wheels that slip and sensors that err, with a particle
@@ -46,10 +46,10 @@ mod order;
 mod random;
 mod run_two;
 mod searcher;
-mod survey;
 pub mod system;
 mod target;
 mod until;
+mod whole_maze;
 
 pub use brief::Brief;
 pub use certificate::Certificate;
@@ -61,6 +61,6 @@ pub use order::{Movement, Order, OrderError, Rotation};
 pub use random::RandomSearch;
 pub use run_two::RunTwo;
 pub use searcher::{Searcher, UnknownSearcher};
-pub use survey::Survey;
 pub use target::TargetSearch;
 pub use until::Until;
+pub use whole_maze::WholeMaze;

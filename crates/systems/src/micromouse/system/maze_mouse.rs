@@ -13,7 +13,7 @@ use super::lost::Lost;
 use super::pilot::{Arrival, Body, PATIENCE, Pilot};
 use super::{CellSight, MazeMouseConfig, MazeMouseError};
 use crate::micromouse::{
-    Brief, Certificate, Certify, MouseError, RunTwo, SIDE, Search, Survey, TargetSearch,
+    Brief, Certificate, Certify, MouseError, RunTwo, SIDE, Search, TargetSearch, WholeMaze,
 };
 
 /// A mouse that explores a grid maze with any robot that has a laser ring, a compass and encoders,
@@ -59,13 +59,13 @@ impl MazeMouse<Certify> {
     }
 }
 
-impl MazeMouse<Survey> {
+impl MazeMouse<WholeMaze> {
     /// Returns a mouse that explores until it has been everywhere.
     ///
     /// # Errors
     /// If the maze is too large or a number of `config` is out of its range.
-    pub fn survey(brief: Brief, config: MazeMouseConfig) -> Result<Self, MazeMouseError> {
-        Self::new(brief, config, Survey, RunTwo::FewestMoves)
+    pub fn whole_maze(brief: Brief, config: MazeMouseConfig) -> Result<Self, MazeMouseError> {
+        Self::new(brief, config, WholeMaze, RunTwo::FewestMoves)
     }
 }
 

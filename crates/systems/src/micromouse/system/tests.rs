@@ -315,7 +315,7 @@ fn a_goal_can_be_any_cell_even_one_behind_it_before_anything_is_known() {
 fn put_down_anywhere_it_finds_itself_and_goes_to_the_goal() {
     let maze = maze();
     let mut floor = Floor::new(&maze);
-    let mut mouse = MazeMouse::survey(brief(&maze), CONFIG).unwrap();
+    let mut mouse = MazeMouse::whole_maze(brief(&maze), CONFIG).unwrap();
     let (walk, end) = pursue(&mut mouse, &mut floor, Task::Explore);
     assert_eq!(end, Standing::Done);
     assert!(maze.reachable().all(|cell| walk.contains(&cell)));
@@ -344,7 +344,7 @@ fn put_down_anywhere_it_finds_itself_and_goes_to_the_goal() {
 fn a_cell_that_fits_nowhere_on_its_map_is_said() {
     let maze = maze();
     let mut floor = Floor::new(&maze);
-    let mut mouse = MazeMouse::survey(brief(&maze), CONFIG).unwrap();
+    let mut mouse = MazeMouse::whole_maze(brief(&maze), CONFIG).unwrap();
     pursue(&mut mouse, &mut floor, Task::Explore);
     // Another maze: a room.
     floor.maze = Maze::open(maze.grid());

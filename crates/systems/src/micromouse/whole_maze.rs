@@ -8,9 +8,9 @@ use super::target::{leap, path};
 /// A search for the whole maze: to the nearest cell that it has not been in, until there is none
 /// left that can be reached.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Survey;
+pub struct WholeMaze;
 
-impl Search for Survey {
+impl Search for WholeMaze {
     fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge> {
         let hoped = Passages::<SIDE>::new(view.map, Unknown::Open)?;
         let steps = StepMap::new(&hoped, [view.at]);
