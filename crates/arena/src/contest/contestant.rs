@@ -225,8 +225,8 @@ impl Contestant {
     }
 
     /// Returns whether it says, when it is done, that its map is that of the whole world. MSLST has
-    /// then used up its actions and GNG-SLAM has its records: neither says that its places are those
-    /// of the drawing.
+    /// then used up its actions and GNG-SLAM has its records: neither says that its places are
+    /// those of the drawing.
     #[must_use]
     pub const fn claims(self) -> bool {
         matches!(

@@ -7,7 +7,8 @@
 //!
 //! A [`Driver`] has a [`Search`] for its first run and a plan for its second, [`RunTwo`].
 //! [`Certify`] stops when the best run is proven and hands out a [`Certificate`]; [`TargetSearch`],
-//! [`CounterSearch`] and [`RandomSearch`] are the paper's; [`WholeMaze`] goes everywhere. A [`Searcher`] is one of them by name.
+//! [`CounterSearch`] and [`RandomSearch`] are the paper's; [`WholeMaze`] goes everywhere. A
+//! [`Searcher`] is one of them by name.
 //!
 //! [`system`] puts the searches behind the interface of all systems, to drive a robot with a laser
 //! ring. [`noisy`] is the same mouse for wheels that slip and sensors that err, with a particle

@@ -23,9 +23,9 @@ use crate::micromouse::{
 /// - `Reach` drives a best run on walls known to be open, or else on those not known to stand. The
 ///   landmarks are the start and the goals; a place is a cell, by
 ///   [`Grid::index`](tolman_maze::Grid::index).
-/// - `Localize` is done when one cell is left in which it can be. Where it starts it is told; put down
-///   elsewhere, it drives to where the cells it has been in differ. `Explore` and `Reach` begin with
-///   that.
+/// - `Localize` is done when one cell is left in which it can be. Where it starts it is told; put
+///   down elsewhere, it drives to where the cells it has been in differ. `Explore` and `Reach` begin
+///   with that.
 ///
 /// Every action is one cell: the mouse looks at the walls, chooses, and drives to the middle of the
 /// next cell. It gives up where the walls contradict its map, or the robot does not get there.
