@@ -24,8 +24,8 @@ use crate::micromouse::{
 ///   landmarks are the start and the goals; a place is a cell, by
 ///   [`Grid::index`](tolman_maze::Grid::index).
 /// - `Localize` is done when one cell is left in which it can be. Where it starts it is told; put
-///   down elsewhere, it drives to where the cells it has been in differ. `Explore` and `Reach` begin
-///   with that.
+///   down elsewhere, it drives to where the cells it has been in differ. `Explore` and `Reach`
+///   begin with that.
 ///
 /// Every action is one cell: the mouse looks at the walls, chooses, and drives to the middle of the
 /// next cell. It gives up where the walls contradict its map, or the robot does not get there.
