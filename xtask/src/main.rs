@@ -8,6 +8,7 @@ extern crate alloc;
 
 mod bench;
 mod ci;
+mod dist;
 mod docs;
 mod experiment;
 mod fuzz;
@@ -72,6 +73,8 @@ enum Verb {
     /// Checks that comments keep to 100 columns, and that comments, messages and pages use plain
     /// words
     Prose,
+    /// Builds the command as one file that runs on every Linux of this processor: target/dist
+    Dist,
     /// Gives every reader of files, or those named, almost valid ones; exits 1 if one panics, takes
     /// longer than 2 s or holds more than 1 GiB
     Fuzz {
@@ -104,6 +107,7 @@ fn main() -> ExitCode {
         Verb::Mazes => mazes::run(),
         Verb::Bench { name } => bench::run(name.as_deref()),
         Verb::Prose => prose::run(),
+        Verb::Dist => dist::run(),
         Verb::Fuzz {
             seconds,
             seed,

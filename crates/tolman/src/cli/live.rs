@@ -3,26 +3,24 @@
 //! Nothing of the run depends on who looks: it is made step by step as ever, and each step waits
 //! until it has been shown.
 
-mod pace;
-mod palette;
-mod picture;
-mod screen;
-mod view;
-mod window;
-mod wish;
+#[cfg(not(feature = "live"))]
+#[path = "live/no_terminal.rs"]
+mod terminal;
+#[cfg(feature = "live")]
+mod terminal;
+
+mod scene;
 
 use core::ops::ControlFlow;
-use std::io::{self, IsTerminal};
+use std::io;
 
 use indicatif::ProgressBar;
-use ratatui::crossterm::terminal;
-use screen::Screen;
+pub(super) use scene::{Now, Scene, see};
+use terminal::Screen;
 use tolman_papers::Glimpse;
-use view::{LEAST_COLUMNS, LEAST_ROWS, View};
-pub(super) use view::{Now, Scene, see};
 
+use crate::cli::Failure;
 use crate::cli::bar::bar;
-use crate::cli::{Failure, ink, interrupt};
 
 /// Somebody's view of a run.
 #[derive(Debug)]
@@ -39,14 +37,10 @@ impl Live {
     /// Returns a view of the run that is about to be made.
     pub(super) fn open(scene: Scene) -> Result<Self, Failure> {
         let limit = scene.step_limit;
-        if on_terminal() {
-            let view = View::new(scene, ink());
-            // A terminal that cannot be drawn on, as without a keyboard, gets the line.
-            if let Ok(screen) = Screen::open(view, interrupt::flag()?) {
-                let mut live = Self::Screen(Box::new(screen));
-                live.wait();
-                return Ok(live);
-            }
+        if let Some(screen) = terminal::screen(scene)? {
+            let mut live = Self::Screen(Box::new(screen));
+            live.wait();
+            return Ok(live);
         }
         let (length, template) = match limit {
             Some(limit) => (limit, "{bar:30} step {pos} of {len}, at {msg}"),
@@ -59,7 +53,7 @@ impl Live {
     pub(super) fn watch(&mut self, now: &Now<'_>) {
         match self {
             Self::Screen(screen) => {
-                screen.view().take(now);
+                screen.take(now);
                 self.wait();
             }
             Self::Line(line) => {
@@ -74,7 +68,7 @@ impl Live {
     /// Takes in what the system knows by now, which only a picture shows.
     pub(super) fn know(&mut self, glimpse: impl FnOnce() -> Glimpse) {
         if let Self::Screen(screen) = self {
-            screen.view().known = glimpse();
+            screen.know(glimpse());
         }
     }
 
@@ -94,10 +88,7 @@ impl Live {
     /// If the terminal has gone meanwhile.
     pub(super) fn close(self, told: &str) -> io::Result<()> {
         match self {
-            Self::Screen(mut screen) => {
-                screen.view().told = Some(told.to_owned());
-                screen.until_closed()
-            }
+            Self::Screen(mut screen) => screen.until_closed(told),
             Self::Line(line) => {
                 line.finish_and_clear();
                 Ok(())
@@ -105,12 +96,4 @@ impl Live {
             Self::Closed(done) => done,
         }
     }
-}
-
-/// Returns whether stdout is a terminal large and able enough to draw on.
-fn on_terminal() -> bool {
-    // Unix names its terminals; one without a name can do as little as a dumb one.
-    let able = std::env::var_os("TERM").map_or(cfg!(windows), |terminal| terminal != "dumb");
-    let large = |(columns, rows)| columns >= LEAST_COLUMNS && rows >= LEAST_ROWS;
-    able && io::stdout().is_terminal() && terminal::size().is_ok_and(large)
 }

@@ -19,6 +19,7 @@ mod helpful;
 mod interrupted;
 mod learn;
 #[cfg(unix)]
+#[cfg(feature = "live")]
 mod live;
 mod log;
 mod maze;

@@ -1,28 +1,28 @@
 //! What is known of the run so far, and the frame that shows it.
 
 use alloc::collections::VecDeque;
+use std::io::{self, IsTerminal};
 
 use ratatui::Frame;
+use ratatui::crossterm::terminal;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Style, Stylize};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Padding, Paragraph, Wrap};
-use tolman_arena::course::Course;
-use tolman_arena::episode::{Step, Trial};
-use tolman_control::Outcome;
 use tolman_experiment::Ink;
 use tolman_geom::{Point, Pose};
 use tolman_papers::Glimpse;
-use tolman_robot::{Robot, Scan};
+use tolman_robot::Scan;
 
 use super::pace::{Motion, Pace};
 use super::palette::{BELIEF, BUMP, LABEL, MAP, inked};
 use super::picture;
 use super::wish::Wish;
+use crate::cli::live::{Now, Scene};
 
 /// The smallest terminal in which something is to be seen.
-pub(super) const LEAST_COLUMNS: u16 = 50;
-pub(super) const LEAST_ROWS: u16 = 16;
+const LEAST_COLUMNS: u16 = 50;
+const LEAST_ROWS: u16 = 16;
 
 /// The panel with the numbers, columns.
 const PANEL: u16 = 27;
@@ -30,47 +30,12 @@ const PANEL: u16 = 27;
 /// Number of steps that the trail goes back.
 const TRAIL: usize = 2000;
 
-/// What a run is made of, for whoever looks.
-#[derive(Clone, Debug)]
-pub(in crate::cli) struct Scene {
-    pub(in crate::cli) course: Course,
-    /// Who chooses the actions.
-    pub(in crate::cli) word: String,
-    pub(in crate::cli) seed: u64,
-    pub(in crate::cli) start: Pose,
-    pub(in crate::cli) step_us: u64,
-    /// The robot's radius, m.
-    pub(in crate::cli) radius: f64,
-    /// Time steps after which it ends; `None` if they are not counted.
-    pub(in crate::cli) step_limit: Option<u32>,
-}
-
-impl Scene {
-    /// Returns the run of a trial.
-    pub(in crate::cli) fn of(trial: &Trial<'_>, word: &str) -> Self {
-        Self {
-            course: trial.course.clone(),
-            word: word.to_owned(),
-            seed: trial.seed,
-            start: trial.start,
-            step_us: trial.robot.step_us,
-            radius: trial.robot.radius,
-            step_limit: Some(trial.step_limit),
-        }
-    }
-}
-
-/// A time step that has just been made.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::cli) struct Now<'a> {
-    pub(in crate::cli) pose: Pose,
-    /// Whether it ended at a wall.
-    pub(in crate::cli) bump: bool,
-    /// The action under way, or what the robot thinks.
-    pub(in crate::cli) action: &'a str,
-    /// How an action ended with this step.
-    pub(in crate::cli) ended: Option<&'a str>,
-    pub(in crate::cli) scan: Option<&'a Scan>,
+/// Returns whether stdout is a terminal large and able enough to draw on.
+pub(super) fn fits_the_terminal() -> bool {
+    // Unix names its terminals; one without a name can do as little as a dumb one.
+    let able = std::env::var_os("TERM").map_or(cfg!(windows), |terminal| terminal != "dumb");
+    let large = |(columns, rows)| columns >= LEAST_COLUMNS && rows >= LEAST_ROWS;
+    able && io::stdout().is_terminal() && terminal::size().is_ok_and(large)
 }
 
 /// A run so far.
@@ -262,39 +227,19 @@ fn none() -> String {
     "–".to_owned()
 }
 
-/// Shows a step of a trial.
-pub(in crate::cli) fn see(step: &Step<'_>, mut show: impl FnMut(&Now<'_>)) {
-    let action = step.action.to_string();
-    let ended = step.ends.map(|outcome| {
-        let outcome = match outcome {
-            Outcome::Completed => "done",
-            Outcome::CutShort => "cut short",
-            Outcome::Failed => "failed",
-            Outcome::TimedOut => "timed out",
-        };
-        format!("{action}: {outcome}")
-    });
-    let truth = step.robot.truth();
-    show(&Now {
-        pose: truth.pose,
-        bump: truth.bump,
-        action: &action,
-        ended: ended.as_deref(),
-        scan: step.robot.sensing().scan.as_ref(),
-    });
-}
-
 #[cfg(test)]
 mod tests {
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
     use ratatui::style::Color;
     use tolman_arena::cast::{Agent, Cast};
-    use tolman_arena::episode;
+    use tolman_arena::course::Course;
+    use tolman_arena::episode::{self, Trial};
     use tolman_arena::pioneer::{body, calibrated};
     use tolman_geom::Heading;
 
     use super::*;
+    use crate::cli::live::see;
 
     const MAZE: &str = "\
 name = Hook

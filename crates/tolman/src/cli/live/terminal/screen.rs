@@ -9,11 +9,13 @@ use std::time::Instant;
 
 use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, Event};
+use tolman_papers::Glimpse;
 
 use super::pace::{Motion, Pace};
 use super::view::View;
 use super::wish::Wish;
 use crate::cli::interrupt::INTERRUPTED;
+use crate::cli::live::Now;
 
 /// Between two frames at least.
 const FRAME: Duration = Duration::from_millis(33);
@@ -55,16 +57,23 @@ impl Screen {
         })
     }
 
-    pub(super) const fn view(&mut self) -> &mut View {
+    /// Takes in one more step.
+    pub(in crate::cli::live) fn take(&mut self, now: &Now<'_>) {
         self.stale = true;
-        &mut self.view
+        self.view.take(now);
+    }
+
+    /// Takes in what the system knows by now.
+    pub(in crate::cli::live) fn know(&mut self, known: Glimpse) {
+        self.stale = true;
+        self.view.known = known;
     }
 
     /// Shows what there is until the next step is due. Breaks if nobody looks any more.
     ///
     /// # Errors
     /// If the terminal has gone.
-    pub(super) fn until_next_step(&mut self) -> io::Result<ControlFlow<()>> {
+    pub(in crate::cli::live) fn until_next_step(&mut self) -> io::Result<ControlFlow<()>> {
         let now = Instant::now();
         // Behind by more than a moment, as after a pause: nothing to catch up with.
         let late = now.saturating_duration_since(self.due) > GLANCE;
@@ -90,11 +99,13 @@ impl Screen {
         }
     }
 
-    /// Shows what there is until somebody has seen enough.
+    /// Shows the outcome until somebody has seen enough.
     ///
     /// # Errors
     /// If the terminal has gone.
-    pub(super) fn until_closed(&mut self) -> io::Result<()> {
+    pub(in crate::cli::live) fn until_closed(&mut self, told: &str) -> io::Result<()> {
+        self.stale = true;
+        self.view.told = Some(told.to_owned());
         loop {
             match self.wish(GLANCE)? {
                 Some(Wish::Close) => return Ok(()),

@@ -1,0 +1,80 @@
+//! What a run tells whoever looks.
+
+use tolman_arena::course::Course;
+use tolman_arena::episode::{Step, Trial};
+use tolman_control::Outcome;
+use tolman_geom::Pose;
+use tolman_robot::{Robot, Scan};
+
+/// What a run is made of, for whoever looks.
+#[cfg_attr(
+    not(feature = "live"),
+    expect(dead_code, reason = "a line shows less than a picture")
+)]
+#[derive(Clone, Debug)]
+pub(in crate::cli) struct Scene {
+    pub(in crate::cli) course: Course,
+    /// Who chooses the actions.
+    pub(in crate::cli) word: String,
+    pub(in crate::cli) seed: u64,
+    pub(in crate::cli) start: Pose,
+    pub(in crate::cli) step_us: u64,
+    /// The robot's radius, m.
+    pub(in crate::cli) radius: f64,
+    /// Time steps after which it ends; `None` if they are not counted.
+    pub(in crate::cli) step_limit: Option<u32>,
+}
+
+impl Scene {
+    /// Returns the run of a trial.
+    pub(in crate::cli) fn of(trial: &Trial<'_>, word: &str) -> Self {
+        Self {
+            course: trial.course.clone(),
+            word: word.to_owned(),
+            seed: trial.seed,
+            start: trial.start,
+            step_us: trial.robot.step_us,
+            radius: trial.robot.radius,
+            step_limit: Some(trial.step_limit),
+        }
+    }
+}
+
+/// A time step that has just been made.
+#[cfg_attr(
+    not(feature = "live"),
+    expect(dead_code, reason = "a line shows less than a picture")
+)]
+#[derive(Clone, Copy, Debug)]
+pub(in crate::cli) struct Now<'a> {
+    pub(in crate::cli) pose: Pose,
+    /// Whether it ended at a wall.
+    pub(in crate::cli) bump: bool,
+    /// The action under way, or what the robot thinks.
+    pub(in crate::cli) action: &'a str,
+    /// How an action ended with this step.
+    pub(in crate::cli) ended: Option<&'a str>,
+    pub(in crate::cli) scan: Option<&'a Scan>,
+}
+
+/// Shows a step of a trial.
+pub(in crate::cli) fn see(step: &Step<'_>, mut show: impl FnMut(&Now<'_>)) {
+    let action = step.action.to_string();
+    let ended = step.ends.map(|outcome| {
+        let outcome = match outcome {
+            Outcome::Completed => "done",
+            Outcome::CutShort => "cut short",
+            Outcome::Failed => "failed",
+            Outcome::TimedOut => "timed out",
+        };
+        format!("{action}: {outcome}")
+    });
+    let truth = step.robot.truth();
+    show(&Now {
+        pose: truth.pose,
+        bump: truth.bump,
+        action: &action,
+        ended: ended.as_deref(),
+        scan: step.robot.sensing().scan.as_ref(),
+    });
+}

@@ -1,0 +1,25 @@
+//! The whole terminal as a screen.
+
+mod pace;
+mod palette;
+mod picture;
+mod screen;
+mod view;
+mod window;
+mod wish;
+
+use super::Scene;
+use crate::cli::{Failure, ink, interrupt};
+pub(super) use screen::Screen;
+use view::{View, fits_the_terminal};
+
+/// Returns a screen that shows a run before its first step; none where there is no terminal that
+/// can be drawn on.
+pub(super) fn screen(scene: Scene) -> Result<Option<Screen>, Failure> {
+    if !fits_the_terminal() {
+        return Ok(None);
+    }
+    let view = View::new(scene, ink());
+    // A terminal without a keyboard gets the line, too.
+    Ok(Screen::open(view, interrupt::flag()?).ok())
+}
