@@ -8,21 +8,17 @@ use super::{folder, tolman_in};
 #[test]
 fn every_system_learns_a_maze_and_comes_home() {
     let folder = folder("demo-systems");
-    for (system, put_down) in [
-        ("mslst", true),
-        ("mslst-better", true),
-        ("cpm-better", true),
-        ("diktiometry", true),
-        ("gngslam", true),
-        ("micromouse", false),
+    for system in [
+        "mslst",
+        "mslst-better",
+        "cpm-better",
+        "diktiometry",
+        "gngslam",
+        "micromouse",
     ] {
         let told = tolman_in(&folder, &["demo", "--system", system]).done();
         let found = told.contains("Put down elsewhere, it found out where it is");
-        assert_eq!(found, put_down, "{system}: {told}");
-        assert!(
-            found || told.contains("it is not put down elsewhere"),
-            "{told}"
-        );
+        assert!(found, "{system}: {told}");
         assert!(told.contains("It drove to the goal in"), "{system}: {told}");
         let lines = told.lines().filter(|line| !line.starts_with("replay:"));
         for line in lines {
