@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use anyhow::{Result, bail};
 
-use crate::workspace::{self, cargo, installed, succeed};
+use crate::workspace::{self, built, cargo, installed, succeed};
 use crate::{docs, fuzz, golden, layers, mazes, prose, python};
 
 /// How a step went when it did not fail.
@@ -140,13 +140,6 @@ fn commands() -> Result<Outcome> {
     // For the whole workspace, so that what the tests have compiled serves.
     let mut test = cargo("test --workspace --all-features --test commands --quiet -- --ignored");
     passed(succeed(test.env("TOLMAN", built("tolman")?.get_program())))
-}
-
-/// A command of the workspace as the tests built it.
-fn built(name: &str) -> Result<Command> {
-    let mut command = Command::new(workspace::target_folder()?.join("debug").join(name));
-    command.current_dir(workspace::root());
-    Ok(command)
 }
 
 /// Running the fuzz targets takes a nightly compiler; that they still build takes none.

@@ -1,11 +1,8 @@
 //! `cargo xtask fuzz`: every reader of files gets almost valid ones.
 
-use std::env;
-use std::process::Command;
-
 use anyhow::Result;
 
-use crate::workspace::{cargo, succeed, target_folder};
+use crate::workspace::{built, cargo, succeed, target_folder};
 
 /// Mutates the seeds of these targets, or of all, for `seconds` altogether. Overflow checks are on.
 /// Files that show a fault go to `target/fuzz`.
@@ -17,11 +14,7 @@ pub(crate) fn run(seconds: u64, seed: u64, targets: &[String]) -> Result<()> {
     succeed(&mut cargo(
         "build --workspace --all-features --bin fuzz --quiet",
     ))?;
-    let target = target_folder()?;
-    let program = target
-        .join("debug")
-        .join(format!("fuzz{}", env::consts::EXE_SUFFIX));
-    let mut fuzz = Command::new(program);
+    let mut fuzz = built("fuzz")?;
     fuzz.args([seconds.to_string(), seed.to_string()]);
-    succeed(fuzz.arg(target.join("fuzz")).args(targets))
+    succeed(fuzz.arg(target_folder()?.join("fuzz")).args(targets))
 }

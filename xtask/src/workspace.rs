@@ -64,6 +64,16 @@ pub(crate) fn target_folder() -> Result<PathBuf> {
         .context("cargo names no target folder")
 }
 
+/// A command of the workspace as the tests built it, in the workspace's root.
+///
+/// # Errors
+/// As [`metadata`].
+pub(crate) fn built(name: &str) -> Result<Command> {
+    let mut command = Command::new(target_folder()?.join("debug").join(name));
+    command.current_dir(root());
+    Ok(command)
+}
+
 /// Runs a command to its end and asks for success.
 ///
 /// # Errors
