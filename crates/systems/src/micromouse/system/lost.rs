@@ -73,30 +73,28 @@ impl<S: Search> MazeMouse<S> {
         robot: &mut R,
         task: Task,
     ) -> Result<Standing, R::Error> {
-        if let Some(rays) = self.pilot.look(robot, lost.middle)? {
-            lost.see(&self.walls, &rays);
-            match lost.poses.location() {
-                PoseKnowledge::Found { cell, .. } => {
-                    return Ok(self.found_itself(&lost, cell, task));
-                }
-                PoseKnowledge::Nowhere => {
-                    return Ok(Standing::gave_up("what it sees fits nowhere on its map"));
-                }
-                PoseKnowledge::Among { poses } => {
-                    let Some(side) = lost.poses.next_drive(&self.walls) else {
-                        return Ok(Standing::gave_up(alloc::format!(
-                            "its map cannot tell {poses} cells apart"
-                        )));
-                    };
+        let Some(rays) = self.pilot.look(robot, lost.middle)? else {
+            self.lost = Some(lost);
+            return Ok(Standing::UnderWay);
+        };
+        lost.see(&self.walls, &rays);
+        let standing = match lost.poses.location() {
+            PoseKnowledge::Found { cell, .. } => return Ok(self.found_itself(&lost, cell, task)),
+            PoseKnowledge::Nowhere => Standing::gave_up("what it sees fits nowhere on its map"),
+            PoseKnowledge::Among { poses } => match lost.poses.next_drive(&self.walls) {
+                Some(side) => {
                     let target = lost.drive(&self.walls, side, self.config.pitch);
                     let arrival = self.pilot.drive_to(robot, target)?;
-                    self.lost = Some(lost);
-                    return Ok(self.standing(arrival));
+                    self.standing(arrival)
                 }
-            }
-        }
+                None => {
+                    Standing::gave_up(alloc::format!("its map cannot tell {poses} cells apart"))
+                }
+            },
+        };
+        // Who gives up is still lost.
         self.lost = Some(lost);
-        Ok(Standing::UnderWay)
+        Ok(standing)
     }
 
     fn found_itself(&mut self, lost: &Lost, cell: Cell, task: Task) -> Standing {

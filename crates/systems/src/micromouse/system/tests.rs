@@ -355,6 +355,7 @@ fn a_cell_that_fits_nowhere_on_its_map_is_said() {
         panic!("{end:?}");
     };
     assert!(why.contains("fits nowhere"), "{why}");
+    assert_eq!(mouse.belief(), [], "it is still lost");
 }
 
 #[test]
