@@ -12,7 +12,7 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
-use crate::{docs, fuzz, golden, layers, mazes, prose, python};
+use crate::{docs, fuzz, golden, layers, mazes, mutants, prose, python};
 
 /// How a step went when it did not fail.
 pub(crate) enum Outcome {
@@ -72,9 +72,19 @@ const STEPS: &[Step] = &[
 const THOROUGH: &[Step] = &[
     ("fuzz", fuzz_targets),
     ("fuzzing", || passed(fuzz::run(FUZZING, 1, &[]))),
+    // Programs that are killed, or misbehave, again and again.
+    ("endurance", || {
+        passes(
+            "test --workspace --all-features --test cli --quiet -- --ignored a_thousand a_hundred",
+        )
+    }),
+    ("mutants", || mutants::check(MUTANTS, &[])),
     ("golden, all", || passed(golden::run(&[], false))),
     ("python", python::check),
 ];
+
+/// Some thirty changes of the code, of all crates that are changed.
+const MUTANTS: mutants::Shard = mutants::Shard { first: 0, of: 400 };
 
 /// How long all readers get mutated files, seconds.
 const FUZZING: u64 = 600;

@@ -79,14 +79,18 @@ impl<'a> Fields<'a> {
         Ok(bytes)
     }
 
+    fn array<const N: usize>(&mut self) -> McapResult<[u8; N]> {
+        let (bytes, rest) = self.0.split_first_chunk().ok_or(McapError::UnexpectedEof)?;
+        self.0 = rest;
+        Ok(*bytes)
+    }
+
     fn number(&mut self) -> McapResult<u16> {
-        let bytes = self.bytes(2)?;
-        Ok(u16::from_le_bytes([bytes[0], bytes[1]]))
+        Ok(u16::from_le_bytes(self.array()?))
     }
 
     fn text(&mut self) -> McapResult<String> {
-        let size = self.bytes(4)?;
-        let size = u32::from_le_bytes([size[0], size[1], size[2], size[3]]);
+        let size = u32::from_le_bytes(self.array()?);
         let bytes = self.bytes(size as usize)?;
         Ok(String::from_utf8_lossy(bytes).into_owned())
     }
@@ -172,7 +176,7 @@ impl Reader {
     fn take(&mut self, topic: &str, kind: &str, data: &[u8]) {
         let number = self.report.lines;
         let taken = match kind {
-            SCAN if self.is_first(0, topic) => decode(data).map(|scan| {
+            SCAN if is_first(&mut self.topics[0], topic) => decode(data).map(|scan| {
                 let topic = topic.to_owned();
                 self.scans.push(PlacelessScan {
                     number,
@@ -180,7 +184,7 @@ impl Reader {
                     scan,
                 });
             }),
-            ODOMETRY if self.is_first(1, topic) => {
+            ODOMETRY if is_first(&mut self.topics[1], topic) => {
                 decode(data).map(|odometry| self.moved(number, odometry))
             }
             TRANSFORMS if topic.ends_with("tf_static") => {
@@ -197,11 +201,6 @@ impl Reader {
         if let Err(what) = taken {
             self.report.met_trouble(LogTrouble::Cut, number, what);
         }
-    }
-
-    /// Returns whether a topic is the one that is read of its kind: the first that was met.
-    fn is_first(&mut self, kind: usize, topic: &str) -> bool {
-        self.topics[kind].get_or_insert_with(|| topic.to_owned()) == topic
     }
 
     fn moved(&mut self, number: u64, odometry: Odometry) {
@@ -280,4 +279,8 @@ impl Reader {
             scan,
         })
     }
+}
+/// Returns whether a topic is the one that is read of its kind: the first that was met.
+fn is_first(first: &mut Option<String>, topic: &str) -> bool {
+    first.get_or_insert_with(|| topic.to_owned()) == topic
 }

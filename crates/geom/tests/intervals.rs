@@ -230,10 +230,29 @@ proptest! {
                 }
             }
         }
+        let widened = PointBox::new(
+            turned.x.widened(1e-9).unwrap(),
+            turned.y.widened(1e-9).unwrap(),
+        );
+        prop_assert!(widened.encloses(touched), "{:?} misses {:?}", turned, touched);
         // 400 steps of at most 0.0075 rad miss an extreme of a circle of at most 33 m by under a
         // millimetre.
         prop_assert!(turned.x.width() - touched.x.width() < 2e-3);
         prop_assert!(turned.y.width() - touched.y.width() < 2e-3);
+    }
+
+    /// Where a circle crosses an axis the sign of its slope is not certain.
+    #[test]
+    fn what_lies_on_an_axis_turns_about_nothing_but_the_angle(
+        radius in 0.1..20.0, quarters in -9..9_i32, off in 0.0..1e-15,
+    ) {
+        for point in [Point::new(radius, 0.0), Point::new(-radius, 0.0), Point::new(0.0, radius), Point::new(0.0, -radius)] {
+            let angle = 0.5 * PI * f64::from(quarters);
+            let turned = PointBox::of(point).unwrap().rotated(interval(angle, angle + off));
+            let pose = Pose::new(Point::origin(), Heading::from_radians(angle));
+            let about = PointBox::about(pose.transform(point), 1e-12).unwrap();
+            prop_assert!(about.encloses(turned), "{:?}", turned);
+        }
     }
 
     #[test]
@@ -290,6 +309,12 @@ fn headings_a_full_circle_apart_are_the_same() {
     assert!(around(180.0).contains(seam) && around(540.0).contains(seam));
     assert!(around(180.0).intersection(around(-178.0)).is_some());
     assert!(around(180.0).intersection(around(90.0)).is_none());
+    let seam = around(170.0).hull(around(-170.0)).heading;
+    let expect = interval(170_f64.to_radians() - 0.1, 190_f64.to_radians() + 0.1);
+    assert!(
+        expect.widened(1e-12).unwrap().encloses(seam)
+            && seam.widened(1e-12).unwrap().encloses(expect)
+    );
     // Two wide arcs agree on both sides of the circle.
     let wide = |degrees: f64| {
         PoseBox::new(
@@ -324,13 +349,50 @@ fn missing_bounds_stay_missing() {
         Some(Interval::UNBOUNDED)
     );
     assert_eq!(interval(-3.0, -1.0).sqrt(), None);
+    assert_eq!(
+        interval(1.0, 2.0).checked_div(half).map(Interval::low),
+        Some(0.0)
+    );
+    assert_eq!(
+        (-half).checked_div(interval(1.0, 2.0)),
+        Some(interval(f64::NEG_INFINITY, (-1_f64).next_up()))
+    );
+    assert_eq!((-half).middle().to_bits(), (-2_f64).to_bits());
+    assert_eq!(Interval::UNBOUNDED.middle().to_bits(), 0);
     assert!((half.middle() - 2.0).abs() < 1e-12 && half.width().is_infinite());
     // A sum that overflows has no upper bound, but still a lower one.
     let most = Interval::of(f64::MAX).unwrap();
     assert_eq!(most + most, interval(f64::MAX, f64::INFINITY));
+    // A half-plane's edge may turn anywhere about the origin.
+    let beyond = PointBox::new(half, Interval::ZERO);
+    assert!(!beyond.is_bounded() && !PointBox::new(Interval::ZERO, half).is_bounded());
+    for point in [Point::new(2.0, 0.1), Point::new(1e9, 1e8)] {
+        assert!(beyond.rotated(interval(0.0, 0.1)).contains(point));
+    }
     let lost = PoseBox::new(PointBox::UNBOUNDED, Interval::UNBOUNDED);
     assert!(lost.compose(lost).contains(Pose::IDENTITY));
     assert!(lost.inverse().contains(Pose::IDENTITY));
+}
+
+/// 2²⁰ quarter turns are told apart; there is nothing to know of sines farther out.
+#[test]
+fn sines_of_many_turns_are_known_up_to_a_limit() {
+    for angle in [1.647e6, -1.647e6] {
+        let angles = Interval::of(angle).unwrap();
+        assert!(angles.sin().width() < 1e-12 && angles.cos().width() < 1e-12);
+        let beyond = Interval::of(angle + angle.signum() * 200.0).unwrap();
+        assert_eq!(
+            (beyond.sin(), beyond.cos()),
+            (interval(-1.0, 1.0), interval(-1.0, 1.0))
+        );
+    }
+}
+
+#[test]
+fn intervals_are_shown_with_the_decimals_asked_for() {
+    assert_eq!(format!("{:.1}", interval(0.26, 7.0)), "[0.3, 7.0]");
+    assert_eq!(format!("{}", interval(0.25, 7.0)), "[0.25, 7]");
+    assert_eq!(format!("{:?}", interval(0.25, 7.0)), "[0.25, 7.0]");
 }
 
 #[test]

@@ -3,7 +3,13 @@ use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 use crate::TooLarge;
 
 /// Everywhere a mouse can be that has lost its way in a maze it knows in part, of up to `N` × `N`
-/// cells, `N` ≤ 32.
+/// cells, `N` ≤ 32. A larger `N` does not compile:
+///
+/// ```compile_fail
+/// # use tolman_maze::Grid;
+/// # use tolman_planners::PoseSet;
+/// PoseSet::<33>::anywhere(Grid::new(3, 1)).ok();
+/// ```
 ///
 /// Every cell and heading is possible at first. What the mouse sees and does then rules poses out:
 /// those with a wall known where it sees none, or the other way round. Directions are the mouse's

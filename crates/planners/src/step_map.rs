@@ -2,7 +2,13 @@ use tolman_maze::{Cell, Direction};
 
 use crate::Passages;
 
-/// How many cells away the nearest of some cells is, for every cell of a maze of up to `N` × `N`.
+/// How many cells away the nearest of some cells is, for every cell of a maze of up to `N` × `N`,
+/// `N` ≤ 255. A larger `N` does not compile:
+///
+/// ```compile_fail
+/// # use tolman_planners::{Passages, StepMap};
+/// let _: fn(&Passages<300>) -> StepMap<300> = |passages| StepMap::new(passages, []);
+/// ```
 ///
 /// What a mouse follows that drives from cell to cell: always to a neighbour with a smaller number.
 ///
@@ -29,6 +35,7 @@ impl<const N: usize> StepMap<N> {
     /// Breadth-first search from `targets`; those outside of `N` × `N` cells are left out. O(N²).
     #[must_use]
     pub fn new(passages: &Passages<N>, targets: impl IntoIterator<Item = Cell>) -> Self {
+        const { assert!(N <= 255, "16 bits count the steps through all cells") };
         let mut map = Self {
             steps: [[NEVER; N]; N],
         };

@@ -109,7 +109,10 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
 
     fn encoders(&mut self) -> Result<[u16; 2], SerialError> {
         // Signed or not, the lower sixteen bits are the counter.
-        Ok(numbers(self.ask("Q", "q")?)?.map(|counter| counter as u16))
+        Ok(numbers(self.ask("Q", "q")?)?.map(|counter: i32| {
+            let [low, high, ..] = counter.to_le_bytes();
+            u16::from_le_bytes([low, high])
+        }))
     }
 
     /// Sets the speeds of the wheels, encoder steps a second, and sees that they are set.
@@ -207,13 +210,13 @@ impl<P: Read + Write, W: FnMut(Duration)> Robot for SerialEpuck<P, W> {
         };
         match step() {
             Ok((proximity, counters)) => {
-                let turned = |side: usize| {
-                    let steps = counters[side].wrapping_sub(self.counters[side]) as i16;
-                    f64::from(steps) * ENCODER_STEP
+                let turned = |now: u16, before: u16| {
+                    f64::from(now.wrapping_sub(before).cast_signed()) * ENCODER_STEP
                 };
+                let ([left, right], before) = (counters, self.counters);
                 self.sensing.encoders = Some(WheelTurns {
-                    left: turned(0),
-                    right: turned(1),
+                    left: turned(left, before[0]),
+                    right: turned(right, before[1]),
                 });
                 self.counters = counters;
                 self.sensing.proximity = Some(proximity);
@@ -384,7 +387,7 @@ mod tests {
             SerialEpuck::open(Script::new(&script), 100_000, |time| waited += time).unwrap();
         robot.step(&AHEAD).unwrap();
         let sensing = *robot.sensing();
-        assert_eq!(sensing.proximity.unwrap().map(|value| value as u32)[7], 80);
+        assert!((sensing.proximity.unwrap()[7] - 80.0).abs() < 1e-9);
         // From 65530 over 0 to 4, and from -6 to 94.
         let turns = sensing.encoders.unwrap();
         assert!(

@@ -49,10 +49,7 @@ pub fn keep(parent: u32, words: &[String]) -> io::Result<u8> {
     };
     let waited = release_pipes().and_then(|()| wait(&mut child, &[&host, &asked.into()]));
     end_descendants();
-    Ok(match waited? {
-        Some(status) => code(status),
-        None => 128 + SIGTERM as u8,
-    })
+    Ok(code(waited?.unwrap_or(ExitStatus::from_raw(SIGTERM))))
 }
 
 fn pid(raw: u32) -> Option<Pid> {
@@ -100,8 +97,9 @@ fn wait(child: &mut Child, others: &[&std::os::fd::OwnedFd]) -> io::Result<Optio
         if let Some(status) = child.try_wait()? {
             return Ok(Some(status));
         }
-        if events[..others.len()]
+        if events
             .iter()
+            .take(others.len())
             .any(|event| !event.revents().is_empty())
         {
             return Ok(None);

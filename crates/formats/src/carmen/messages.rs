@@ -26,7 +26,7 @@ pub(crate) fn front_laser(
     let noted = fields.pose("the laser's pose")?;
     let odometry = fields.pose("the odometry")?;
     let time = fields.number("the time")?;
-    let ring = parameters.ring(ranges.len() as u32);
+    let ring = parameters.ring(beams(&ranges));
     let robot_from_laser = parameters.robot_from_laser(odometry, noted);
     let scan = LogScan {
         line,
@@ -40,6 +40,11 @@ pub(crate) fn front_laser(
         },
     };
     Ok(ReadScan::of(scan, &ranges))
+}
+
+/// Returns the number of beams: [`MOST_BEAMS`] at most.
+fn beams(ranges: &[Option<f64>]) -> u32 {
+    u32::try_from(ranges.len()).unwrap_or(u32::MAX)
 }
 
 /// Fields behind the ranges of a ROBOTLASER1 of the older age: two poses, four of velocity and
@@ -64,7 +69,7 @@ pub(crate) fn robot_laser(line: u64, fields: &mut Fields<'_>) -> Result<ReadScan
     fields.pass(if is_newer { 5 } else { 4 }, "a velocity")?;
     let time = fields.number("the time")?;
     let ring = Ring {
-        beams: ranges.len() as u32,
+        beams: beams(&ranges),
         first_bearing,
         spacing,
         max_range: match max_range > 0.0 {

@@ -99,7 +99,8 @@ mod tests {
     #[test]
     fn lines_are_numbered_and_long_ones_passed_over() {
         let mut bytes = b"one\n\xff\xfe\n".to_vec();
-        bytes.resize(bytes.len() + 3 * LONGEST as usize, b'x');
+        let more = usize::try_from(3 * LONGEST).unwrap();
+        bytes.resize(bytes.len() + more, b'x');
         bytes.extend(b"\n last");
         let mut lines = NumberedLines::new(&bytes[..]);
         assert_eq!(lines.next_line(), Some((1, Line::Text("one"))));

@@ -112,17 +112,17 @@ impl<R: BufRead> LogReader<R> {
 
     /// Counts an entry, and looks at its time.
     fn count(&mut self, entry: &LogEntry) {
-        let (line, time, kind) = match entry {
+        let (line, time, last) = match entry {
             LogEntry::Odometry(odometry) => {
                 self.report.odometry += 1;
-                (odometry.line, odometry.time, 0)
+                (odometry.line, odometry.time, &mut self.times[0])
             }
             LogEntry::Scan(scan) => {
                 self.report.scans += 1;
-                (scan.line, scan.time, 1)
+                (scan.line, scan.time, &mut self.times[1])
             }
         };
-        let before = self.times[kind].replace(time);
+        let before = last.replace(time);
         let step = before.map_or(0.0, |before| time - before);
         let trouble = match step {
             _ if step.abs() > JUMP_S => Some(LogTrouble::ClockJump),

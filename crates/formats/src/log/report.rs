@@ -179,7 +179,7 @@ impl fmt::Display for TroubleCount {
             let joint = if index == 0 { "" } else { ";" };
             write!(f, "{joint} line {line} ({what})")?;
         }
-        f.write_str(if self.count as usize > self.first.len() {
+        f.write_str(if self.count > self.first.len() as u64 {
             "; …"
         } else {
             ""

@@ -63,7 +63,7 @@ pub enum GreyMapError {
 }
 
 /// The longest side that is read: more is a torn header, not a map.
-const MOST_SIDE: u64 = 100_000;
+const MOST_SIDE: u32 = 100_000;
 
 impl GreyMap {
     /// Reads a picture. What follows the last value is passed over, as others do. O(bytes).
@@ -79,7 +79,7 @@ impl GreyMap {
         let mut reader = Reader { bytes, at: 2 };
         let width = reader.size("its width", MOST_SIDE)? as usize;
         let height = reader.size("its height", MOST_SIDE)? as usize;
-        let most = reader.size("the value of white", u64::from(u16::MAX))? as u16;
+        let most = reader.size("the value of white", u16::MAX)?;
         let wanted = width * height;
         let values = match plain {
             true => reader.plain(wanted, most)?,
@@ -113,15 +113,18 @@ impl Reader<'_> {
     }
 
     fn skip_line(&mut self) {
-        let rest = self.bytes[self.at..].iter();
+        let rest = self.rest().iter();
         self.at += rest.take_while(|byte| !b"\r\n".contains(byte)).count();
+    }
+
+    fn rest(&self) -> &[u8] {
+        self.bytes.get(self.at..).unwrap_or_default()
     }
 
     /// Returns the next number, if there is one; one too large to hold is the largest.
     fn number(&mut self) -> Option<u64> {
         self.skip_blanks();
-        let rest = self.bytes[self.at..].iter();
-        let digits = rest.take_while(|byte| byte.is_ascii_digit());
+        let digits = self.rest().iter().take_while(|byte| byte.is_ascii_digit());
         let digits: Vec<u64> = digits.map(|digit| u64::from(digit - b'0')).collect();
         self.at += digits.len();
         let value = digits.iter().fold(0_u64, |value, digit| {
@@ -130,19 +133,24 @@ impl Reader<'_> {
         (!digits.is_empty()).then_some(value)
     }
 
-    fn size(&mut self, what: &'static str, most: u64) -> Result<u64, GreyMapError> {
+    /// Returns the next number, which is to lie within 1 … `most`.
+    fn size<T: Copy + TryFrom<u64> + Into<u64>>(
+        &mut self,
+        what: &'static str,
+        most: T,
+    ) -> Result<T, GreyMapError> {
         self.skip_blanks();
-        let byte = self.at;
-        let number = self.number().ok_or(GreyMapError::Number { byte, what })?;
-        match (1..=most).contains(&number) {
-            true => Ok(number),
-            false => Err(GreyMapError::Range {
+        let (byte, most) = (self.at, most.into());
+        let value = self.number().ok_or(GreyMapError::Number { byte, what })?;
+        let in_range = (1..=most).contains(&value).then_some(value);
+        in_range
+            .and_then(|value| T::try_from(value).ok())
+            .ok_or(GreyMapError::Range {
                 byte,
                 what,
-                value: number,
+                value,
                 most,
-            }),
-        }
+            })
     }
 
     /// Returns the values as words. A value takes two bytes or more, so that no header asks for
@@ -153,8 +161,7 @@ impl Reader<'_> {
             self.skip_blanks();
             let byte = self.at;
             match self.number() {
-                Some(value) if value <= u64::from(most) => values.push(value as u16),
-                Some(value) => return Err(GreyMapError::TooBright { byte, value, most }),
+                Some(value) => values.push(shade(byte, value, most)?),
                 None => return Err(self.ended(byte, values.len(), wanted)),
             }
         }
@@ -193,14 +200,16 @@ impl Reader<'_> {
             let value = bytes
                 .iter()
                 .fold(0, |value, byte| 256 * value + u64::from(*byte));
-            let byte = first + wide * index;
-            match value <= u64::from(most) {
-                true => Ok(value as u16),
-                false => Err(GreyMapError::TooBright { byte, value, most }),
-            }
+            shade(first + wide * index, value, most)
         };
         values.map(value).collect()
     }
+}
+
+/// Returns the value that was read at `byte`, if it is no brighter than white.
+fn shade(byte: usize, value: u64, most: u16) -> Result<u16, GreyMapError> {
+    let shade = u16::try_from(value).ok().filter(|shade| *shade <= most);
+    shade.ok_or(GreyMapError::TooBright { byte, value, most })
 }
 
 #[cfg(test)]

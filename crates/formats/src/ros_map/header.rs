@@ -224,13 +224,12 @@ impl Entry {
 /// Returns the line up to a # that begins it or follows a blank.
 fn without_comment(text: &str) -> &str {
     let mut hashes = text.match_indices('#').map(|(at, _)| at);
+    let before = |at| text.get(..at).unwrap_or(text);
     let comment = hashes.find(|at| {
-        text[..*at]
-            .chars()
-            .next_back()
-            .is_none_or(char::is_whitespace)
+        let last = before(*at).chars().next_back();
+        last.is_none_or(char::is_whitespace)
     });
-    comment.map_or(text, |at| &text[..at])
+    comment.map_or(text, before)
 }
 
 /// Returns a finite number.

@@ -61,7 +61,7 @@ const ENCAPSULATION: usize = 4;
 /// Reads a message; what comes after its last field is left.
 pub(super) fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
     let (head, body) = bytes
-        .split_at_checked(ENCAPSULATION)
+        .split_first_chunk::<ENCAPSULATION>()
         .ok_or("a message of less than four bytes")?;
     let decoded = match head[1] & 1 {
         1 => cdr_encoding::from_bytes::<T, LittleEndian>(body),

@@ -4,7 +4,14 @@ use tolman_planners::TooLarge;
 use super::log::Log;
 use super::{CellRay, RayEnd};
 
-/// What a mouse knows of a maze of at most `N` × `N` cells, `N` ≤ 32, and where it has been.
+/// What a mouse knows of a maze of at most `N` × `N` cells, `N` ≤ 32, and where it has been. A
+/// larger `N` does not compile:
+///
+/// ```compile_fail
+/// # use tolman_maps::wall_map::{ClosedCells, WallMap};
+/// # use tolman_maze::Grid;
+/// WallMap::<33>::new(Grid::new(3, 1), ClosedCells::Possible).ok();
+/// ```
 ///
 /// The last `LOG` walls learned can be forgotten again. Cells that do not lie on the grid are
 /// walled in.

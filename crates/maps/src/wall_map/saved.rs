@@ -42,7 +42,7 @@ impl<const N: usize, const LOG: usize> From<WallMap<N, LOG>> for SavedWallMap {
     fn from(map: WallMap<N, LOG>) -> Self {
         let grid = map.grid();
         let walls = |what: Knowledge| -> Vec<Wall> {
-            let all = (0..grid.wall_count() as u32).map(Wall);
+            let all = (0..).map(Wall).take(grid.wall_count());
             all.filter(|wall| is_inner(grid, *wall) && map.wall(*wall) == what)
                 .collect()
         };

@@ -39,16 +39,16 @@ const fn middle(column: u16) -> usize {
 /// line is the next of `lines`. The start is where the `S` is, looking north.
 pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     let rows = rows(lines)?;
-    let Some((first, _)) = rows.split_first() else {
+    let Some((first, others)) = rows.split_first() else {
         return Err(MazeError::at_start(MazeFault::Empty));
     };
     let width = width(first);
-    let height = rows.len() / 2;
-    for side in [width, height] {
-        if side > usize::from(Grid::MAX_SIDE) {
-            return Err(first.line.fault(0, MazeFault::TooLarge { side }));
-        }
-    }
+    let side = |side: usize| {
+        let small = u16::try_from(side).ok();
+        let small = small.filter(|side| *side <= Grid::MAX_SIDE);
+        small.ok_or_else(|| first.line.fault(0, MazeFault::TooLarge { side }))
+    };
+    let grid = Grid::new(side(width)?, side(rows.len() / 2)?);
     if rows.len() < 3 || rows.len().is_multiple_of(2) {
         let last = rows.last().unwrap_or(first);
         return Err(last
@@ -56,8 +56,6 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
             .fault(0, MazeFault::Unfinished { lines: rows.len() }));
     }
 
-    // Both sides were held to MAX_SIDE above.
-    let grid = Grid::new(width as u16, height as u16);
     let mut reader = Reader {
         maze: Maze::open(grid),
         places: vec![Place::default(); grid.cell_count()],
@@ -66,7 +64,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     };
     // Row y of the cells is line 2 · (height - 1 - y) + 1; the posts to its north are the line
     // before.
-    let rows_of_cells = rows[1..].chunks(2).zip((0..grid.height()).rev());
+    let rows_of_cells = others.chunks(2).zip((0..grid.height()).rev());
     reader.posts(first, grid.height() - 1, Direction::North)?;
     for (pair, y) in rows_of_cells {
         if let [cells, posts] = pair {

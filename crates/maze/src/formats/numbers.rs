@@ -67,8 +67,9 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
         return Err(line.fault(0, fault));
     }
 
-    let cell_at = |cell: Cell| columns[usize::from(cell.x) * side + usize::from(cell.y)];
-    let rows: Vec<Sides> = grid.cells().map(cell_at).collect();
+    let index = |cell: Cell| usize::from(cell.x) * side + usize::from(cell.y);
+    let cell_at = |cell| columns.get(index(cell)).copied();
+    let rows: Vec<Sides> = grid.cells().filter_map(cell_at).collect();
     sides::parsed(grid, &rows)
 }
 

@@ -35,7 +35,13 @@ use crate::TooLarge;
 /// The explorer remembers nothing but whether it has been at the goal; it compares everything else
 /// with `walls` at each call, so walls may be forgotten again at any time.
 ///
-/// `N` is at most 32.
+/// `N` is at most 32. A larger `N` does not compile:
+///
+/// ```compile_fail
+/// # use tolman_maze::Cell;
+/// # use tolman_planners::moves::{MoveExplorer, MoveExplorerConfig};
+/// MoveExplorer::<33>::new(MoveExplorerConfig::tuned(), Cell::new(0, 0)).ok();
+/// ```
 #[derive(Clone, Debug)]
 pub struct MoveExplorer<const N: usize> {
     config: MoveExplorerConfig,
@@ -113,6 +119,7 @@ impl<const N: usize> MoveExplorer<N> {
     /// # Errors
     /// If a weight is out of its range.
     pub fn new(config: MoveExplorerConfig, start: Cell) -> Result<Self, MoveExplorerConfigError> {
+        const { assert!(N <= 32, "a row of cells is a word of 32 bits") };
         config.check()?;
         Ok(Self {
             config,
@@ -276,3 +283,6 @@ fn nearest_goal<const N: usize>(chart: &Chart<N>, at: Cell) -> Option<Cell> {
 fn power(base: f32, exponent: u16) -> f32 {
     (0..exponent).fold(1.0, |power, _| power * base)
 }
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests;

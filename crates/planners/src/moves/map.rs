@@ -8,7 +8,13 @@ use super::sides::Sides;
 use crate::Passages;
 
 /// The fewest steps from every cell of a maze of up to `N` × `N`, `N` ≤ 32, to the nearest of some
-/// cells, and to come from there: a leap can be driven back.
+/// cells, and to come from there: a leap can be driven back. A larger `N` does not compile:
+///
+/// ```compile_fail
+/// # use tolman_planners::Passages;
+/// # use tolman_planners::moves::MoveMap;
+/// let _: fn(&Passages<33>) -> MoveMap<33> = |passages| MoveMap::new(passages, []);
+/// ```
 #[derive(Clone, Debug)]
 pub struct MoveMap<const N: usize> {
     moves: [[u16; N]; N],

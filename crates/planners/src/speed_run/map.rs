@@ -14,7 +14,12 @@ const NEVER: u16 = u16::MAX;
 ///
 /// A run ends in the middle of a goal cell, coming along a straight. It is the best of all that
 /// consist of straights, diagonals and [slalom turns](super::Slalom), in whole milliseconds. What
-/// takes 65.535 s or more counts as out of reach.
+/// takes 65.535 s or more counts as out of reach. A larger `N` does not compile:
+///
+/// ```compile_fail
+/// # use tolman_planners::speed_run::SpeedRunMap;
+/// SpeedRunMap::<33>::new();
+/// ```
 ///
 /// The search is Dijkstra's, backwards from the goals. The model is the same in both directions, so
 /// it drives the runs from the goals to every state turned round. Its queue has buckets no wider

@@ -4,7 +4,17 @@ use super::RunMove;
 use super::config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigError};
 
 /// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N`
-/// cells: 16 for classic ones, 32 for half-size ones.
+/// cells: 16 for classic ones, 32 for half-size ones. No cells, and more, do not compile:
+///
+/// ```compile_fail
+/// # use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
+/// SpeedRunTimes::<0>::new(&SpeedRunConfig::classic()).ok();
+/// ```
+///
+/// ```compile_fail
+/// # use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
+/// SpeedRunTimes::<33>::new(&SpeedRunConfig::classic()).ok();
+/// ```
 ///
 /// Times of straights are rounded up. So a straight never takes longer than its two parts one by
 /// one, and the search need not look at straights that follow straights.
@@ -31,6 +41,12 @@ impl<const N: usize> SpeedRunTimes<N> {
     /// times are too far apart for the search.
     pub fn new(config: &SpeedRunConfig) -> Result<Self, SpeedRunConfigError> {
         const { assert!(N >= 1, "a maze has cells") };
+        const {
+            assert!(
+                N <= 32,
+                "the search keeps a row of cells in a word of 32 bits"
+            )
+        };
         check(config)?;
         let speed = config.turn_speed_mm_s;
         let half_diagonal = config.cell_mm * core::f64::consts::FRAC_1_SQRT_2;

@@ -1,10 +1,13 @@
 //! The mouse's end of the two pipes: a command a line out, a reply a line in.
 
-use std::io::{self, BufRead, Write};
+use std::io::{self, BufRead, Read, Write};
 
 use tolman_maze::{Cell, Direction};
 
 use super::PlayError;
+
+/// Bytes of a reply that are read: no sound one is longer.
+const MOST_BYTES: u64 = 256;
 
 /// Speaks to whatever hosts the mouse.
 #[derive(Debug)]
@@ -32,14 +35,16 @@ impl<R: BufRead, W: Write> Link<R, W> {
     ) -> Result<T, PlayError> {
         self.tell(command)?;
         self.output.flush().map_err(|error| gone(error, command))?;
-        let mut line = String::new();
-        let bytes = self.input.read_line(&mut line);
+        let mut line = Vec::new();
+        let mut input = (&mut self.input).take(MOST_BYTES);
+        let bytes = input.read_until(b'\n', &mut line);
         if bytes.map_err(|error| gone(error, command))? == 0 {
             return Err(PlayError::HostGone {
                 command: command.to_owned(),
                 source: None,
             });
         }
+        let line = String::from_utf8_lossy(&line);
         let reply = line.trim();
         read(reply).ok_or_else(|| PlayError::Reply {
             command: command.to_owned(),
@@ -82,7 +87,7 @@ impl<R: BufRead, W: Write> Link<R, W> {
         self.tell(&format!("setWall {} {} {side}", cell.x, cell.y))
     }
 
-    /// Returns what is still to be written goes out.
+    /// Hands over what is still to be written.
     pub(super) fn close(mut self) -> Result<(), PlayError> {
         self.output.flush().map_err(|error| gone(error, "the end"))
     }

@@ -413,4 +413,19 @@ mod tests {
             assert!(error.contains(part), "{error}");
         }
     }
+
+    #[test]
+    fn a_reply_that_is_no_text_or_never_ends_is_refused() {
+        let heard = |replies: &mut dyn BufRead| {
+            let error = play(replies, io::sink(), io::sink(), Until::Proof).unwrap_err();
+            assert!(matches!(error, PlayError::Reply { .. }), "{error}");
+            error.to_string()
+        };
+        assert!(heard(&mut &b"\xff\xfe\n"[..]).contains('\u{fffd}'));
+        let mut endless = io::BufReader::new(io::repeat(b'1'));
+        assert!(
+            heard(&mut endless).len() < 1000,
+            "its beginning says enough"
+        );
+    }
 }

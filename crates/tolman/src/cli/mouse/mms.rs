@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use anyhow::Error;
 use tolman_systems::micromouse::Until;
 use tolman_systems::micromouse::mms::{PlayError, play};
 
@@ -15,6 +16,8 @@ pub(super) fn carry_out(until: Until, out: &mut dyn Write) -> Result<(), Failure
         Err(error @ (PlayError::Reply { .. } | PlayError::TooLarge(_))) => {
             Err(error).or_bad_input()
         }
+        // A pipe that a simulator closed is no reader who has seen enough: it is told.
+        Err(error @ PlayError::HostGone { .. }) => Err(Error::msg(error.to_string()).into()),
         Err(error) => Err(error.into()),
     }
 }
