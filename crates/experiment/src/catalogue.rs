@@ -34,7 +34,7 @@ pub struct Tour {
 /// Makes the experiment of a catalogue that bears this name ready.
 ///
 /// # Errors
-/// [`Error::Unknown`] if there is none of that name, or it lacks a table that the options choose;
+/// [`Error::Unknown`] if there is none of that name, or it lacks a table or row that the options choose;
 /// [`Error::FixedRuns`] if such a table has a number of runs of its own and the options ask for
 /// another; [`Error::Open`] if what it needs cannot be read.
 pub fn open(catalogue: &[Entry], name: &str, options: &Options) -> Result<Experiment, Error> {
@@ -44,5 +44,5 @@ pub fn open(catalogue: &[Entry], name: &str, options: &Options) -> Result<Experi
         name: name.to_owned(),
         source,
     })?;
-    experiment.choose(&options.tables)?.with_runs(options)
+    experiment.choose(options)?.with_runs(options)
 }

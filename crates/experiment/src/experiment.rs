@@ -144,26 +144,47 @@ impl Experiment {
         self
     }
 
-    /// Leaves the rows of all tables but those of these names without runs; of no names, fills all.
-    /// The configuration stays, so runs of other tables stay in the folder of results.
+    /// Leaves the tables and rows that the options do not name without runs; where they name none,
+    /// fills all. The configuration stays, so other runs stay in the folder of results.
     ///
     /// # Errors
-    /// [`Error::Unknown`] if it has no table of a name.
-    pub(super) fn choose(mut self, names: &[String]) -> Result<Self, Error> {
-        self.in_part = !names.is_empty();
-        for name in names {
+    /// [`Error::Unknown`] if it has no table or no row of a name; [`Error::EmptyTable`].
+    pub(super) fn choose(mut self, options: &Options) -> Result<Self, Error> {
+        let Options { tables, rows, .. } = options;
+        for name in tables {
             if !self.table(name)?.1.is_shown() {
                 return Err(Error::EmptyTable {
                     table: name.clone(),
                 });
             }
         }
-        for table in &mut self.tables {
-            if self.in_part && !names.contains(&table.name) {
-                table.leave_out();
-            }
+        if !tables.is_empty() {
+            self.leave_out(|table, _| !tables.contains(table));
+        }
+        let shown = self.tables.iter().filter(|table| table.is_shown());
+        let known: Vec<&str> = shown
+            .flat_map(|table| &table.rows)
+            .map(|row| row.name.as_str())
+            .collect();
+        for name in rows {
+            Error::place_of("row", name, known.iter().copied())?;
+        }
+        if !rows.is_empty() {
+            self.leave_out(|_, row| !rows.contains(row));
         }
         Ok(self)
+    }
+
+    /// Leaves rows without runs, by the name of their table and their own.
+    fn leave_out(&mut self, is_left_out: impl Fn(&String, &String) -> bool) {
+        self.in_part = true;
+        for table in &mut self.tables {
+            for row in &mut table.rows {
+                if is_left_out(&table.name, &row.name) {
+                    row.leave_out();
+                }
+            }
+        }
     }
 
     /// Holds the number of runs that the caller asks for against the tables that have one of their

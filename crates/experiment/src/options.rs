@@ -64,6 +64,8 @@ pub struct Options {
     pub out: Option<PathBuf>,
     /// The names of the tables that are filled; all of them if none is named.
     pub tables: Vec<String>,
+    /// The names of the rows that are filled, in each table that has them; all if none is named.
+    pub rows: Vec<String>,
     /// Few runs, for a first look.
     pub quick: bool,
     /// What the command that makes the results again begins with.
@@ -158,6 +160,9 @@ impl Options {
         }
         for table in &self.tables {
             command += &format!(" --table {}", quoted(table));
+        }
+        for row in &self.rows {
+            command += &format!(" --row {}", quoted(row));
         }
         for maze in &self.mazes {
             command += &format!(" --maze {}", quoted(&maze.to_string_lossy()));

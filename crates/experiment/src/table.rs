@@ -57,14 +57,6 @@ impl Table {
         self
     }
 
-    /// Leaves it out.
-    pub(super) fn leave_out(&mut self) {
-        for row in &mut self.rows {
-            row.runs = Some(0);
-            row.missing = None;
-        }
-    }
-
     /// Returns whether it is shown: a row has runs, or would have if its files were here.
     #[must_use]
     pub fn is_shown(&self) -> bool {
@@ -273,6 +265,12 @@ impl Row {
             is_pooled: true,
             ..Self::new(name).runs(0)
         }
+    }
+
+    /// Leaves it without runs.
+    pub(super) fn leave_out(&mut self) {
+        self.runs = Some(0);
+        self.missing = None;
     }
 
     /// Adds a value of the paper that stands without a spread: a percentage, a median, a count.

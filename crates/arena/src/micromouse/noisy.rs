@@ -12,7 +12,7 @@ use tolman_sim::noise::{Fault, Gaussian};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, MotorNoise, RobotConfigError};
 use tolman_sim::{CorridorSize, PlaceError, Solo, StepError, World, WorldError};
 use tolman_systems::micromouse::noisy::{
-    NoisyMouse, NoisyMouseConfig, NoisyMouseError, NoisyNext, PoseSource,
+    MotionSource, NoisyMouse, NoisyMouseConfig, NoisyMouseError, NoisyNext, PoseSource,
 };
 
 use super::{MAX_STEPS, RefereeError, brief};
@@ -75,6 +75,7 @@ impl NoisyConfig {
     fn mouse(&self, robot: &LaserPioneerConfig) -> NoisyMouseConfig {
         NoisyMouseConfig {
             localization: self.localization,
+            motion: MotionSource::Commands,
             filter: self.filter(),
             pitch: SIZE.pitch(),
             wall_thickness: SIZE.wall_thickness,

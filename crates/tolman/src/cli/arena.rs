@@ -24,7 +24,7 @@ use super::{App, Failure, OrBadInput};
 /// Sends systems into worlds of every kind, and judges what they learn and whether they find home
 #[derive(clap::Args)]
 #[command(after_help = "\
-Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam, gng-slam-better, micromouse; random, avoid,
+Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam, gng-slam-better, micromouse, wall-belief; random, avoid,
 wall-follow, oracle and unlocalized-oracle go home alone. `tolman maze generate --list` names the families. The same in tables: tolman experiment arena
 
 Conditions: as-made; wheels-1, wheels-2 and wheels-5 (each wheel off by a constant of up to this many percent), compass-offset, constant-odometry,

@@ -77,6 +77,9 @@ pub(super) struct Choice {
     /// Fill this table alone; may be given several times
     #[arg(long = "table", value_name = "TABLE", requires = "name")]
     tables: Vec<String>,
+    /// Fill this row alone, in each table that has it; may be given several times
+    #[arg(long = "row", value_name = "ROW", requires = "name")]
+    rows: Vec<String>,
     /// Runs at a time, 256 at most, instead of one a core; results do not depend on it
     #[arg(long, value_name = "N")]
     jobs: Option<u32>,
@@ -252,6 +255,7 @@ impl Choice {
             jobs: self.jobs,
             mazes: self.mazes.clone(),
             tables: self.tables.clone(),
+            rows: self.rows.clone(),
             limit: self.limit,
             out: self.out.clone(),
             quick: self.quick,
