@@ -27,6 +27,9 @@ impl Observer {
         let from = track.place;
         let best = choice.matches[0];
         let (to, robot) = match best.candidate {
+            Some(candidate) if best.matcher == Matcher::Beta => {
+                (candidate.place, self.map.place(candidate.place).position)
+            }
             Some(candidate) => (candidate.place, candidate.robot),
             None => self.make_place(projection),
         };

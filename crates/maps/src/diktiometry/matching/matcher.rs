@@ -4,6 +4,7 @@ use super::engine::Chosen;
 use super::view::agrees;
 use crate::diktiometry::{
     Candidate, Config, Diktiometry, Expectation, Identity, PlaceId, Signature, Similarity, Use,
+    WorldKind,
 };
 
 /// How a track came to its place.
@@ -35,6 +36,17 @@ pub(crate) struct Situation<'a> {
     pub(crate) traversals: u32,
     /// The track's confidence.
     pub(crate) confidence: f64,
+}
+
+impl Situation<'_> {
+    /// Returns whether the robot is at a place that it cannot be at by its odometry. In a world
+    /// where an action leads to one place, what contradicts that is an outlier.
+    fn is_led_to(&self, candidate: &Candidate, look: Similarity) -> bool {
+        candidate.expectation == Expectation::Expected
+            && look == Similarity::Alike
+            && self.config.world == WorldKind::Static
+            && self.config.matching.identity == Identity::Certain
+    }
 }
 
 /// What a candidate turned out to be.
@@ -113,6 +125,9 @@ fn applicable(
         if config.matching.identity == Identity::Meets || expected || near {
             return Applicable::Matcher(Matcher::Alpha);
         }
+    }
+    if config.matching.beta == Use::On && situation.is_led_to(candidate, look) {
+        return Applicable::Matcher(Matcher::Beta);
     }
     let reach = config.matching.beta_reach * situation.astray;
     let near = candidate.offset.norm().low() <= config.separation.min(reach);
