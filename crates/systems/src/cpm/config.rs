@@ -14,6 +14,11 @@ pub struct CpmConfig {
     /// Maximum number of fragments walked before the explorer gives up and says so. A robot that
     /// recognizes nothing lengthens its map with each, and nothing else ends its exploration.
     pub most_traversals: u32,
+    /// How often a robot that [checks](super::Aim::Check) its map walks each fragment at least,
+    /// each dead end inwards, before it says that the map is right: what is wrong shows when it is
+    /// walked again. 0 in the paper.
+    #[serde(default)]
+    pub checks: u32,
 }
 
 /// What a robot does online at a junction that "has no unknown ports left".
@@ -50,7 +55,10 @@ impl CpmConfig {
     /// Returns all that we know better than the paper: [`CpMapperConfig::robust`].
     #[must_use]
     pub const fn robust() -> Self {
-        Self::with(CpMapperConfig::robust())
+        Self {
+            checks: 2,
+            ..Self::with(CpMapperConfig::robust())
+        }
     }
 
     /// Returns section 4's, offline CPM: [`CpMapperConfig::offline`].
@@ -66,6 +74,7 @@ impl CpmConfig {
             candidates: mapper.candidates,
             onward: Onward::ShortestKnownWay,
             most_traversals: 1000,
+            checks: 0,
         }
     }
 }

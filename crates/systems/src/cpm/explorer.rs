@@ -1,6 +1,6 @@
 use rand::{Rng, RngExt};
 use tolman_maps::cpm::{
-    CpMap, CpMapper, CpmError, Junction, JunctionId, Port, PortState, Sighting, Turn,
+    CpMap, CpMapper, CpmError, Fragment, Junction, JunctionId, Port, PortState, Sighting, Turn,
 };
 use tolman_robot::Landmark;
 
@@ -57,12 +57,15 @@ impl Explorer {
         let leg = match aim {
             Aim::Find(landmark) => self.towards(landmark).or_else(|| self.explore(rng)),
             Aim::Explore => self.explore(rng),
+            Aim::Check => self.explore(rng).or_else(|| self.walk_again(rng)),
             Aim::WayBack => self.way_back(rng),
             Aim::Shortest => self.towards_helpful(rng),
         };
         match (leg, aim) {
             (Some(leg), _) => JunctionDecision::Go(leg),
-            (None, Aim::Explore | Aim::Shortest) => JunctionDecision::Done(Done::Reached),
+            (None, Aim::Explore | Aim::Check | Aim::Shortest) => {
+                JunctionDecision::Done(Done::Reached)
+            }
             (None, _) => JunctionDecision::Done(Done::NotThere),
         }
     }
@@ -72,7 +75,7 @@ impl Explorer {
         let reached = match aim {
             Aim::Find(landmark) => self.map().has(here, landmark),
             Aim::WayBack => self.map().has(here, Landmark::Start),
-            Aim::Explore | Aim::Shortest => false,
+            Aim::Explore | Aim::Check | Aim::Shortest => false,
         };
         reached.then_some(Done::Reached)
     }
@@ -122,6 +125,35 @@ impl Explorer {
         match self.config.onward {
             Onward::ShortestKnownWay => Some(way),
             Onward::GoOn => self.wander(rng),
+        }
+    }
+
+    /// Returns a fragment that was walked too rarely, here or at the nearest place that has one.
+    fn walk_again(&self, rng: &mut impl Rng) -> Option<Leg> {
+        let is_rare = |port: Port| {
+            let end = self.map().end_at(port)?;
+            let Fragment {
+                traversals,
+                minus,
+                plus,
+                ..
+            } = self.map().fragment(end.fragment)?;
+            let is_dead_end = |end: &&Port| self.map().degree(end.junction) == 1;
+            // Out of a dead end it comes as it went in.
+            let walks = match [minus, plus].iter().any(is_dead_end) {
+                true => traversals.div_ceil(2),
+                false => *traversals,
+            };
+            (walks < self.config.checks).then_some(port.number)
+        };
+        let rare = |id: JunctionId| {
+            let ports = 0..self.map().degree(id);
+            ports.filter_map(move |number| is_rare(id.port(number)))
+        };
+        let here: Vec<u32> = rare(self.mapper.at().junction).collect();
+        match choose(&here, rng) {
+            Some(number) => self.leg_to(number, None),
+            None => self.first_leg(|id| rare(id).next().is_some()),
         }
     }
 

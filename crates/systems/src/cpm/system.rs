@@ -52,6 +52,8 @@ pub struct Cpm {
     given_up: u32,
     /// Walks, one by one, in which its map could not be.
     doubtful: u32,
+    /// Walks since its map had no unknown port left.
+    checked: u32,
     rng: ChaCha8Rng,
 }
 
@@ -75,6 +77,9 @@ const APART: f64 = 0.5;
 
 /// Number of walks in a row that contradict a map before it is given up.
 const MOST_DOUBTFUL: u32 = 50;
+
+/// Maximum number of walks that check a map, as a multiple of its fragments.
+const MOST_CHECKS: u32 = 3;
 
 /// Number of maps that are given up before the robot gives up.
 const MOST_MAPS: u32 = 2;
@@ -101,6 +106,7 @@ impl Cpm {
             standing: Stance::Anywhere,
             given_up: 0,
             doubtful: 0,
+            checked: 0,
             rng: ChaCha8Rng::seed_from_u64(seed),
         }
     }
@@ -189,7 +195,7 @@ impl Cpm {
         let patterns = self.patterns.clone();
         let layer = Layer3::begin(&mut walker, patterns, self.novelty, self.config)?;
         self.trail.begin(layer.explorer().mapper.at());
-        self.doubtful = 0;
+        (self.doubtful, self.checked) = (0, 0);
         self.layer = Some(layer);
         self.standing = Stance::AtPlace(Box::new(walker.rest()));
         Ok(Standing::UnderWay)
@@ -279,7 +285,7 @@ impl Cpm {
         };
         layer.optimize()?;
         let walked = layer.explorer().mapper.traversals();
-        let is_found = done == Done::Reached && aim != Aim::Explore;
+        let is_found = done == Done::Reached && !matches!(aim, Aim::Explore | Aim::Check);
         if let Some(doubt) = self.doubt().filter(|_| !is_found) {
             return Ok(self.begin_anew(doubt));
         }
@@ -292,6 +298,22 @@ impl Cpm {
                 "it has walked {walked} fragments, as many as it may"
             )),
         })
+    }
+
+    /// Returns what to explore for: a map is checked until that has taken [`MOST_CHECKS`] times as
+    /// many walks as it has fragments.
+    fn exploration_aim(&mut self) -> Aim {
+        let Some(Explorer { mapper, .. }) = self.explorer() else {
+            return Aim::Explore;
+        };
+        let is_open = |place: &Junction| place.open_ports().next().is_some();
+        let is_whole = !mapper.map().junctions().any(|(_, place)| is_open(place));
+        let most = MOST_CHECKS * mapper.map().fragments().len() as u32;
+        if self.config.checks == 0 || self.checked >= most {
+            return Aim::Explore;
+        }
+        self.checked += u32::from(is_whole);
+        Aim::Check
     }
 
     /// Returns why its map is not to be believed, as far as it can tell.
@@ -474,7 +496,10 @@ impl<R: CpmRobot> System<R> for Cpm {
                 self.standing = Stance::AtPlace(resting);
                 Ok(Standing::Done)
             }
-            (Stance::AtPlace(resting), Task::Explore) => self.pursue(robot, *resting, Aim::Explore),
+            (Stance::AtPlace(resting), Task::Explore) => {
+                let aim = self.exploration_aim();
+                self.pursue(robot, *resting, aim)
+            }
             (Stance::AtPlace(resting), Task::Reach(goal)) => self.reach(robot, *resting, goal),
             (lost, task) => {
                 self.standing = lost;
