@@ -179,6 +179,7 @@ pub(super) fn rows() -> Vec<FreshRow> {
         painted("spiral", |rng| spiral((8, 8), rng)),
         painted("ring", |rng| ring((8, 8), rng)),
         painted("office floor", |rng| office((8, 6), rng))
+            .heed(1.0)
             .furnished(BARE)
             .by_exits(),
     ]
@@ -264,7 +265,7 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
             "Each run draws its own world from its seed, the same for all rows of a kind. 5x5, 7x7 and 20x20 are blocks with a quarter of \
              the ways walled up, all places alike; 700, 3000 and 6000 moves. Doorways: a fifth of the passages, walls of eight colours. Ladders \
              (corridors of that many cells), eights, spirals and rings have walls of eight colours, the office floor has one; 1000 moves with \
-             scripts. Scripts are begun with a chance of 30 %, in 20x20 always. Constant error: odometry and compass are wrong by the same \
+             scripts. Scripts are begun with a chance of 30 %, in 20x20 and in the office floor always. Constant error: odometry and compass are wrong by the same \
              all along. Paper's rule: a place is known again if boxes meet, and places merge by their estims. The row of all runs has those by \
              the paper's rule, too.",
         )
