@@ -6,6 +6,7 @@ mod msrv;
 mod outside;
 
 use core::time::Duration;
+use std::env;
 use std::process::Command;
 use std::time::Instant;
 
@@ -35,11 +36,6 @@ const STEPS: &[Step] = &[
         passes("clippy --workspace --all-features --all-targets --quiet -- --deny warnings")
     }),
     ("tests", tests),
-    ("browser", || {
-        if_installed("chromium", || {
-            passes("test --workspace --all-features --test browser --quiet -- --ignored")
-        })
-    }),
     ("doc tests", || {
         passes("test --workspace --all-features --doc --quiet")
     }),
@@ -57,6 +53,8 @@ const STEPS: &[Step] = &[
     ("api docs", || passed(docs::api())),
     ("golden", || passed(golden::run_quick())),
     ("commands", commands),
+    // It looks at the pages that golden runs and commands have left, too.
+    ("browser", || if_installed("chromium", browser)),
     ("bare metal", bare_metal::check),
     ("firmware", firmware::check),
     ("msrv", msrv::check),
@@ -140,6 +138,14 @@ fn commands() -> Result<Outcome> {
     // For the whole workspace, so that what the tests have compiled serves.
     let mut test = cargo("test --workspace --all-features --test commands --quiet -- --ignored");
     passed(succeed(test.env("TOLMAN", built("tolman")?.get_program())))
+}
+
+/// The pages in a browser, those of golden runs and of shown commands among them.
+fn browser() -> Result<Outcome> {
+    let target = workspace::target_folder()?;
+    let folders = [target.join("golden"), target.join("tmp").join("commands")];
+    let mut test = cargo("test --workspace --all-features --test browser --quiet -- --ignored");
+    passed(succeed(test.env("TOLMAN_PAGES", env::join_paths(folders)?)))
 }
 
 /// Running the fuzz targets takes a nightly compiler; that they still build takes none.

@@ -13,7 +13,7 @@ use clap::builder::PossibleValue;
 use rayon::prelude::*;
 use serde::Serialize;
 use tolman_arena::contest::{
-    Condition, Contest, ContestError, ContestRecord, ContestRobot, Contestant, LearnRecord,
+    Claim, Condition, Contest, ContestError, ContestRecord, ContestRobot, Contestant, LearnRecord,
     LocateOutcome, Located, Schooling,
 };
 use tolman_experiment::choices;
@@ -123,6 +123,8 @@ struct Line<'a> {
     abstained: Option<&'a str>,
     right: Option<bool>,
     right_of_visited: Option<bool>,
+    /// What the system makes of its map.
+    says: Option<&'static str>,
     purity: Option<f64>,
     link_recall: Option<f64>,
     metres_over_corridors: Option<f64>,
@@ -293,6 +295,11 @@ fn line<'a>(
         abstained: record.abstained.as_deref(),
         right: judged.map(|judged| judged.is_right),
         right_of_visited: judged.map(|judged| judged.is_right_of_visited),
+        says: learned.map(|learned| match learned.claim {
+            Claim::Right => "right",
+            Claim::Wrong => "wrong",
+            Claim::Undecided => "undecided",
+        }),
         purity: judged.and_then(|judged| judged.purity),
         link_recall: judged.map(|judged| judged.link_recall),
         bytes_per_place: learned.and_then(LearnRecord::bytes_per_place),
