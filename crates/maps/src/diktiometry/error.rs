@@ -10,25 +10,25 @@ pub enum ObservedMoveError {
     /// The robot has no such action.
     #[error("action {} is not one of the {actions} of the configuration", action.0)]
     UnknownAction {
-        /// What the move names.
+        /// Action that the move names.
         action: Action,
-        /// How many there are.
+        /// Number of actions in the configuration.
         actions: usize,
     },
     /// An exit names no action.
     #[error("exit {} is not one of the {actions} actions of the configuration", action.0)]
     UnknownExit {
-        /// What the exits name.
+        /// Action that the exits name.
         action: Action,
-        /// How many there are.
+        /// Number of actions in the configuration.
         actions: usize,
     },
-    /// A bound is missing: the odometry says nothing.
+    /// The odometry has an infinite bound.
     #[error(
         "the odometry {odometry:?} has no bound on some side; give one, or tell no move until the robot knows"
     )]
     Unbounded {
-        /// What the move says.
+        /// Odometry of the move.
         odometry: PoseBox,
     },
     /// The percept is not of the configured form.
@@ -57,7 +57,7 @@ pub enum StartError {
     /// The configuration is invalid.
     #[error("the configuration is out of its bounds")]
     Config(#[from] DiktiometryConfigError),
-    /// What the robot sees at first does not fit the configuration.
+    /// The view of the first place does not fit the configuration.
     #[error("what the robot sees at the start does not fit the configuration")]
     Start(#[from] ObservedMoveError),
 }

@@ -10,12 +10,11 @@ use super::{
     StartError,
 };
 
-/// All that an observer was told, in order. What it decided follows from that, to the bit: to
-/// replay the journal is to decide again.
+/// All input of an observer, in order. Replaying it repeats all decisions bit for bit.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Journal {
-    /// How it began.
+    /// The first place.
     pub start: FirstPlace,
     /// The moves.
     pub moves: Vec<ObservedMove>,
@@ -43,9 +42,9 @@ pub enum UndoError {
     /// There are not that many moves.
     #[error("{asked} moves cannot be undone, there are only {moves}")]
     TooFar {
-        /// How many were to be undone.
+        /// Number of moves that should be undone.
         asked: u64,
-        /// How many there are.
+        /// Number of moves in the journal.
         moves: u64,
     },
     /// One of the places was never made.
@@ -63,7 +62,7 @@ pub enum JournalError {
     /// A move is invalid.
     #[error("move {number} of the journal is refused")]
     Move {
-        /// Which, from 1.
+        /// Number of the move, from 1.
         number: usize,
         /// The underlying error.
         source: ObservedMoveError,
@@ -71,7 +70,7 @@ pub enum JournalError {
 }
 
 impl Observer {
-    /// Returns what the observer was told so far, or `None` if no journal is kept.
+    /// Returns all input so far, or `None` if no journal is kept.
     #[must_use]
     pub fn journal(&self) -> Option<&Journal> {
         (self.config.journal == JournalLength::All).then_some(&self.journal)
@@ -110,9 +109,8 @@ impl Observer {
         Ok(())
     }
 
-    /// Takes back that two places were taken for one: all moves are gone through again, with the
-    /// knowledge that the two are different. Of `merged` in a
-    /// [`Restructured::Merged`](super::Restructured::Merged) this is the undoing of that one
+    /// Undoes the merge of two places: replays all moves, knowing that the two are different. For
+    /// `merged` of a [`Restructured::Merged`](super::Restructured::Merged) it undoes that one
     /// decision. Places made later may get other ids. O(moves).
     ///
     /// # Errors

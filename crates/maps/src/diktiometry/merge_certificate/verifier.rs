@@ -70,7 +70,7 @@ pub enum MergeCertificateError {
     TooWide {
         /// Number of the certificate.
         number: usize,
-        /// The most that the two may be apart, m.
+        /// Maximum distance between the two, m.
         most: f64,
         /// The least that two places are, m.
         least: f64,
@@ -90,9 +90,9 @@ pub enum MergeCertificateError {
     Chance {
         /// Number of the certificate.
         number: usize,
-        /// As it says.
+        /// Stated in the certificate.
         stated: f64,
-        /// As it is.
+        /// Found by the checker.
         found: f64,
     },
 }
@@ -132,7 +132,7 @@ struct Verifier<'a> {
     config: &'a Config,
     journal: &'a Journal,
     identities: Identities<'a>,
-    /// What of it holds without looks.
+    /// Identities that hold without looks.
     proven: Identities<'a>,
 }
 
@@ -267,7 +267,7 @@ impl Verifier<'_> {
     }
 }
 
-/// Returns how far apart the places of two visits are at the least if they are two, m.
+/// Returns the minimum distance between the places of two visits if they are different, m.
 pub(super) fn least_distance([one, other]: [usize; 2], config: &Config, journal: &Journal) -> f64 {
     let may_be_alike = match config.percepts {
         Percepts::None => true,
