@@ -15,7 +15,7 @@ use super::{
 };
 use crate::pose_graph::{PoseEdgeKind, PoseGraph};
 
-/// How far a number of a certificate may lie from what it is measured to be again, as a share.
+/// Maximum relative difference between a number of a certificate and its new measurement.
 const ROUNDING: f64 = 1e-7;
 
 /// Reason why a certificate does not hold.
@@ -56,11 +56,11 @@ pub enum AuditCertificateError {
     Number {
         /// The edge.
         edge: u32,
-        /// Which number.
+        /// Name of the number.
         what: &'static str,
-        /// What the certificate says.
+        /// The certificate's value.
         told: f64,
-        /// What is measured.
+        /// The measured value.
         measured: f64,
     },
     /// The cycle that should refute a closure is within its bound.
@@ -116,9 +116,9 @@ pub enum AuditCertificateError {
     /// The number of runs is another.
     #[error("the closures are said to make up {told} runs; the graph gives {measured}")]
     Runs {
-        /// What the audit says.
+        /// The audit's value.
         told: u32,
-        /// What the graph gives.
+        /// The graph's value.
         measured: u32,
     },
     /// The run is another.
@@ -126,9 +126,9 @@ pub enum AuditCertificateError {
     Run {
         /// The edge.
         edge: u32,
-        /// What the certificate says.
+        /// The certificate's value.
         told: u32,
-        /// What the graph gives.
+        /// The graph's value.
         measured: u32,
     },
 }
@@ -155,10 +155,14 @@ impl AuditCertificateError {
     }
 }
 
-/// Checks every cycle of an audit again, from the graph alone: that it is one, its numbers, on
-/// which side of its bound it lies, and that it leads over nothing but odometry and closures that
-/// are themselves supported, of runs that are not counted yet. That no other cycle agrees with a
-/// refuted closure cannot be checked so. Undecided closures are passed over.
+/// Checks every cycle of an audit again, from the graph alone. It checks that:
+///
+/// - it is a cycle, with the stated numbers and on the stated side of its bound;
+/// - it leads over odometry and supported closures only;
+/// - these closures are of runs that are not counted yet.
+///
+/// It cannot check that no other cycle agrees with a refuted closure. Undecided closures are
+/// skipped.
 ///
 /// # Errors
 /// [`AuditCertificateError`] of the first certificate that does not hold.

@@ -14,7 +14,7 @@ use super::{FeatureError, FeatureGroup, FeatureWeights, ImageFeature, PlaceRecor
 pub struct FeatureSpace {
     pub(super) parts: Vec<Part>,
     pub(super) camera: Option<PinholeCamera>,
-    /// Where images are told by coordinates instead of by pixels.
+    /// Basis for images that are stored as coordinates instead of pixels.
     pub(super) span: Option<RecordSpan>,
 }
 
@@ -24,9 +24,9 @@ pub struct FeatureSpace {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct Part {
     pub(super) group: FeatureGroup,
-    /// How many values it has in the vector.
+    /// Number of its values in the vector.
     pub(super) len: usize,
-    /// What its values are multiplied by.
+    /// Factor of its values.
     pub(super) scale: f32,
 }
 
@@ -76,7 +76,7 @@ fn picture_of(of: &PlaceRecord, record: usize) -> Result<&Picture, FeatureError>
 }
 
 impl FeatureSpace {
-    /// Returns how many values a vector of features has.
+    /// Returns the number of values in a vector of features.
     #[must_use]
     pub fn dimension(&self) -> usize {
         self.parts.iter().map(|part| part.len).sum()

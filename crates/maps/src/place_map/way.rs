@@ -5,7 +5,7 @@ use tolman_quantizers::UnitId;
 
 use super::PlaceMap;
 
-/// What a link costs where the map does not know how long it is, mm.
+/// Cost of a link of unknown length, mm.
 const UNKNOWN_LENGTH: u32 = 1000;
 
 impl PlaceMap {
