@@ -5,7 +5,7 @@ use tolman_maze::Wall;
 #[derive(Clone, Copy, Debug, Eq)]
 pub(super) struct Log<const LOG: usize> {
     entries: [Entry; LOG],
-    /// Where the next entry goes.
+    /// Index of the next entry.
     next: usize,
     len: usize,
 }
@@ -14,7 +14,7 @@ pub(super) struct Log<const LOG: usize> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Entry {
     wall: u16,
-    /// How many walls of the same observation come before it.
+    /// Number of walls of the same observation before it.
     place: u16,
 }
 

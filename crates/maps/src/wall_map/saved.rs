@@ -6,7 +6,7 @@ use tolman_maze::{Cell, Grid, Knowledge, Wall, Walls};
 
 use super::{ClosedCells, TooLarge, WallMap};
 
-/// A [`WallMap`] as it lies in a file. Any format of serde's will do.
+/// Contents of a [`WallMap`]'s file. Works with any format of serde's.
 ///
 /// ```
 /// use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
@@ -138,7 +138,7 @@ pub enum SavedWallMapError {
         /// Its number.
         wall: u32,
     },
-    /// An observation is remembered of a wall of which nothing is known.
+    /// The log remembers an observation of a wall that is unknown.
     #[error(
         "wall {wall} is remembered, but is neither open nor standing: name it there, or forget it"
     )]
