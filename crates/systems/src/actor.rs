@@ -23,7 +23,7 @@ pub struct Actor<B> {
     before: Before,
 }
 
-/// What came before the next action.
+/// State before the next action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Before {
     /// The robot was put down.

@@ -17,6 +17,7 @@ use tolman_robot::Landmark;
 /// The paper's robot, left in mid-fragment, "continues moving forward until the first junction". It
 /// knows its environment by its fourth layer. This localizer keeps a probability for every place of
 /// every map (a Bayes filter), which each observation, junction and turn updates.
+///
 /// ```
 /// use tolman_maps::cpm::{CpMapperConfig, Dictionary, CpMapper, Localizer, LocalizerConfig, PatternId, Sighting, Traversal, Turn};
 ///

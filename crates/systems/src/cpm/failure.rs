@@ -5,10 +5,10 @@ use tolman_robot::Robot;
 
 use super::walker::WalkError;
 
-/// What CPM does with the body `B`, or why it cannot go on.
+/// Result of CPM's driving of the body `B`, or why it cannot go on.
 pub type CpmResult<T, B> = Result<T, CpmFailure<<B as Robot>::Error>>;
 
-/// Why CPM cannot go on with its robot.
+/// Reason why CPM cannot go on with its robot.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CpmFailure<E> {
