@@ -8,7 +8,8 @@
 //! `tolman-control`.
 //!
 //! With `tolman-robot` this crate suffices for a system on a robot: what its signatures need of
-//! other crates is re-exported.
+//! With `tolman-robot` this crate suffices for a system on a robot: it re-exports all that its
+//! signatures need of other crates.
 //!
 //! ```
 //! use tolman_systems::control::{RingError, Stack};

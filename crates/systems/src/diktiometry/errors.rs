@@ -18,7 +18,7 @@ pub enum RoutineError<E: Error + 'static> {
     /// A reading is no number.
     #[error("odometry is not a number")]
     Reading(#[from] IntervalError),
-    /// What the robot sees is no signature.
+    /// The robot's view is not a valid signature.
     #[error("the image gives no signature")]
     Signature(#[from] SignatureError),
     /// No place came in sight.

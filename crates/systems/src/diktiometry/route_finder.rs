@@ -94,7 +94,7 @@ impl RouteFinder {
         Ok(())
     }
 
-    /// Takes in a move. What leads elsewhere from a place that is known is not as the map has it.
+    /// Takes in a move. If it leads elsewhere than on the map, the link is noted as changed.
     pub(super) fn take_in(&mut self, seen: &ObservedMove) {
         let from = self.here();
         let Some(belief) = &mut self.belief else {

@@ -8,20 +8,19 @@ use crate::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles { system: "gngslam" };
 
-/// A learned map as it lies in a file: JSON, read back to the bit, but for what was known of the
-/// robot in it.
+/// Contents of a learned map's file: JSON, read back bit for bit, without the robot's pose.
 #[derive(Clone, Debug)]
 pub struct MapFile {
-    /// Where it was learned, by which robot and from which seed.
+    /// Maze, robot and seed of its origin.
     pub origin: Origin,
-    /// How it was learned.
+    /// Configuration with which it was learned.
     pub config: OnlineSlamConfig,
     /// The map, on which a robot may stand anywhere.
     pub graph: PlaceGraph,
-    /// Where landmarks were sensed.
+    /// Positions where landmarks were sensed.
     pub sightings: Vec<LandmarkSighting>,
-    /// Where the robot truly was when each place was made, m, for pictures and for whoever checks
-    /// the map alone; none if nobody watched.
+    /// True position of the robot when each place was made, m, for pictures and for checks of the
+    /// map alone; empty if unknown.
     pub sites: Vec<Point>,
 }
 
@@ -37,15 +36,15 @@ pub enum MapFileError {
     Sighting {
         /// The place.
         place: u32,
-        /// How many there are.
+        /// Number of places.
         places: usize,
     },
     /// Not as many places were watched as there are.
     #[error("{found} places were watched, and there are {places}: learn the map again")]
     Sites {
-        /// How many were watched.
+        /// Number of true positions.
         found: usize,
-        /// How many there are.
+        /// Number of places.
         places: usize,
     },
 }

@@ -10,11 +10,11 @@ use tolman_robot::{Bumps, Odometry, Reckoned, Robot, Rolls, TakesSnapshots, Turn
 
 use crate::stream;
 
-/// How a [`Wanderer`] wanders.
+/// Parameters of a [`Wanderer`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct WandererConfig {
-    /// How it drives and turns.
+    /// Parameters of driving and turning.
     pub drive: UntilNearConfig,
     /// How near the wanderer goes: each time, what lies ahead may come as near as a share of the
     /// limit that is drawn between this and
@@ -22,10 +22,9 @@ pub struct WandererConfig {
     pub nearest: f64,
     /// A leg that led less far is followed by another one before a record is taken, m. Ours: 0.3.
     pub least_way: f64,
-    /// How many legs it tries before it takes a record wherever it is, at least 1. Ours: 12.
+    /// Number of legs it tries before it takes a record wherever it is, at least 1. Ours: 12.
     pub most_tries: u32,
-    /// What all thresholds are multiplied by each time that the way is clear in no direction, 0 …
-    /// 1. Ours: 0.7.
+    /// Factor of all thresholds each time that no direction is free, 0 to 1. Ours: 0.7.
     pub give_way: f64,
     /// Time steps that it stands still for a snapshot at most, at least 1. Ours: 10.
     pub patience: u32,
@@ -96,7 +95,7 @@ pub struct Wanderer {
     odometry: Pose,
 }
 
-/// How many time steps it backs off where it is wedged.
+/// Number of time steps that it backs off if it is wedged.
 const BACK_OFF: u32 = 4;
 
 impl Wanderer {
@@ -194,7 +193,7 @@ impl Wanderer {
     }
 }
 
-/// Dead reckoning: adds every step to where the wheels have the robot.
+/// Returns dead reckoning: a function that adds a step of odometry to the pose.
 fn adding_to(pose: &mut Pose) -> impl FnMut(Odometry) {
     move |rolled| *pose = rolled.applied_to(*pose)
 }

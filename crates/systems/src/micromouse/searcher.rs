@@ -18,7 +18,7 @@ pub enum Searcher {
     Certify,
     /// The same, but until the rest of the proof no longer pays.
     CertifyWorth,
-    /// As [`Searcher::Certify`], without rollouts.
+    /// Like [`Searcher::Certify`], without rollouts.
     CertifyPlain,
     /// The paper's target search.
     Target,

@@ -10,17 +10,17 @@ const FILES: MapFiles = MapFiles {
     system: "mslst-better",
 };
 
-/// What the better system has learned, as it lies in a file: JSON, read back to the bit.
+/// Contents of the better system's map file: JSON, read back bit for bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BetterMapFile {
-    /// Where it was learned, by which robot and from which seed.
+    /// Maze, robot and seed of its origin.
     pub origin: Origin,
-    /// What the system reckoned with.
+    /// Configuration of the system.
     pub config: BetterConfig,
     /// The map.
     pub chart: ScanChart,
-    /// Where the robot truly was when each place was made, m, for pictures and for whoever checks
-    /// the map alone; none if nobody watched.
+    /// True position of the robot when each place was made, m, for pictures and for checks of the
+    /// map alone; empty if unknown.
     pub sites: Vec<Point>,
 }
 
@@ -40,9 +40,9 @@ pub enum BetterMapFileError {
     /// Not as many places were watched as there are.
     #[error("{found} places were watched, and there are {places}: learn the map again")]
     Sites {
-        /// How many were watched.
+        /// Number of true positions.
         found: usize,
-        /// How many there are.
+        /// Number of places.
         places: usize,
     },
     /// A place was watched nowhere.
