@@ -254,10 +254,9 @@ impl Similarity {
         }
     }
 
-    /// Returns f_S of two sequences: 1 for equal ones, less otherwise. [`Sum::Euclidean`] may lead
-    /// below
-    /// 0. An empty sequence scores 0 against any, also against another empty one. O(length ·
-    ///    features).
+    /// Returns f_S of two sequences: 1 for equal ones, less otherwise. An empty sequence scores 0
+    /// against any, even another empty one. With [`Sum::Euclidean`] the score may be negative.
+    /// O(length · features).
     #[must_use]
     pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
         let positions = match self.span {

@@ -48,8 +48,8 @@ impl Turn {
         Ok(sum(entry, self.0, degree))
     }
 
-    /// Returns the turn that leads back, equation (2): Λ1, Δ⁻¹ = N_w − Δ + 1 with N_w = `degree` −
-    /// 1. It is its own inverse.
+    /// Returns the turn that leads back, equation (2): Λ1, Δ⁻¹ = N_w − Δ + 1, where N_w is `degree`
+    /// − 1. It is its own inverse.
     ///
     /// # Errors
     /// If the junction has no such turn.

@@ -29,7 +29,7 @@ pub enum FeatureGroup {
 #[non_exhaustive]
 pub enum FeatureScaling {
     /// All groups have the same mean squared distance: the variances of a group's values add up to
-    /// 1. So a group is one feature of equation 3.1, however many values it has: "in the case of a
+    /// one. So a group is one feature of equation 3.1, however many values it has: "in the case of a
     /// matrix … the distance calculation is a Euclidean distance". Only so do the weights of Table
     /// 3.1, 0.63 for images and 0.33 for odometry, make sense.
     #[default]

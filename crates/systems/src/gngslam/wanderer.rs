@@ -16,9 +16,8 @@ use crate::stream;
 pub struct WandererConfig {
     /// Parameters of driving and turning.
     pub drive: UntilNearConfig,
-    /// How near the wanderer goes: each time, what lies ahead may come as near as a share of the
-    /// limit that is drawn between this and
-    /// 1. Paper: 1, always the limit.
+    /// Smallest share of the limit ahead to which it goes, 0 to 1. The share of each leg is drawn
+    /// between this and 1; at 1, the paper's value, it is always the limit.
     pub nearest: f64,
     /// A leg that led less far is followed by another one before a record is taken, m. Ours: 0.3.
     pub least_way: f64,
