@@ -38,8 +38,8 @@ pub fn explore(maze: &Maze, config: &SpeedRunConfig) -> Result<SpeedRunExplorati
     watch(maze, config, |_, _| {})
 }
 
-/// Explores like [`explore`] and returns the same. Calls
-/// `see` with every cell that the mouse looks at, and which of its sides are open, in the order of [`Direction::ALL`].
+/// Explores like [`explore`] and returns the same. Calls `see` with every cell that the mouse looks
+/// at, and which of its sides are open, in the order of [`Direction::ALL`].
 ///
 /// # Errors
 /// As [`explore`].

@@ -164,9 +164,8 @@ impl Course {
         }
     }
 
-    /// Returns a world of free walls as a course to its zone
-    /// `destination`. The robot has this `body`, and its layers take corridors to be
-    /// `corridor_width` m wide. Doors count as open.
+    /// Returns a world of free walls as a course to its zone `destination`. The robot has this
+    /// `body`, and its layers take corridors to be `corridor_width` m wide. Doors count as open.
     ///
     /// A passage may count as closed if it is wider than the body by less than half its radius.
     /// O(area), and O(length) for each wall.

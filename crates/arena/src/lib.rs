@@ -4,8 +4,8 @@
 //!
 //! - A [`course`] is a maze, or a world of free walls, made ready for runs. The [`pioneer`] is the
 //!   robot that runs in it.
-//! - An [`episode`] is one run of a [`Mind`] of the [`cast`]: a brain of
-//!   `tolman-systems`, or an [`oracle`] that knows the truth.
+//! - An [`episode`] is one run of a [`Mind`] of the [`cast`]: a brain of `tolman-systems`, or an
+//!   [`oracle`] that knows the truth.
 //! - [`run`] is the loop that lets any system drive any robot; [`mslst`] lets MSLST learn.
 //!
 //! [`micromouse`] is a paper's mouse and its referee; in the [`competition`] a micromouse explores

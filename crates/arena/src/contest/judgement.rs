@@ -33,10 +33,9 @@ impl MapJudgement {
     pub const ENOUGH: f64 = 0.95;
 }
 
-/// Judges a map and returns the judgement.
-/// `visits` are the robot's true positions when it believed to be at places. `gone` are the numbers
-/// of the ways that it truly drove. `squares` are the drawing's grid and its pitch, from the middle
-/// of a cell to the next, m.
+/// Judges a map and returns the judgement. `visits` are the robot's true positions when it believed
+/// to be at places. `gone` are the numbers of the ways that it truly drove. `squares` are the
+/// drawing's grid and its pitch, from the middle of a cell to the next, m.
 ///
 /// A place of the map stands for the cell where the robot most often was when it believed to be
 /// there. A place that was never visited stands for the cell at its position on the map, if it has

@@ -55,8 +55,8 @@ impl<'a> KnownMap<'a> {
         known
     }
 
-    /// Takes in a walk to cell `to` along the true fragment `way`, or
-    /// `None` if the robot was lost. `length` is that of the walk, in any unit.
+    /// Takes in a walk to cell `to` along the true fragment `way`, or `None` if the robot was lost.
+    /// `length` is that of the walk, in any unit.
     pub(super) fn walk(&mut self, way: Option<WayOut>, to: Cell, length: u32) {
         let from = self.visits.len().saturating_sub(1) as u32;
         let to = self.visit(to);

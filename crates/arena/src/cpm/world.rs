@@ -194,8 +194,8 @@ impl WorldBuilder {
         self.places.len() as u32 - 1
     }
 
-    /// Adds a corridor from a place to another, or back to the same, over the points
-    /// `via`, and returns its number. `patterns` are observed along it.
+    /// Adds a corridor from a place to another, or back to the same, over the points `via`, and
+    /// returns its number. `patterns` are observed along it.
     ///
     /// # Errors
     /// [`PlaneMazeError`] if a place does not exist, a point is not finite, or a pattern is not in

@@ -94,8 +94,8 @@ const MOST_PIECES: u32 = 60;
 const DRIVES: u64 = 4;
 
 /// Gathers `records` records and learns a place map of image and odometry by `config`. Then the
-/// same robot drives on by that map to where
-/// `drives` random records were taken. Returns map and drives. `seed` seeds all random numbers.
+/// same robot drives on by that map to where `drives` random records were taken. Returns map and
+/// drives. `seed` seeds all random numbers.
 ///
 /// # Errors
 /// [`DrivenMapError`] if the robot fails or the records make no map.

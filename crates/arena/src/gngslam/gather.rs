@@ -28,9 +28,9 @@ pub enum GatherError {
 /// wanderer 0.
 const LABELS: u64 = 3;
 
-/// Lets a robot wander in an arena until it has taken
-/// `count` records, and returns them with the truth (section 3.2; the paper has 1006). `seed` seeds
-/// all random numbers: its start, its noise, its turns and the labels.
+/// Lets a robot wander in an arena until it has taken `count` records, and returns them with the
+/// truth (section 3.2; the paper has 1006). `seed` seeds all random numbers: its start, its noise,
+/// its turns and the labels.
 ///
 /// # Errors
 /// [`GatherError`] if the robot cannot be built or put down, or takes no snapshot.

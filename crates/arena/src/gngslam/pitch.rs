@@ -85,8 +85,8 @@ const ZONE_RADIUS: f64 = 0.5;
 const TRIES: u32 = 10_000;
 
 impl Pitch {
-    /// Returns the arena of this name: `pitch` for the [paper's](Self::paper), `hall`,
-    /// `l-room`, or `random-` with a seed.
+    /// Returns the arena of this name: `pitch` for the [paper's](Self::paper), `hall`, `l-room`, or
+    /// `random-` with a seed.
     ///
     /// # Errors
     /// [`PitchError::Unknown`] if no arena has this name.

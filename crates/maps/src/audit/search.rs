@@ -74,9 +74,8 @@ impl Search {
     }
 
     /// Returns the surest way from the lower pose of a closure to the higher one. It leads over
-    /// odometry and
-    /// `believed` closures, none of them of the closure's own run or of the runs of `shunned`.
-    /// `None` if no such way exists.
+    /// odometry and `believed` closures, none of them of the closure's own run or of the runs of
+    /// `shunned`. `None` if no such way exists.
     ///
     /// # Complexity
     /// O((stations + closures) · log stations).

@@ -168,9 +168,9 @@ impl CpMapper {
     }
 
     /// Returns the probability of the map among all that explain what was met, 0 to 1, in a world
-    /// whose places are at least
-    /// `apart` m apart. It follows from dead reckoning and from what fragments look like. `None`
-    /// for a mapper that keeps one hypothesis. O(width · places² · ports).
+    /// whose places are at least `apart` m apart. It follows from dead reckoning and from what
+    /// fragments look like. `None` for a mapper that keeps one hypothesis. O(width · places² ·
+    /// ports).
     #[must_use]
     pub fn certainty(&self, apart: f64) -> Option<f64> {
         match &self.knowledge {
@@ -179,9 +179,9 @@ impl CpMapper {
         }
     }
 
-    /// Returns why the map is not to be trusted in a world whose places are at least
-    /// `apart` m apart. `None` if nothing contradicts it, and for a mapper that keeps one
-    /// hypothesis, which cannot tell. Complexity as [`certainty`](Self::certainty).
+    /// Returns why the map is not to be trusted in a world whose places are at least `apart` m
+    /// apart. `None` if nothing contradicts it, and for a mapper that keeps one hypothesis, which
+    /// cannot tell. Complexity as [`certainty`](Self::certainty).
     #[must_use]
     pub fn doubt(&self, apart: f64) -> Option<MapDoubt> {
         let certainty = self.certainty(apart)?;

@@ -13,9 +13,9 @@ use super::map::{CpMap, JunctionId, Port, PortState, Sign};
 /// What dead reckoning says about a map. Ours; the paper only suggests it: "Another good choice is
 /// to add the odometry data".
 impl CpMap {
-    /// Returns the position of each junction, by id, relative to
-    /// `origin`: along the way on which the bounds grow least (Dijkstra 1959). `None` if no way
-    /// with dead reckoning leads there. O(ports · log junctions).
+    /// Returns the position of each junction, by id, relative to `origin`: along the way on which
+    /// the bounds grow least (Dijkstra 1959). `None` if no way with dead reckoning leads there.
+    /// O(ports · log junctions).
     pub(super) fn positions_from(&self, origin: JunctionId) -> Vec<Option<PointBox>> {
         let mut positions = vec![None; self.junctions.len()];
         let mut settled = vec![false; self.junctions.len()];
@@ -74,9 +74,9 @@ impl CpMap {
         })
     }
 
-    /// Returns the cost of a port looking into direction
-    /// `bearing`, given the junction's other ports. The cost is a negative log-probability up to a constant, least when ports are evenly spaced. `None`
-    /// if it is impossible, as bearings would not ascend with the ports' numbers.
+    /// Returns the cost of a port looking into direction `bearing`, given the junction's other
+    /// ports. The cost is a negative log-probability up to a constant, least when ports are evenly
+    /// spaced. `None` if it is impossible, as bearings would not ascend with the ports' numbers.
     pub(super) fn bearing_cost(&self, port: Port, bearing: Interval) -> Option<f64> {
         let degree = self.degree(port.junction);
         let (mut cost, mut before) = (0.0_f64, None);

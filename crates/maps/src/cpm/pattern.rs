@@ -140,8 +140,8 @@ impl Dictionary {
         Ok(dictionary)
     }
 
-    /// Returns the pattern of an observation: the nearest if it lies within
-    /// `tolerance`, else a new one with the observation as prototype. A new pattern comes with a partner for `half_turned`,
+    /// Returns the pattern of an observation: the nearest if it lies within `tolerance`, else a new
+    /// one with the observation as prototype. A new pattern comes with a partner for `half_turned`,
     /// the same seen the other way, unless that is known or nearly the same. The paper asks for it:
     /// "the CPs must be learned incrementally". O(patterns · features).
     ///

@@ -61,8 +61,8 @@ impl Turn {
         Ok(Self(sum(0, degree - self.0, degree)))
     }
 
-    /// Returns the turn that equals this one followed by
-    /// `next`, equations (9) and (10): (Δ + Δ') mod n_junc with n_junc = `degree`.
+    /// Returns the turn that equals this one followed by `next`, equations (9) and (10): (Δ + Δ')
+    /// mod n_junc with n_junc = `degree`.
     ///
     /// # Errors
     /// If the junction has no such turn.

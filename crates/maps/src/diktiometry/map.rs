@@ -77,9 +77,9 @@ impl Diktiometry {
         Some(self.reference.known(start, end)? + to - from)
     }
 
-    /// Returns all places that can be reached from
-    /// `origin` in the reference graph, by id, with positions relative to `origin` for drawing.
-    /// O(frames · degree · log frames + places · log places).
+    /// Returns all places that can be reached from `origin` in the reference graph, by id, with
+    /// positions relative to `origin` for drawing. O(frames · degree · log frames + places · log
+    /// places).
     #[must_use]
     pub fn layout(&self, origin: PlaceId) -> Vec<DrawnPlace> {
         let Some(origin) = self.paths.resolve(origin) else {

@@ -40,8 +40,8 @@ const LEAST: f64 = 1e-4;
 const PAIRS: usize = 20_000;
 
 impl PlaceBelief {
-    /// Returns the belief of a robot that was put down on the map of
-    /// `observer` and has the view `seen`. O(places).
+    /// Returns the belief of a robot that was put down on the map of `observer` and has the view
+    /// `seen`. O(places).
     #[must_use]
     pub fn put_down(observer: &Observer, seen: &FirstPlace) -> Self {
         let places = observer.map.paths.places();

@@ -114,9 +114,8 @@ impl Signature {
         self.values.get(from..from + self.rows).unwrap_or_default()
     }
 
-    /// Returns the number of columns that differ by no more than
-    /// `tolerance` in any row from those of `other` rotated by `offset` columns: column c is
-    /// compared with column c + offset there.
+    /// Returns the number of columns that differ by no more than `tolerance` in any row from those
+    /// of `other` rotated by `offset` columns: column c is compared with column c + offset there.
     pub(super) fn agreement(&self, other: &Self, offset: usize, tolerance: f64) -> usize {
         let columns = self.columns();
         (0..columns)

@@ -211,9 +211,9 @@ impl MslstGraph {
     /// edges connecting the source node to the destination node". Ties go to edges that were
     /// entered earlier.
     ///
-    /// The path does not begin with an action that just
-    /// `failed`: "not allowing the first action to be equal to the one that failed (this results in a longer path)". Returns `None`
-    /// if there is no such path. O(nodes + edges).
+    /// The path does not begin with an action that just `failed`: "not allowing the first action to
+    /// be equal to the one that failed (this results in a longer path)". Returns `None` if there is
+    /// no such path. O(nodes + edges).
     #[must_use]
     pub fn path_to_destination(&self, id: u32, failed: &[Direction]) -> Option<Vec<Direction>> {
         let view = Without {

@@ -7,8 +7,8 @@ use crate::tangent::difference;
 /// Estimate of the constant errors of the wheels: both larger or smaller than they should be, and
 /// one larger than the other.
 ///
-/// A robot that rolled `distance` and `turn` has truly moved
-/// `distance` · (1 + scale), and has truly turned by `turn` · (1 + scale) + `distance` · curvature.
+/// A robot that rolled `distance` and `turn` has truly moved `distance` · (1 + scale), and has
+/// truly turned by `turn` · (1 + scale) + `distance` · curvature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelError {
@@ -71,9 +71,8 @@ impl WheelError {
         }
     }
 
-    /// Learns from where the robot was found:
-    /// `off` from the prediction, whose covariance is `before`. The new pose has the covariance
-    /// `after`, to which the prediction contributes.
+    /// Learns from where the robot was found: `off` from the prediction, whose covariance is
+    /// `before`. The new pose has the covariance `after`, to which the prediction contributes.
     pub(super) fn learn(
         &mut self,
         predicted: &Rolled,

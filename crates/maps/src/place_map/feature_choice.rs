@@ -29,9 +29,9 @@ pub enum FeatureGroup {
 #[non_exhaustive]
 pub enum FeatureScaling {
     /// All groups have the same mean squared distance: the variances of a group's values add up to
-    /// one. So a group is one feature of equation 3.1, however many values it has: "in the case of a
-    /// matrix … the distance calculation is a Euclidean distance". Only so do the weights of Table
-    /// 3.1, 0.63 for images and 0.33 for odometry, make sense.
+    /// one. So a group is one feature of equation 3.1, however many values it has: "in the case of
+    /// a matrix … the distance calculation is a Euclidean distance". Only so do the weights of
+    /// Table 3.1, 0.63 for images and 0.33 for odometry, make sense.
     #[default]
     Group,
     /// The values of a group have a mean variance of 1. A group's influence is then its number of

@@ -152,9 +152,9 @@ impl PlaceMap {
         Ok(self.gng.nearest(features)?.id)
     }
 
-    /// Returns the node with the learned ranges nearest to the
-    /// `known` ones, m, by squared differences. This serves records with ranges missing. `None` if
-    /// no range is known, or if ranges are not a chosen feature. O(nodes × ranges).
+    /// Returns the node with the learned ranges nearest to the `known` ones, m, by squared
+    /// differences. This serves records with ranges missing. `None` if no range is known, or if
+    /// ranges are not a chosen feature. O(nodes × ranges).
     #[must_use]
     pub fn nearest_by_ranges(&self, known: &[Option<f64>]) -> Option<UnitId> {
         let count = known.iter().flatten().count();

@@ -173,9 +173,8 @@ impl Branches {
         }
     }
 
-    /// Returns the knot nearest to a cell within
-    /// `reach` cells. If there is none, makes one on the nearest branch. `None` if the graph has no
-    /// branches.
+    /// Returns the knot nearest to a cell within `reach` cells. If there is none, makes one on the
+    /// nearest branch. `None` if the graph has no branches.
     pub(super) fn knot_at(&mut self, at: GridIndex, reach: f64) -> Option<usize> {
         let far =
             |cell: GridIndex| libm::hypot(f64::from(cell[0] - at[0]), f64::from(cell[1] - at[1]));

@@ -56,9 +56,8 @@ impl<'a> Clearings<'a> {
         free.count() as f64 * WallGrid::CELL
     }
 
-    /// Returns the way from about
-    /// `from` to the nearest ground where the robot could stand and has not been; `None` if there
-    /// is none. O(cells on the way).
+    /// Returns the way from about `from` to the nearest ground where the robot could stand and has
+    /// not been; `None` if there is none. O(cells on the way).
     #[must_use]
     pub fn way_to_gap(&self, from: Point) -> Option<WayToGap<'_>> {
         let starts = self.stands_by(from);

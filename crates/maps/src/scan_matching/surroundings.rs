@@ -14,18 +14,17 @@ const SHOWN: usize = 14;
 const ABOUT: usize = 20;
 
 impl ScanMatching {
-    /// Returns the view from a keyframe of a
-    /// `ring` of beams aligned with the map's axes, by the keyframes before and after. `None` if
-    /// there is no such keyframe. A beam along which none of them saw anything reads the ring's
-    /// range. O(points of the keyframes).
+    /// Returns the view from a keyframe of a `ring` of beams aligned with the map's axes, by the
+    /// keyframes before and after. `None` if there is no such keyframe. A beam along which none of
+    /// them saw anything reads the ring's range. O(points of the keyframes).
     #[must_use]
     pub fn surroundings(&self, keyframe: usize, ring: Ring, ahead: Heading) -> Option<Scan> {
         let here = self.graph.poses().get(keyframe)?.position;
         self.surroundings_of(keyframe, here, ring, ahead)
     }
 
-    /// Returns the view from a point, by the keyframes about
-    /// `keyframe`; otherwise as [`surroundings`](Self::surroundings).
+    /// Returns the view from a point, by the keyframes about `keyframe`; otherwise as
+    /// [`surroundings`](Self::surroundings).
     #[must_use]
     pub fn surroundings_of(
         &self,

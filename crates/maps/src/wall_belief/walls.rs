@@ -76,9 +76,8 @@ impl<const N: usize> WallBelief<N> {
     /// error.
     const MOST_AT_ONCE: f64 = 1.6;
 
-    /// Returns a belief in the border only.
-    /// `pitch` is the distance from the middle of a cell to the next, `thickness` that of a wall,
-    /// m.
+    /// Returns a belief in the border only. `pitch` is the distance from the middle of a cell to
+    /// the next, `thickness` that of a wall, m.
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.

@@ -4,8 +4,8 @@
 //! known to stand, known to be absent, or unknown. There are three differences. Both cells beside a
 //! wall share it, so they always agree. The size is any rectangle. Observations can be undone.
 //!
-//! With the feature `serde` a map is saved and loaded as a `SavedWallMap`, whatever its
-//! `N` and `LOG`.
+//! With the feature `serde` a map is saved and loaded as a `SavedWallMap`, whatever its `N` and
+//! `LOG`.
 //!
 //! Two bits a wall and no allocation: `WallMap<16>` holds mazes up to 16 × 16, `WallMap<32>` up to
 //! 32 × 32.

@@ -23,8 +23,8 @@ pub enum Onward {
     /// Goes the shortest known way to a junction that has one. Theorem 1 needs no more.
     ShortestKnownWay,
     /// "It continues forward until reaching a junction that has some remaining unknown ports", to
-    /// the letter, by a random port. This can go round in circles and breaks the proof of Theorem
-    /// 1.
+    /// the letter, by a random port. This can go round in circles and breaks the proof of
+    /// Theorem 1.
     GoOn,
 }
 

@@ -173,8 +173,8 @@ impl Explorer {
     }
 
     /// Returns the length, in observations, below which an unknown fragment at a junction can
-    /// shorten the way between start and goal. The known part of the way begins at landmark
-    /// `from`. `None` if no fragment can. If no way is known, any length can.
+    /// shorten the way between start and goal. The known part of the way begins at landmark `from`.
+    /// `None` if no fragment can. If no way is known, any length can.
     fn room(&self, junction: JunctionId, from: Landmark) -> Option<u32> {
         let is_goal = |id| self.map().has(id, Landmark::Goal);
         // A start in a corridor may be on the map twice; the first is where the robot will be put

@@ -18,10 +18,10 @@
 //! Any [`Landmarked`](tolman_robot::Landmarked) e-puck works, also behind the serial driver of
 //! `tolman-robot` (feature `epuck-serial`). Measure two things first: the response curve of its
 //! sensors, and a time step long enough for four lines and their answers. The time step also sets
-//! the speed of a sweep. The thresholds of
-//! [`SegmentConfig`](tolman_control::epuck::SegmentConfig) are for sensors that see 25 cm, like the
-//! paper's simulated ones. Other sensors, and corridors as wide as they see, need other thresholds.
-//! All this was tried on a simulated firmware, never on a robot.
+//! the speed of a sweep. The thresholds of [`SegmentConfig`](tolman_control::epuck::SegmentConfig)
+//! are for sensors that see 25 cm, like the paper's simulated ones. Other sensors, and corridors as
+//! wide as they see, need other thresholds. All this was tried on a simulated firmware, never on a
+//! robot.
 //!
 //! ```no_run
 //! use std::fs::File;

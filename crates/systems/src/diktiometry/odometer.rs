@@ -10,8 +10,8 @@ pub struct Odometer {
 }
 
 impl Odometer {
-    /// Returns an odometer. The wheels' error is at most
-    /// `share` of the distance, 0 to 0.5; the compass's is at most `heading_bound`, rad.
+    /// Returns an odometer. The wheels' error is at most `share` of the distance, 0 to 0.5; the
+    /// compass's is at most `heading_bound`, rad.
     #[must_use]
     pub const fn new(share: f64, heading_bound: f64) -> Self {
         Self {

@@ -36,10 +36,9 @@ pub struct RoutineConfigError {
 }
 
 impl RoutineConfig {
-    /// Returns a configuration for corridors
-    /// `corridor_width` m wide without doorways. In one time step the robot turns by at most `turn_per_step`,
-    /// rad, and moves by at most `translate_per_step`, m. The error bounds are the paper's:
-    /// odometry 10 %, compass 4°.
+    /// Returns a configuration for corridors `corridor_width` m wide without doorways. In one time
+    /// step the robot turns by at most `turn_per_step`, rad, and moves by at most
+    /// `translate_per_step`, m. The error bounds are the paper's: odometry 10 %, compass 4°.
     #[must_use]
     pub fn new(corridor_width: f64, turn_per_step: f64, translate_per_step: f64) -> Self {
         Self {

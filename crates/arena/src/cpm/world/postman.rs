@@ -15,9 +15,9 @@ impl PlaneMaze {
     }
 }
 
-/// Returns the number of arcs of the shortest walk from
-/// `start` through all that can be reached, ending anywhere: the baseline of an exploration, with perfect knowledge. `None`
-/// if more than 16 places have an odd number of ports, as that would take too long.
+/// Returns the number of arcs of the shortest walk from `start` through all that can be reached,
+/// ending anywhere: the baseline of an exploration, with perfect knowledge. `None` if more than 16
+/// places have an odd number of ports, as that would take too long.
 ///
 /// The open Chinese postman's walk: odd places are joined in pairs by shortest ways, walked twice,
 /// except for one, where the walk ends. O(2ⁿ · n) in the number n of odd places.

@@ -34,8 +34,9 @@ impl ActiveFrame {
 /// Returns the active frames after a displacement: "dropping frames which are not informative, and
 /// adding neighbors of active frames which appear both informative and relevant".
 ///
-/// `here` is the frame of the robot's place, with the robot in it. It is always active. If its box for a neighbour is better than the one carried along, the better one holds. At most `cap`
-/// frames are kept, those with the narrowest box. O(active frames · degree · log).
+/// `here` is the frame of the robot's place, with the robot in it. It is always active. If its box
+/// for a neighbour is better than the one carried along, the better one holds. At most `cap` frames
+/// are kept, those with the narrowest box. O(active frames · degree · log).
 pub(crate) fn moved(
     map: &Diktiometry,
     active: &[ActiveFrame],

@@ -141,8 +141,8 @@ pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usiz
     }
 }
 
-/// Returns the number of kinds of looks that have to agree if there is room for
-/// `room` places, or `None` if there are fewer kinds.
+/// Returns the number of kinds of looks that have to agree if there is room for `room` places, or
+/// `None` if there are fewer kinds.
 fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
     let others = room.min(f64::from(map.looks.kinds) + 2.0);
     map.looks.enough(config.restructuring.look_error / others)

@@ -20,11 +20,12 @@ use crate::micromouse::{
 /// and makes runs in it.
 ///
 /// - `Explore` drives as its search says, until that has its proof.
-/// -
-///   `Reach` drives a best run on walls known to be open, or else on those not known to stand. The landmarks are the start and the goals; a place is a cell, by [`Grid::index`](tolman_maze::Grid::index).
-/// -
-///   `Localize` is done when only one cell is possible. The mouse knows its cell at the start. Put down elsewhere, it drives to where the possible cells differ. `Explore`
-///   and `Reach` begin with that.
+/// - `Reach` drives a best run on walls known to be open, or else on those not known to stand. The
+///   landmarks are the start and the goals; a place is a cell, by
+///   [`Grid::index`](tolman_maze::Grid::index).
+/// - `Localize` is done when only one cell is possible. The mouse knows its cell at the start. Put
+///   down elsewhere, it drives to where the possible cells differ. `Explore` and `Reach` begin with
+///   that.
 ///
 /// Every action is one cell: the mouse looks at the walls, chooses, and drives to the middle of the
 /// next cell. It gives up if the walls contradict its map, or if the robot does not get there.

@@ -77,8 +77,8 @@ fn nearest_middle(point: Point, pitch: f64) -> Point {
     Point::new(middle(point.x), middle(point.y))
 }
 
-/// Returns the readings of the walls by a scan made at
-/// `pose`, seen from the cell whose middle is `middle`.
+/// Returns the readings of the walls by a scan made at `pose`, seen from the cell whose middle is
+/// `middle`.
 pub(super) fn rays(
     scan: &Scan,
     pose: Pose,
