@@ -82,7 +82,7 @@ pub enum CourseError {
     },
     /// The e-puck cannot recognize such corridors.
     #[error(
-        "corridors of {width} m: an e-puck, whose sensors reach {reach} m, tells junctions in corridors of {least} to {most} m alone; set \
+        "the corridors are {width} m wide; an e-puck, whose sensors reach {reach} m, recognizes junctions only in corridors of {least} to {most} m: set \
          corridor_width to 0.25"
     )]
     Unseen {
@@ -96,10 +96,10 @@ pub enum CourseError {
         reach: f64,
     },
     /// The world cannot be built.
-    #[error("the maze makes no world")]
+    #[error("no world can be built from the maze")]
     World(#[from] WorldError),
     /// The world has no form as a file.
-    #[error("the world cannot be written down")]
+    #[error("the world cannot be written as a file")]
     Unwritten(#[from] WorldFileError),
 }
 

@@ -28,7 +28,7 @@ pub enum EpisodeError {
     Course(#[from] CourseError),
     /// The course is too large for the oracle.
     #[error(
-        "the oracle would have to plan on {nodes} nodes, and {most} are the most: choose a smaller maze"
+        "the oracle would have to plan on {nodes} nodes, more than its limit of {most}: choose a smaller maze"
     )]
     Policy {
         /// Number of nodes that the course needs.
@@ -37,7 +37,7 @@ pub enum EpisodeError {
         most: usize,
     },
     /// A step could not be made.
-    #[error("step {step} could not be made")]
+    #[error("step {step} failed")]
     Step {
         /// Number of the step, from 0.
         step: u32,

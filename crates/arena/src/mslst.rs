@@ -30,7 +30,7 @@ pub enum LearnError {
     #[error("the robot cannot wander")]
     Wander(#[from] EpisodeError),
     /// Its scans make no states.
-    #[error("the scans make no states")]
+    #[error("no states can be learned from the scans")]
     States(#[from] StatesError),
 }
 

@@ -20,7 +20,7 @@ pub enum Error {
         choices: String,
     },
     /// What the experiment needs cannot be read.
-    #[error("experiment {name} cannot be made ready")]
+    #[error("experiment {name} cannot be prepared")]
     Open {
         /// The experiment.
         name: String,
@@ -34,7 +34,7 @@ pub enum Error {
         option: &'static str,
     },
     /// A table has a number of runs that no caller changes.
-    #[error("table {table:?} has a number of runs of its own, {own} of a row; leave --runs out")]
+    #[error("table {table:?} always has {own} runs per row; leave --runs out")]
     FixedRuns {
         /// The table.
         table: String,
@@ -42,7 +42,7 @@ pub enum Error {
         own: u32,
     },
     /// No row of a table that was named has a run.
-    #[error("table {table:?} has no runs of so few; give it more --runs")]
+    #[error("table {table:?} would have no runs; give a greater number with --runs")]
     EmptyTable {
         /// The table.
         table: String,
@@ -62,7 +62,7 @@ pub enum Error {
         seed: u64,
     },
     /// The experiment's tables contradict themselves.
-    #[error("the tables of experiment {name} are unsound: {what}")]
+    #[error("the tables of experiment {name} are invalid: {what}")]
     Tables {
         /// The experiment.
         name: String,

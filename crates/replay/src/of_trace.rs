@@ -107,7 +107,7 @@ pub enum CompareError {
     None,
     /// They happened in different worlds.
     #[error(
-        "{second} happened in another world than {first}; give traces of the same world, or replay each by itself"
+        "{second} was recorded in another world than {first}; give traces of the same world, or replay each by itself"
     )]
     Worlds {
         /// The first trace's name.

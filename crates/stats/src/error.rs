@@ -13,7 +13,9 @@ pub enum SampleError {
         needed: usize,
     },
     /// A value is NaN or infinite.
-    #[error("value {index} is {value}; samples must be finite, so leave it out or mend its source")]
+    #[error(
+        "value {index} is {value}; samples must be finite, so leave it out or repair its source"
+    )]
     NotFinite {
         /// Its place in the sample, from 0.
         index: usize,

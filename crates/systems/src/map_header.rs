@@ -68,14 +68,16 @@ pub enum FileError {
         system: &'static str,
     },
     /// The file was written by a later tolman.
-    #[error("its version is {found}, and {VERSION} is the latest known here: update tolman")]
+    #[error(
+        "its version is {found}, but this program reads no later one than {VERSION}: update tolman"
+    )]
     LaterVersion {
         /// Version that the file names.
         found: u32,
     },
     /// The version is one that is no longer read, or that never was.
     #[error(
-        "its version is {found}, and only {VERSION} is read here: make a new map with `tolman learn`"
+        "its version is {found}, but this program reads only {VERSION}: make a new map with `tolman learn`"
     )]
     FormerVersion {
         /// Version that the file names.
@@ -100,7 +102,7 @@ pub enum FileError {
         source: serde_json::Error,
     },
     /// The map has no JSON form.
-    #[error("this map of {system} has no JSON form")]
+    #[error("this map of {system} cannot be written as JSON")]
     Unwritable {
         /// System of the map.
         system: &'static str,

@@ -265,7 +265,7 @@ pub enum CpmTrialError {
     Epuck(#[from] EpuckError),
     /// A fragment was not walked from end to end.
     #[error(
-        "nothing was seen on the way from {} to {}, or the robot came elsewhere: make it longer than a cell",
+        "the robot saw nothing on the way from {} to {}, or came elsewhere: make the way longer than a cell",
         ends.0, ends.1
     )]
     Unwalked {

@@ -149,7 +149,7 @@ pub struct WorldBuilder {
 #[non_exhaustive]
 pub enum PlaneMazeError {
     /// A place is not there.
-    #[error("place {place} of {count}: draw it first")]
+    #[error("place {place} does not exist, there are {count}: add it first")]
     NoSuchPlace {
         /// Its number.
         place: u32,

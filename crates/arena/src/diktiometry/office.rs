@@ -103,7 +103,7 @@ pub enum OfficeError {
         colours: u32,
     },
     /// The world cannot be built.
-    #[error("the maze makes no world")]
+    #[error("no world can be built from the maze")]
     World(#[from] WorldError),
 }
 

@@ -184,7 +184,7 @@ pub enum RunError {
         source: MapError<RoutineError<StepError>>,
     },
     /// The robot is at no place.
-    #[error("the robot stands at ({}, {}) m, where no place is; lower the noise", at.x, at.y)]
+    #[error("the robot is at ({}, {}) m, which is not a place; lower the noise", at.x, at.y)]
     OffPlace {
         /// Position of the robot.
         at: Point,

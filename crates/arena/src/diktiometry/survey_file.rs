@@ -40,7 +40,7 @@ pub enum SurveyFileError {
     #[error(transparent)]
     File(#[from] FileError),
     /// The exploration probability is outside 0 to 1.
-    #[error("its heed is {found}: give a number from 0 to 1")]
+    #[error("its `heed`, the exploration probability, is {found}: give a number from 0 to 1")]
     Heed {
         /// The value found.
         found: f64,
@@ -49,7 +49,7 @@ pub enum SurveyFileError {
     #[error("its maze is invalid")]
     Maze(#[from] MazeError),
     /// The maze makes no world.
-    #[error("its maze makes no world")]
+    #[error("no world can be built from its maze")]
     Office(#[from] OfficeError),
     /// The map is invalid, or its journal was not kept.
     #[error("its map is invalid")]

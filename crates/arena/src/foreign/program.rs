@@ -67,13 +67,13 @@ pub enum Overrun {
     #[error("the program is out of time")]
     Time,
     /// It wrote more bytes than it may.
-    #[error("the program wrote more bytes than it may")]
+    #[error("the program wrote too many bytes")]
     Bytes,
     /// It wrote more lines than it may.
-    #[error("the program wrote more lines than it may")]
+    #[error("the program wrote too many lines")]
     Lines,
     /// It wrote a line that is too long.
-    #[error("the program wrote a line that is longer than it may be")]
+    #[error("the program wrote a line that is too long")]
     LineBytes,
     /// The flag of [`Launch::stop`] was raised.
     #[error("interrupted")]

@@ -111,7 +111,9 @@ pub enum DataTextError {
         expected: usize,
     },
     /// A record that should show a goal does not exist.
-    #[error("line 1: `goals` names record {index}, and there are {records}; gather the data again")]
+    #[error(
+        "line 1: `goals` names record {index}, but there are only {records} records; gather the data again"
+    )]
     Goal {
         /// Number of the record.
         index: usize,

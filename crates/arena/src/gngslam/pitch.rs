@@ -69,7 +69,7 @@ pub enum PitchError {
         calibration: f64,
     },
     /// The world cannot be built.
-    #[error("the arena makes no world")]
+    #[error("no world can be built from the arena")]
     World(#[from] WorldError),
 }
 

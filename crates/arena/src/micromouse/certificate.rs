@@ -8,12 +8,10 @@ use tolman_systems::micromouse::Certificate;
 #[non_exhaustive]
 pub enum CertificateError {
     /// It is about another maze.
-    #[error("the certificate is of a maze of another size, start or goals")]
+    #[error("the certificate is for a maze with another size, start or goals")]
     OtherMaze,
     /// It states something false about a wall.
-    #[error(
-        "the certificate says that the {direction} side of {cell} is {known:?}, which it is not"
-    )]
+    #[error("the certificate says that the {direction} side of {cell} is {known:?}, but it is not")]
     FalseWall {
         /// The cell.
         cell: Cell,
@@ -45,7 +43,7 @@ pub enum CertificateError {
     },
     /// The costs do not agree with the run, or with each other.
     #[error(
-        "the costs disagree: the run takes {run} steps, {closed} are claimed, and {open} can be hoped for"
+        "the costs disagree: the run takes {run} steps, the certificate claims {closed}, and its lower bound is {open}"
     )]
     Costs {
         /// Steps of the run.

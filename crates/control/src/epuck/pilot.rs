@@ -266,9 +266,9 @@ pub enum PilotError<E> {
     )]
     Blind,
     /// The wheels do not say how far they turned.
-    #[error("the wheels do not say how far they turned; check the encoders")]
+    #[error("the encoders give no values; check them")]
     NoEncoders,
     /// The wheels were told to turn and did not.
-    #[error("the wheels do not turn though they are told to; check the motors")]
+    #[error("the wheels do not turn although commanded to; check the motors")]
     Stuck,
 }

@@ -343,7 +343,7 @@ pub enum SegmentError {
     },
     /// There are more segments than a feature has elements for.
     #[error(
-        "the profile has {segments} segments, a feature holds {most}; junctions may have five ways at most"
+        "the profile has {segments} segments, but a feature holds only {most}; junctions may have at most five ways"
     )]
     TooMany {
         /// How many there are.

@@ -74,7 +74,7 @@ pub enum CycleError {
         edge: u32,
     },
     /// A step leads along odometry that is not there.
-    #[error("step {step} needs odometry to pose {pose}, which is not there")]
+    #[error("step {step} needs odometry to pose {pose}, which does not exist")]
     NoOdometry {
         /// Number of the step, from 0.
         step: usize,

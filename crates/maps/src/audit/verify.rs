@@ -86,7 +86,7 @@ pub enum AuditCertificateError {
         most: f64,
     },
     /// A closure has no cycle that supports it.
-    #[error("edge {edge} is said to be supported, but has no cycle")]
+    #[error("the audit calls edge {edge} supported, but gives no cycle")]
     NoWitness {
         /// The edge.
         edge: u32,
@@ -108,13 +108,13 @@ pub enum AuditCertificateError {
         over: u32,
     },
     /// It is said to be refuted by something else than its cycle consists of.
-    #[error("the cycle of edge {edge} does not consist of what it is said to")]
+    #[error("the cycle of edge {edge} has other steps than the audit states")]
     RefutedBy {
         /// The edge.
         edge: u32,
     },
     /// The number of runs is another.
-    #[error("the closures are said to make up {told} runs; the graph gives {measured}")]
+    #[error("the audit states {told} runs of closures; the graph gives {measured}")]
     Runs {
         /// The audit's value.
         told: u32,
@@ -122,7 +122,7 @@ pub enum AuditCertificateError {
         measured: u32,
     },
     /// The run is another.
-    #[error("edge {edge} is said to be of run {told}; the graph gives {measured}")]
+    #[error("the audit puts edge {edge} into run {told}; the graph gives {measured}")]
     Run {
         /// The edge.
         edge: u32,

@@ -29,10 +29,10 @@ pub struct Bearings(Vec<f64>);
 #[non_exhaustive]
 pub enum BearingsError {
     /// The list has no bearing; a place has at least the way by which it is entered.
-    #[error("a place without ways: give the direction of the way of entry at least")]
+    #[error("the place has no ways; give at least the direction of the way of entry")]
     Empty,
     /// A direction is no number.
-    #[error("way {way} leads into the direction {value}: give finite radians")]
+    #[error("the direction of way {way} is {value}; give finite radians")]
     NotFinite {
         /// Counted from 0.
         way: usize,

@@ -89,10 +89,10 @@ impl MapUpdate {
 #[non_exhaustive]
 pub enum CpmError {
     /// No way leads out of a place.
-    #[error("a place without ports: a robot that came in can get out, so it has at least 1")]
+    #[error("the place has no ports; give at least 1, by which the robot came in")]
     NoPorts,
     /// More ways lead out than any place has.
-    #[error("a place of {degree} ports: more than {most} cannot be")]
+    #[error("the place has {degree} ports; give at most {most}")]
     TooManyPorts {
         /// Number of ports.
         degree: u32,
@@ -100,7 +100,9 @@ pub enum CpmError {
         most: u32,
     },
     /// The ways out were counted twice, and differently.
-    #[error("{bearings} bearings of a place of {degree} ports: give one for each, or none at all")]
+    #[error(
+        "the place has {degree} ports but {bearings} bearings; give one for each port, or none"
+    )]
     Bearings {
         /// Number of bearings.
         bearings: u32,

@@ -16,7 +16,7 @@ pub enum MapDoubt {
     },
     /// Two places lie where there is room for one.
     #[error(
-        "its places {} and {} lie on one spot by dead reckoning: a loop is open that should be closed",
+        "by dead reckoning its places {} and {} are at the same position: a loop was not closed",
         one.0, other.0
     )]
     Twice {
@@ -26,7 +26,9 @@ pub enum MapDoubt {
         other: JunctionId,
     },
     /// Another map explains what was met as well.
-    #[error("it is one of several maps that explain what was met, and {percent:.0} % likely")]
+    #[error(
+        "several maps explain what the robot met, and this one has a probability of {percent:.0} %"
+    )]
     Unsure {
         /// Probability of the map among those that explain what was met, %.
         percent: f64,

@@ -89,7 +89,7 @@ pub struct Location {
 #[non_exhaustive]
 pub enum LocalizeError {
     /// The maps have no fragments.
-    #[error("no map has a fragment: there is nowhere to be")]
+    #[error("the maps have no fragments; learn one first")]
     Empty,
     /// A probability is outside its range.
     #[error("{field} is {value} but has to be {range}")]

@@ -94,7 +94,7 @@ enum SavedPort {
 #[non_exhaustive]
 pub enum MapFileError {
     /// Something is missing.
-    #[error("it was cut off: {found} of {expected} {what} are there")]
+    #[error("it is cut off: it has {found} of {expected} {what}; copy it again")]
     Truncated {
         /// Kind of entry that is missing.
         what: &'static str,
@@ -104,7 +104,7 @@ pub enum MapFileError {
         found: usize,
     },
     /// The map has fragments but no dictionary version, so their patterns cannot be identified.
-    #[error("it has fragments but does not say how many patterns there were")]
+    #[error("it has fragments, but not the number of patterns they were written with")]
     Unversioned,
     /// The patterns are not those that were written.
     #[error("its patterns have the fingerprint {found}, not {expected}: they were changed")]
@@ -144,7 +144,7 @@ pub enum MapFileError {
         ports: usize,
     },
     /// Two things of one number, or one beyond those that are given out.
-    #[error("{what} {id} is there twice, or was never given out")]
+    #[error("{what} {id} appears twice, or was never assigned")]
     BadId {
         /// A fragment or a junction.
         what: &'static str,

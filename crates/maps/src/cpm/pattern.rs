@@ -81,7 +81,7 @@ pub enum DictionaryError {
         value: f64,
     },
     /// A pattern that the dictionary does not have.
-    #[error("pattern {} of a dictionary of {patterns}: observed with another dictionary, or a later version", .pattern.0)]
+    #[error("pattern {} does not exist in this dictionary of {patterns}; use the one it was observed with", .pattern.0)]
     UnknownPattern {
         /// The pattern.
         pattern: PatternId,
@@ -89,13 +89,13 @@ pub enum DictionaryError {
         patterns: u32,
     },
     /// The patterns of a map are not this dictionary's.
-    #[error("written with {} patterns of another dictionary: use the one it was learned with", .version.patterns)]
+    #[error("it was written with {} patterns of another dictionary; use the one it was learned with", .version.patterns)]
     OtherDictionary {
         /// Version it was written with.
         version: Version,
     },
     /// A list of half-turned patterns that is no involution.
-    #[error("pattern {} half turned is {}, which half turned is not that again", .pattern.0, .half_turned.0)]
+    #[error("pattern {} half turned is {}, but that half turned is not the first one again", .pattern.0, .half_turned.0)]
     NotInvolutive {
         /// The pattern.
         pattern: PatternId,

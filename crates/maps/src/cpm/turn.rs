@@ -12,7 +12,7 @@ pub struct Turn(pub u32);
 
 /// A turn that the junction does not have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("turn {} at a junction of {degree} ports: turns are 0 … {degree} − 1", .turn.0)]
+#[error("turn {} does not exist at a junction of {degree} ports; turns run from 0 to {degree} − 1", .turn.0)]
 pub struct NoSuchTurn {
     /// The turn.
     pub turn: Turn,

@@ -607,7 +607,7 @@ const fn not_zero(field: &'static str, count: usize) -> Result<(), DiktiometryCo
 pub enum DiktiometryConfigError {
     /// An action's reverse does not exist.
     #[error(
-        "action {} is given as a reverse, and there are only {actions}; name one of them or none",
+        "action {} is named as a reverse, but there are only {actions} actions; name one of them or none",
         reverse.0
     )]
     NoSuchReverse {

@@ -25,7 +25,7 @@ pub enum ObservedMoveError {
     },
     /// The odometry has an infinite bound.
     #[error(
-        "the odometry {odometry:?} has no bound on some side; give one, or tell no move until the robot knows"
+        "the odometry {odometry:?} has an infinite bound; give a finite one, or report no move until the robot has one"
     )]
     Unbounded {
         /// Odometry of the move.
@@ -46,7 +46,7 @@ pub enum ObservedMoveError {
         expected_columns: usize,
     },
     /// The configuration has percepts, and the move brings none.
-    #[error("the percept is missing; tell what the robot sees, or configure no percepts")]
+    #[error("the percept is missing; give the robot's view, or configure `Percepts::None`")]
     PerceptMissing,
 }
 
@@ -55,9 +55,9 @@ pub enum ObservedMoveError {
 #[non_exhaustive]
 pub enum StartError {
     /// The configuration is invalid.
-    #[error("the configuration is out of its bounds")]
+    #[error("the configuration is invalid")]
     Config(#[from] DiktiometryConfigError),
     /// The view of the first place does not fit the configuration.
-    #[error("what the robot sees at the start does not fit the configuration")]
+    #[error("the view at the start does not fit the configuration")]
     Start(#[from] ObservedMoveError),
 }

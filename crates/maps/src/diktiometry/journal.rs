@@ -57,7 +57,7 @@ pub enum UndoError {
 #[non_exhaustive]
 pub enum JournalError {
     /// There is no observer to begin with.
-    #[error("the journal's beginning fits no observer")]
+    #[error("no observer can begin as the journal does")]
     Start(#[from] StartError),
     /// A move is invalid.
     #[error("move {number} of the journal is refused")]

@@ -20,7 +20,7 @@ pub enum MapFileError {
     #[error("no journal was kept; set `journal` of the configuration to `All`")]
     NoJournal,
     /// Moves are missing.
-    #[error("the journal was cut off: {found} of {expected} moves are there")]
+    #[error("the journal is cut off: it has {found} of {expected} moves; copy the file again")]
     Truncated {
         /// Number the file promises.
         expected: usize,

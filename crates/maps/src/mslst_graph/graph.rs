@@ -55,7 +55,9 @@ pub enum GraphError {
         count: usize,
     },
     /// An edge leads to a node that is not there.
-    #[error("node {node}: its {action} edge leads to node {head}, and there are only {count}")]
+    #[error(
+        "node {node}: its {action} edge leads to node {head}, which does not exist; there are {count} nodes"
+    )]
     NoSuchNode {
         /// The node.
         node: u32,

@@ -64,7 +64,9 @@ pub enum SavedPlaceGraphError {
         place: usize,
     },
     /// A link joins a place that is not there.
-    #[error("places {from} and {to} are linked, and there are {places}: learn the map again")]
+    #[error(
+        "places {from} and {to} are linked, but the number of places is {places}: learn the map again"
+    )]
     Link {
         /// One end.
         from: u32,

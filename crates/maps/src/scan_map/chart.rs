@@ -52,9 +52,7 @@ pub struct ChartParts {
 #[non_exhaustive]
 pub enum ChartError {
     /// The radius cannot be a robot's.
-    #[error(
-        "the robot stands clear of walls by {radius} m, expected 0.01 to 10: learn the map again"
-    )]
+    #[error("its robot keeps {radius} m from walls, expected 0.01 to 10: learn the map again")]
     Radius {
         /// The radius, m.
         radius: f64,

@@ -46,7 +46,7 @@ pub enum ScanMatchingError {
         beams: u32,
     },
     /// An edge does not fit the graph.
-    #[error("what was measured does not fit the graph of poses")]
+    #[error("the measurement does not fit the pose graph")]
     Graph(#[from] PoseGraphError),
 }
 

@@ -107,7 +107,7 @@ pub enum SpeedRunConfigError {
     },
     /// A top speed below the speed in the turns.
     #[error(
-        "{field} is {value} mm/s, below the {turn_speed_mm_s} mm/s in the turns: raise the one or lower the other"
+        "{field} is {value} mm/s, below the {turn_speed_mm_s} mm/s in the turns: raise one or lower the other"
     )]
     TopSpeedTooLow {
         /// Which field.

@@ -259,7 +259,7 @@ pub enum LearnPatternsError {
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
     /// SOINN kept nothing.
-    #[error("SOINN made no pattern of {observations} observations; let the robot wander longer")]
+    #[error("SOINN made no pattern from {observations} observations; let the robot wander longer")]
     Nothing {
         /// Number of observations.
         observations: usize,

@@ -29,7 +29,7 @@ pub enum CpmFailure<E> {
     NoStart,
     /// The robot stands elsewhere than where its map begins.
     #[error(
-        "the robot stands at {found}, where its map does not begin; put it to the start of the maze that the map was learned in"
+        "the robot is at {found}, which is not where its map begins; put it at the start of the maze in which the map was learned"
     )]
     NotTheStart {
         /// What it sees.

@@ -61,7 +61,7 @@ const ONE_WALL: f64 = 1.25;
 /// A ring that cannot stand for an e-puck's sensors.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
-    "the ring looks {round:.3} rad round and {reach} m far: CPM needs one that looks all round and reaches further than a corridor is wide, \
+    "the ring covers {round:.3} rad and reaches {reach} m: CPM needs a full circle and a reach beyond the width of a corridor, \
      {corridor_width} m"
 )]
 pub struct UnfitRing {

@@ -507,7 +507,7 @@ impl<R: CpmRobot> System<R> for Cpm {
 #[non_exhaustive]
 pub enum CpmObserveError {
     /// No map was begun.
-    #[error("a walk before the place where it began: observe `CpmObservation::Began` first")]
+    #[error("the walk has no beginning: observe `CpmObservation::Began` first")]
     NotBegun,
     /// The map refuses it.
     #[error(transparent)]

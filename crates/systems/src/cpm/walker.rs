@@ -795,7 +795,9 @@ pub enum WalkError<E> {
     #[error(transparent)]
     Segments(#[from] SegmentError),
     /// The place does not have that many branches.
-    #[error("branch {number} of a place of {branches}: count from 0, the way the robot came by")]
+    #[error(
+        "branch {number} does not exist at a place of {branches}; count from 0, the way by which the robot came"
+    )]
     NoBranch {
         /// Number of the branch that was asked for.
         number: usize,

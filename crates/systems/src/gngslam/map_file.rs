@@ -32,7 +32,9 @@ pub enum MapFileError {
     #[error(transparent)]
     File(#[from] FileError),
     /// A landmark was sensed at a place that is not there.
-    #[error("a landmark was sensed at place {place}, and there are {places}: learn the map again")]
+    #[error(
+        "a landmark was sensed at place {place}, which does not exist; the number of places is {places}: learn the map again"
+    )]
     Sighting {
         /// The place.
         place: u32,
@@ -40,7 +42,9 @@ pub enum MapFileError {
         places: usize,
     },
     /// Not as many places were watched as there are.
-    #[error("{found} places were watched, and there are {places}: learn the map again")]
+    #[error(
+        "the number of true positions is {found}, but that of places is {places}: learn the map again"
+    )]
     Sites {
         /// Number of true positions.
         found: usize,
@@ -147,8 +151,14 @@ mod tests {
     #[test]
     fn places_that_are_not_there_are_refused() {
         for (file, expect) in [
-            (file(7, 1), "sensed at place 7, and there are 1"),
-            (file(0, 2), "2 places were watched, and there are 1"),
+            (
+                file(7, 1),
+                "sensed at place 7, which does not exist; the number of places is 1",
+            ),
+            (
+                file(0, 2),
+                "the number of true positions is 2, but that of places is 1",
+            ),
         ] {
             let text = file.to_json().unwrap();
             let told = MapFile::from_json(&text).unwrap_err().to_string();

@@ -54,10 +54,10 @@ impl OfflineSlamConfig {
 #[non_exhaustive]
 pub enum OfflineSlamError {
     /// They have no features.
-    #[error("the records lack what places are told by")]
+    #[error("the records lack a feature that describes places")]
     Features(#[from] FeatureError),
     /// They cannot be learned.
-    #[error("no map can be learned of the records")]
+    #[error("no map can be learned from the records")]
     Map(#[from] PlaceMapError),
 }
 

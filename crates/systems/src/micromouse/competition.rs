@@ -73,16 +73,16 @@ pub struct RunLeg {
 #[non_exhaustive]
 pub enum ExploreError {
     /// The mouse cannot be driven like that.
-    #[error("the mouse cannot be driven as its configuration says")]
+    #[error("the configuration of the mouse is invalid")]
     Config(#[from] SpeedRunConfigError),
     /// The maze has more than 32 columns or rows.
     #[error("the maze does not fit into the mouse's map")]
     TooLarge(#[from] TooLarge),
     /// The reading contradicts the map.
-    #[error("the mouse sees what it knows to be different")]
+    #[error("the reading contradicts the mouse's map")]
     Observation(#[from] ObserveError),
     /// The mouse knows no way to a goal.
-    #[error("the mouse in {at} sees no way to a goal any more")]
+    #[error("the mouse's map has no way from {at} to a goal")]
     NoWay {
         /// Cell where it is.
         at: Cell,

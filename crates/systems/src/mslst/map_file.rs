@@ -34,7 +34,7 @@ pub enum MapFileError {
     #[error("its nodes do not form a graph")]
     Graph(#[from] GraphError),
     /// A node's state is not among the states.
-    #[error("node {node}: there is no state {state}, only {count} of them")]
+    #[error("node {node} has state {state}, but there are only {count} states")]
     NoSuchState {
         /// The node.
         node: usize,

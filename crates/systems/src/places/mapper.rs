@@ -16,7 +16,7 @@ use super::{PlacesConfig, Site, SiteKind, SitePlace, SiteStep, SiteWay};
 #[non_exhaustive]
 pub enum PlacesError {
     /// The corridor width is invalid.
-    #[error("the corridors cannot be told from junctions")]
+    #[error("the corridor detector cannot be built")]
     Corridors(#[from] RingError),
     /// A scan cannot be matched.
     #[error(transparent)]

@@ -60,7 +60,7 @@ pub enum MazeConfigError {
     },
     /// Too many corridors: they cannot all differ.
     #[error(
-        "corridor {corridor} is like another in a thousand draws: take more patterns or observations"
+        "all of a thousand draws of corridor {corridor} look like another one: use more patterns or observations"
     )]
     NotDistinctive {
         /// Its number.

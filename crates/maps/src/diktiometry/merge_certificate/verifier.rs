@@ -18,7 +18,7 @@ pub enum MergeCertificateError {
         number: usize,
     },
     /// The journal has no such visit.
-    #[error("certificate {number} speaks of visit {visit}, and the journal has {visits}")]
+    #[error("certificate {number} names visit {visit}, but the journal has only {visits} visits")]
     NoSuchVisit {
         /// Number of the certificate.
         number: usize,
@@ -28,13 +28,15 @@ pub enum MergeCertificateError {
         visits: usize,
     },
     /// A route or a chain of looks does not hang together.
-    #[error("certificate {number} has a gap: what it leads through is not known to be one place")]
+    #[error(
+        "certificate {number} has a gap: two visits that it joins are not known to be at one place"
+    )]
     Gap {
         /// Number of the certificate.
         number: usize,
     },
     /// It is said to rest on looks and does not, or the other way round.
-    #[error("certificate {number} does not say rightly whether it rests on looks")]
+    #[error("certificate {number} states wrongly whether it rests on looks")]
     Ground {
         /// Number of the certificate.
         number: usize,
@@ -58,7 +60,7 @@ pub enum MergeCertificateError {
         other: usize,
     },
     /// A span is invalid: it has no moves, more than five, or a blocked one.
-    #[error("certificate {number} has a span from visit {} to {} that no bound is known of", span.begin, span.end)]
+    #[error("certificate {number} has a span from visit {} to {} without known bounds", span.begin, span.end)]
     NoSpan {
         /// Number of the certificate.
         number: usize,
@@ -76,7 +78,7 @@ pub enum MergeCertificateError {
         least: f64,
     },
     /// Two visits do not look alike.
-    #[error("certificate {number} has visits {one} and {other} look alike, and they do not")]
+    #[error("certificate {number} says that visits {one} and {other} look alike, but they do not")]
     Unlike {
         /// Number of the certificate.
         number: usize,
@@ -86,7 +88,7 @@ pub enum MergeCertificateError {
         other: usize,
     },
     /// The chance is another.
-    #[error("certificate {number} states a chance of {stated}, and it is {found}")]
+    #[error("certificate {number} states a chance of {stated}, but it is {found}")]
     Chance {
         /// Number of the certificate.
         number: usize,

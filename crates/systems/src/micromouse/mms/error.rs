@@ -27,7 +27,7 @@ pub enum PlayError {
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
     /// It sees walls where it has seen none, or the other way round.
-    #[error("the mouse sees what it knows to be different")]
+    #[error("the reading contradicts the mouse's map")]
     Observe(#[from] ObserveError),
     /// No way leads to the goal.
     #[error("the mouse has found that no way leads to the goal")]

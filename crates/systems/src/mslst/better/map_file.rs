@@ -32,13 +32,15 @@ pub enum BetterMapFileError {
     #[error(transparent)]
     File(#[from] FileError),
     /// The configuration fits no robot.
-    #[error("its configuration is not sound")]
+    #[error("its configuration is invalid")]
     Config(#[from] BetterConfigError),
     /// The map is not sound.
-    #[error("its chart is not sound")]
+    #[error("its chart is invalid")]
     Chart(#[from] ChartError),
     /// Not as many places were watched as there are.
-    #[error("{found} places were watched, and there are {places}: learn the map again")]
+    #[error(
+        "the number of true positions is {found}, but that of places is {places}: learn the map again"
+    )]
     Sites {
         /// Number of true positions.
         found: usize,
@@ -46,7 +48,7 @@ pub enum BetterMapFileError {
         places: usize,
     },
     /// A place was watched nowhere.
-    #[error("place {place} was watched at ({}, {}) m, which is nowhere: learn the map again", at.x, at.y)]
+    #[error("the true position of place {place}, ({}, {}) m, is invalid: learn the map again", at.x, at.y)]
     Site {
         /// The place.
         place: usize,
@@ -180,7 +182,7 @@ mod tests {
             (
                 "\"sites\":[",
                 "\"sites\":[[0,0],[0,0],[0,0],",
-                "places were watched",
+                "number of true positions",
             ),
             ("mslst-better", "mslst", "this is a map of mslst"),
             ("\"rows\":[\"", "\"rows\":[\"?", "row 0"),

@@ -86,7 +86,7 @@ pub(super) enum CertificateFileError {
         "it has format `{format}`, version {version}; this program reads `{FORMAT}`, version {VERSION}"
     )]
     Version { format: String, version: u32 },
-    #[error("it says {told} {what}, but the graph has {found}: name the graph it was made of")]
+    #[error("it says {told} {what}, but the graph has {found}: name the graph it was made from")]
     OtherGraph {
         what: &'static str,
         told: usize,
