@@ -44,7 +44,7 @@ impl Looks {
         ];
         match flags.iter().find(|(_, given)| *given) {
             Some((flag, _)) if mazes != 1 => Err(Failure::BadInput(anyhow!(
-                "{flag} is of one maze, and {} holds {mazes}: name a file",
+                "{flag} needs a single maze, but {} holds {mazes}: name a file",
                 path.display()
             ))),
             _ => Ok(()),

@@ -261,7 +261,7 @@ fn score(arguments: &Score, out: &mut dyn Write) -> Result<(), Failure> {
     }
     let Some(score) = scored else {
         return Err(Failure::Failed(anyhow!(
-            "a map of {nodes} nodes has one for both goals, so that it cannot be turned and has no score; give another --seed, or a smaller \
+            "the map of {nodes} nodes has one node for both goals, so it cannot be turned and has no score; give another --seed, or a smaller \
              --growth-period"
         )));
     };

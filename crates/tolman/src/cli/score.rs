@@ -72,7 +72,7 @@ fn pairs(found: &Trajectory, truth: &Trajectory) -> Vec<(Point, Point)> {
 
 fn no_times(what: &str) -> Failure {
     Failure::BadInput(anyhow!(
-        "no {what} lies within the times of the trajectory; do both count time from the same moment?"
+        "no {what} lies within the times of the trajectory; make both count time from the same moment"
     ))
 }
 

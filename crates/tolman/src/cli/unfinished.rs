@@ -140,7 +140,7 @@ impl Unfinished {
         match read.version {
             VERSION => Ok(read),
             other => Err(anyhow!(
-                "its version is {other}, and this program reads {VERSION}; take the one that wrote it"
+                "its version is {other}, and this program reads {VERSION}; use the one that wrote it"
             )),
         }
     }
@@ -234,7 +234,7 @@ impl Keeper {
             && let Some(difference) = call.difference(&former.run.call)
         {
             return Err(Failure::BadInput(anyhow!(
-                "{} is another run: {difference}; say all as it was said for it",
+                "{} is another run: {difference}; repeat all options of that run",
                 former.path.display()
             )));
         }
@@ -354,7 +354,7 @@ impl Keeper {
 fn parted(former: &Former) -> Failure {
     let Done { actions, .. } = former.run.done;
     Failure::Failed(anyhow!(
-        "{}: its first {actions} actions, made again, came to something else; go on with the program that wrote it, or \
+        "{}: its first {actions} actions, repeated, gave another result; continue with the program that wrote it, or \
          begin again without --from",
         former.path.display()
     ))

@@ -162,7 +162,7 @@ fn found(log: &RobotLog, system: System) -> Result<MappedLog, Failure> {
 
 fn refused(why: &str) -> Failure {
     Failure::BadInput(anyhow!(
-        "{why}, and a log tells of none: give --system diktiometry, cpm or gngslam"
+        "{why}, which a log does not have: give --system diktiometry, cpm or gngslam"
     ))
 }
 

@@ -126,12 +126,13 @@ impl Arguments {
     /// Refuses what a family has not.
     fn check(&self, family: &str) -> Result<(), Failure> {
         if self.share.is_some() && family != "braided" {
-            let why = anyhow!("--share is of the family braided, not of {family}: leave it out");
+            let why =
+                anyhow!("--share belongs to the family braided, not to {family}: leave it out");
             return Err(Failure::BadInput(why));
         }
         if self.has_rooms() && family != "rooms" {
             let why = anyhow!(
-                "--attempts, --smallest, --largest and --extra-doors are of the family rooms, not of {family}: leave them out"
+                "--attempts, --smallest, --largest and --extra-doors belong to the family rooms, not to {family}: leave them out"
             );
             return Err(Failure::BadInput(why));
         }
