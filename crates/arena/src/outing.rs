@@ -47,7 +47,7 @@ pub trait Outing: InRun {
     /// If the robot fails or the system cannot go on with it.
     fn act(&mut self, task: Task) -> Result<Standing, BoxError>;
 
-    /// Returns in a few words what the system makes of its situation.
+    /// Returns a few words on the system's situation.
     fn words(&self) -> String;
 
     /// Returns the map of the system.
@@ -333,7 +333,7 @@ impl<R: Robot, S> Sent<R, S> {
         Self { count, ..self }
     }
 
-    /// Keeps the map as `keep` writes it, which is told how each place was made, by id.
+    /// Keeps the map as `keep` writes it, which is called with how each place was made, by id.
     #[must_use]
     pub fn keeping(
         self,

@@ -7,9 +7,9 @@ pub enum SampleError {
     /// The sample is too small.
     #[error("{count} values are too few; {needed} or more are needed")]
     TooSmall {
-        /// How many there are.
+        /// Number of values given.
         count: usize,
-        /// How many are needed.
+        /// Number of values needed.
         needed: usize,
     },
     /// A value is NaN or infinite.

@@ -8,8 +8,8 @@ use tolman_robot::{Goal, Mapper, Standing, Task};
 /// knows no robot: an [`Actor`](crate::Actor) lets it drive one that senses what it
 /// [observes](crate::OfStep).
 pub trait Brain: Mapper + Debug {
-    /// Returns the next action. It is asked whenever an action has ended or the robot was put down,
-    /// once it has observed that.
+    /// Returns the next action. It is called after an action has ended or the robot was put down,
+    /// once the brain has observed that.
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction;
 
     /// Returns the state of `task`, as far as the brain can tell. The caller decides whether a goal

@@ -44,8 +44,8 @@ pub struct RoundTrip {
 }
 
 impl RoundTrip {
-    /// Plays the way to the goal, back and there again, from where the robot stands. `see` is told
-    /// of every fragment of the first two.
+    /// Plays the way to the goal, back and there again, from where the robot stands. Calls `see`
+    /// with every fragment of the first two.
     ///
     /// # Errors
     /// [`CpmTrialError`].

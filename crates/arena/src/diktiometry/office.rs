@@ -28,8 +28,8 @@ const MOST_COLOURS: u32 = 1 << 16;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OfficeConfig {
-    /// From wall to wall of a corridor, m. Openings beside a way are told apart only if the walls
-    /// between them are thick.
+    /// Width of a corridor from wall to wall, m. Adjacent openings are only distinguished if the
+    /// walls between them are thick.
     pub corridor_width: f64,
     /// Thickness of walls between two parallel corridors, m; 0 for walls that are lines.
     pub wall_thickness: f64,

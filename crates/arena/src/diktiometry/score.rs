@@ -1,4 +1,4 @@
-//! A learned map held against the truth.
+//! A learned map compared with the truth.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use core::cmp::Reverse;

@@ -46,7 +46,7 @@ impl FieldExtent {
     }
 }
 
-/// The field that maps are held against: what is known of it in the world's frame.
+/// The field that maps are compared with, in the world's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldFrame {
     /// The direction from the blue goal to the yellow one; the paper draws it straight up.

@@ -199,7 +199,7 @@ mod tests {
 
     use super::*;
 
-    /// Records anywhere on the pitch, told by a perfect odometry, and the two goals.
+    /// Returns records anywhere on the pitch with perfect odometry, and the two goals.
     fn records(seed: u64, frame: Pose) -> (Vec<PlaceRecord>, Vec<Cell>) {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let record = |x: f64, y: f64| PlaceRecord {

@@ -81,7 +81,7 @@ pub fn try_on(
     watch(maze, searcher, seed, |_| {})
 }
 
-/// Returns the same; `see` is told of every step as soon as it is made.
+/// Returns the same, and calls `see` with every step as soon as it is made.
 ///
 /// # Errors
 /// If no mouse can run in the maze.

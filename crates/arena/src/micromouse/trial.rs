@@ -89,7 +89,7 @@ impl MouseTrial {
         Self::watch(maze, mouse, |_| {})
     }
 
-    /// Returns the same; `see` is told of every step as soon as it is made.
+    /// Returns the same, and calls `see` with every step as soon as it is made.
     ///
     /// # Errors
     /// If the referee refuses the maze or an order.

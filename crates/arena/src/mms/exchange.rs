@@ -5,7 +5,7 @@ use super::Simulator;
 use super::simulator::eighths_of;
 use crate::micromouse::SideSeen;
 
-/// A line of a mouse, and what came of it.
+/// A line of a mouse, and the reply.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exchange {
     /// Line of the mouse.

@@ -197,7 +197,7 @@ impl Judge<'_, '_> {
         cycle.gap().supports(self.belief.config).then_some(cycle)
     }
 
-    /// Returns what a cycle beyond its bound makes of a closure.
+    /// Returns the verdict on a closure whose cycle is beyond its bound.
     fn against(&mut self, link: u32, way: &Way) -> Option<ClosureVerdict> {
         let against = self.cycle(link, way)?;
         let shunned: Vec<u32> = way.closures().collect();

@@ -1,4 +1,4 @@
-//! Closures held against each other in pairs, and the greatest consistent groups of them.
+//! Closures compared in pairs, and the greatest consistent groups of them.
 //!
 //! Source: the idea of pairwise consistency is that of J. Mangelson et al.: Pairwise Consistent
 //! Measurement Set Maximization for Robust Multi-robot Map Merging, 2018. Deviation: the set is

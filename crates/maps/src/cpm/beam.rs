@@ -211,8 +211,7 @@ fn turn_back(hypotheses: &mut Vec<Hypothesis>, turn: Turn, observations: u32) {
     });
 }
 
-/// Returns what a walk makes of the hypotheses, the likeliest first; of those that say the same
-/// one.
+/// Returns the hypotheses after a walk, the likeliest first; only one of those that are equal.
 fn children(
     parents: &[Hypothesis],
     turn: Turn,

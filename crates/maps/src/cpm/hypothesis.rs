@@ -32,7 +32,8 @@ impl Hypothesis {
         Self { mapper, cost: 0.0 }
     }
 
-    /// Returns all hypotheses that a walk makes of this one; none if it cannot have been.
+    /// Returns all hypotheses that follow from this one after a walk; empty if the walk contradicts
+    /// it.
     pub(super) fn after(
         &self,
         turn: Turn,

@@ -77,8 +77,8 @@ pub struct Location {
     pub map: usize,
     /// The fragment, by the end it was entered at.
     pub enter: End,
-    /// The port it leads to or, at a junction, has led to: what
-    /// [`CpMapper::place`](super::CpMapper::place) has to be told there.
+    /// The port it leads to or, at a junction, has led to: the argument for
+    /// [`CpMapper::place`](super::CpMapper::place).
     pub ahead: Port,
     /// Probability of that place, 0 to 1.
     pub probability: f64,

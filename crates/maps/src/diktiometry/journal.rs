@@ -1,5 +1,4 @@
-//! The journal: what the robot told, so that all that followed from it can be undone and done
-//! again.
+//! The journal: all input of the robot, so that what followed from it can be undone and repeated.
 
 use alloc::vec::Vec;
 
@@ -18,7 +17,7 @@ pub struct Journal {
     pub start: FirstPlace,
     /// The moves.
     pub moves: Vec<ObservedMove>,
-    /// Pairs of places that were told to be different.
+    /// Pairs of places that are known to be different.
     pub distinctions: Vec<Distinction>,
 }
 
@@ -76,7 +75,7 @@ impl Observer {
         (self.config.journal == JournalLength::All).then_some(&self.journal)
     }
 
-    /// Returns an observer that was told all that a journal holds. O(moves).
+    /// Returns an observer with all input of a journal. O(moves).
     ///
     /// # Errors
     /// [`JournalError`] if the journal does not fit the configuration.
@@ -90,11 +89,11 @@ impl Observer {
         Ok(observer)
     }
 
-    /// Takes the last moves back: everything is as it was before them, to the bit. O(moves), since
-    /// those before them are gone through again.
+    /// Takes the last moves back: everything is as it was before them, bit for bit. O(moves), since
+    /// the earlier ones are replayed.
     ///
     /// # Errors
-    /// [`UndoError`] if no journal is kept or it has not that many moves.
+    /// [`UndoError`] if no journal is kept or it does not have that many moves.
     pub fn undo(&mut self, moves: u64) -> Result<(), UndoError> {
         let mut journal = self.journal().ok_or(UndoError::NoJournal)?.clone();
         let length = journal.moves.len() as u64;

@@ -53,7 +53,7 @@ pub struct MergeCertificate {
     pub proof: MergeProof,
     /// Whether it is by looks, or leads through places that are one by an earlier one that is.
     pub rests_on_looks: bool,
-    /// A checksum of all that, so that one that was changed is told from one that is wrong.
+    /// Checksum of all fields, which tells a changed certificate from a wrong one.
     pub seal: u64,
 }
 

@@ -6,8 +6,8 @@ use tolman_geom::PoseBox;
 
 use super::{Action, Signature};
 
-/// One move: "a sequence of actions ending with the robot in a distinguished place", told after it
-/// ended.
+/// One move: "a sequence of actions ending with the robot in a distinguished place", reported at
+/// its end.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ObservedMove {

@@ -66,8 +66,8 @@ impl Place {
         }
     }
 
-    /// Returns whether an action could be tried here when the robot last was here, by what it saw
-    /// and what came of it.
+    /// Returns whether an action could be tried here on the robot's last visit, by what it saw and
+    /// by the outcome.
     #[must_use]
     pub fn is_open(&self, action: Action) -> bool {
         self.exits.allow(action) && !self.blocked.contains(&action)

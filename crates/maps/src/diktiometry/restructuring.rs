@@ -57,8 +57,8 @@ enum Diagnosis {
     },
 }
 
-/// Returns whether a diagnosis is accepted: proposed by one, rejected by none. Nobody is asked
-/// after the first rejection.
+/// Returns whether a diagnosis is accepted: proposed by one, rejected by none. Stops at the first
+/// rejection.
 fn accepted(verdicts: impl IntoIterator<Item = Verdict>) -> bool {
     let mut proposed = false;
     for verdict in verdicts {

@@ -85,7 +85,7 @@ impl FeatureSpace {
     /// Returns the features of a record that is in no table.
     ///
     /// # Errors
-    /// If the record lacks what is to be told by, as [`FeatureError`] says; it is called record 0.
+    /// [`FeatureError`] if the record lacks a chosen feature; it is called record 0.
     pub fn features(&self, of: &PlaceRecord) -> Result<Vec<f32>, FeatureError> {
         let mut features = Vec::with_capacity(self.dimension());
         for part in &self.parts {
@@ -169,7 +169,7 @@ impl FeatureSpace {
         Some((feature, values))
     }
 
-    /// Returns the same space with images told by their pixels.
+    /// Returns the same space with images as pixels.
     #[cfg(feature = "serde")]
     pub(super) fn expanded(&self) -> Self {
         let part = |part: &Part| match part.group {
@@ -186,7 +186,7 @@ impl FeatureSpace {
         }
     }
 
-    /// Returns features as they are in the space with images told by their pixels.
+    /// Returns the features in the space with images as pixels.
     #[cfg(feature = "serde")]
     pub(super) fn expand(&self, features: &[f32]) -> Vec<f32> {
         let mut start = 0;

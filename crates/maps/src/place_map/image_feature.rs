@@ -48,7 +48,7 @@ impl ImageFeature {
         3 * self.width as usize * self.height as usize
     }
 
-    /// Returns whether an image has no pixels, and so nothing to be told by.
+    /// Returns whether an image has no pixels, and so no values.
     #[must_use]
     pub const fn is_empty(self) -> bool {
         self.len() == 0

@@ -169,23 +169,23 @@ impl PlaceMap {
         nearest.filter(|_| count > 0).map(|(_, node)| node)
     }
 
-    /// Returns where a node lies, m, in the frame of the odometry: its learned odometry (section
-    /// 3.4, "Learning"). `None` of a node that is not there, or where places are not told by
-    /// odometry.
+    /// Returns the position of a node, m, in the frame of the odometry: its learned odometry
+    /// (section 3.4, "Learning"). `None` if the node does not exist, or odometry is not a chosen
+    /// feature.
     #[must_use]
     pub fn position(&self, node: UnitId) -> Option<Point> {
         self.space.position(&self.features(node)?)
     }
 
-    /// Returns what a node looks like, in red, green and blue: the image that was learned there.
-    /// `None` of a node that is not there, or where places are not told by images.
+    /// Returns the look of a node, in red, green and blue: the image that was learned there. `None`
+    /// if the node does not exist, or images are not a chosen feature.
     #[must_use]
     pub fn picture(&self, node: UnitId) -> Option<Picture> {
         self.space.picture(&self.features(node)?)
     }
 
-    /// Returns the ranges that were learned at a node, m. `None` of a node that is not there, or
-    /// where places are not told by ranges.
+    /// Returns the ranges that were learned at a node, m. `None` if the node does not exist, or
+    /// ranges are not a chosen feature.
     #[must_use]
     pub fn ranges(&self, node: UnitId) -> Option<Vec<f64>> {
         self.space.ranges(&self.features(node)?)

@@ -26,7 +26,7 @@ struct RayCell {
     range: u8,
 }
 
-/// Steps in which ranges are told, m.
+/// Resolution of ranges, m.
 pub(super) const RANGE_UNIT: f64 = 0.01;
 /// No range: the map does not say.
 pub(super) const UNKNOWN: u8 = u8::MAX;

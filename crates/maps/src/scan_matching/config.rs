@@ -9,7 +9,7 @@ pub struct ScanMatchingConfig {
     pub farthest: f64,
     /// Standard deviation of a beam's end from the surface that it met.
     pub kernel: f64,
-    /// Side of a cell of the map that scans are held against.
+    /// Side of a cell of the map that scans are compared with.
     pub cell: f64,
     /// Distance after which a scan is matched again.
     pub step: f64,
@@ -63,7 +63,7 @@ pub struct ClosureConfig {
     pub least_way: f64,
     /// Keyframes whose scans are put together and looked for.
     pub query_keyframes: usize,
-    /// Keyframes of the old place that they are held against.
+    /// Number of keyframes of the old place that they are compared with.
     pub old_keyframes: usize,
     /// Minimum half-width of the window for an old place, along each axis.
     pub window: f64,

@@ -25,7 +25,7 @@ pub(super) struct Stamp {
     bells: Vec<u8>,
 }
 
-/// Places within a cell that are told apart along each axis.
+/// Number of positions within a cell that are distinguished along each axis.
 const PLACES: usize = 5;
 /// Standard deviations at which a bell is cut off.
 const BELL: f64 = 3.0;

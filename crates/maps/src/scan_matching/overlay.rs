@@ -28,11 +28,11 @@ pub struct MapOverlay {
 const STRETCHES: usize = 8;
 /// Keyframes to either side of a stretch's middle.
 const HALF: usize = 15;
-/// Points of a stretch that are looked for, and points of the whole map that are held against this
+/// Numbers of points of a stretch that is placed, and of the whole map that is compared with this
 /// one.
 const SEARCHED_POINTS: usize = 150;
 const REFINED_POINTS: usize = 1500;
-/// Axes of buildings are told so surely, rad.
+/// Standard deviation of the axes of buildings, rad.
 const AXIS_TURN: f64 = 0.07;
 /// Overlays nearer to each other than that are one, m and rad.
 const SAME: (f64, f64) = (1.0, 0.1);

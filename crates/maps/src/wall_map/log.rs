@@ -10,7 +10,8 @@ pub(super) struct Log<const LOG: usize> {
     len: usize,
 }
 
-/// One wall that an observation told of. Walls of a map of at most 32 × 32 have numbers below 2112.
+/// One wall that an observation revealed. Walls of a map of at most 32 × 32 have numbers
+/// below 2112.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Entry {
     wall: u16,

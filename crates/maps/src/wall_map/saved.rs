@@ -32,7 +32,7 @@ pub struct SavedWallMap {
     /// The walls known to stand, likewise. Those of the border are left out.
     pub standing: Vec<Wall>,
     /// The observations that can be forgotten again, the oldest first, each with the walls that it
-    /// told of. A map with a shorter memory drops the oldest.
+    /// revealed. A map with a shorter memory drops the oldest.
     pub remembered: Vec<Vec<Wall>>,
     /// Visits to each cell, row by row from the south; 255 stands for all greater numbers.
     pub visits: Vec<Vec<u8>>,

@@ -32,7 +32,7 @@ pub struct QLearningConfig {
     pub learning_rate: f64,
     /// γ, 0 … 1.
     pub discount: f64,
-    /// The share of actions that are chosen by chance, 0 … 1.
+    /// Share of random actions, 0 to 1.
     pub exploration: f64,
 }
 

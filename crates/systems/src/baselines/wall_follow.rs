@@ -23,7 +23,7 @@ use crate::{Brain, Doing, TimeStep};
 #[derive(Clone, Debug)]
 pub struct WallFollow {
     corridor_width: f64,
-    /// It remembers what came of its actions as Avoid does.
+    /// Memory of its actions' outcomes, as Avoid's.
     memory: AvoidBrain,
     /// The last scan and the robot's heading then; `None` while either sensor drops out.
     view: Option<(Scan, Heading)>,

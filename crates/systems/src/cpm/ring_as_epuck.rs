@@ -69,7 +69,7 @@ pub struct UnfitRing {
     pub round: f64,
     /// Largest range, m.
     pub reach: f64,
-    /// Width of the corridors as it was told, m.
+    /// Width of the corridors by the configuration, m.
     pub corridor_width: f64,
 }
 

@@ -108,8 +108,8 @@ impl Guide {
         self.mapping = Some(RoverMap::of(observer));
     }
 
-    /// Lets `rover` look round if nothing is known of where it stands. From amid a corridor it
-    /// first goes to a place, which the map is not told: back to the last if a routine broke off.
+    /// Lets `rover` look round if its place is unknown. From mid-corridor it first goes to a place,
+    /// without the map: back to the last one if a routine broke off.
     pub(super) fn find_footing<V: Rover>(
         &mut self,
         rover: &mut V,
@@ -299,7 +299,7 @@ impl Guide {
         all.filter_map(|landmark| Some((*landmark, self.place_of(*landmark)?)))
     }
 
-    /// Returns in a few words what it makes of its situation.
+    /// Returns a few words on its situation.
     pub(super) fn words(&self) -> String {
         let Some(observer) = self.observer() else {
             return String::new();

@@ -63,7 +63,7 @@ impl RouteFinder {
         self.belief.as_ref()
     }
 
-    /// Drives to a place from wherever it was put down, which the belief is not told, and looks
+    /// Drives to a place from wherever it was put down, without changing the belief, and looks
     /// round.
     pub(super) fn find_footing<V: Rover>(&mut self, rover: &mut V) -> Result<(), V::Error> {
         let mut seen = rover.look()?;
@@ -191,7 +191,7 @@ impl RouteFinder {
         Direction::ALL.get(action.0 as usize).copied()
     }
 
-    /// Returns in a few words what it makes of its situation.
+    /// Returns a few words on its situation.
     pub(super) fn words(&self) -> String {
         let places = self
             .belief

@@ -136,7 +136,7 @@ impl RoverMap {
     }
 }
 
-/// Returns a move in `direction` as a mapper of this configuration is told of it.
+/// Returns a move in `direction` as the input of a mapper of this configuration.
 pub(super) fn observed(config: &Config, direction: Direction, arrival: &Arrival) -> ObservedMove {
     ObservedMove {
         action: Action(direction.index() as u32),
@@ -147,7 +147,7 @@ pub(super) fn observed(config: &Config, direction: Direction, arrival: &Arrival)
     }
 }
 
-/// Returns the place that the rover looks at as a mapper of this configuration is told of it.
+/// Returns the place that the rover looks at as the input of a mapper of this configuration.
 pub(super) fn first_place(config: &Config, seen: &Arrival) -> FirstPlace {
     FirstPlace {
         percept: percept(config, seen),

@@ -93,10 +93,10 @@ impl OnlineSlamConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ExplorationPolicy {
-    /// Straight on until something is near, and then elsewhere by chance, as in the paper.
+    /// Straight on until something is near, then in a random direction, as in the paper.
     ByChance,
     /// To the nearest point where the floor goes on beyond the map, as long as there are any; then
-    /// by chance.
+    /// at random.
     ToTheUnknown,
 }
 

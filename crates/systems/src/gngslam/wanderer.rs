@@ -82,10 +82,10 @@ pub enum WandererError<E> {
 }
 
 /// Gathers records: a robot that drives straight on until something is near, takes a record there,
-/// and turns elsewhere by chance (section 3.2).
+/// and turns by a random angle (section 3.2).
 ///
-/// It gets out of corners: it turns until the way is clear, and where it is clear in no direction
-/// it lets things come nearer. It backs off where its body is wedged.
+/// It gets out of corners: it turns until the way is clear. If no direction is clear, it lets
+/// things come nearer. It backs off if its body is wedged.
 #[derive(Clone, Debug)]
 pub struct Wanderer {
     config: WandererConfig,

@@ -52,7 +52,7 @@ impl Search for CounterSearch {
     }
 }
 
-/// Returns one of some leaps by chance.
+/// Returns a random leap.
 pub(super) fn pick(leaps: &[Leap], rng: &mut impl Rng) -> Option<Leap> {
     let count = u32::try_from(leaps.len()).ok().filter(|count| *count > 0)?;
     leaps.get(rng.random_range(0..count) as usize).copied()

@@ -63,7 +63,7 @@ pub struct Driver<S> {
 }
 
 impl<S: Search> Driver<S> {
-    /// Returns a mouse at the start of a maze that it was told of by `brief`.
+    /// Returns a mouse at the start of the maze that `brief` describes.
     ///
     /// # Errors
     /// If the maze is larger than [`SIDE`].

@@ -65,7 +65,7 @@ impl Searcher {
         )
     }
 
-    /// Returns a mouse with this search at the start of a maze that it was told of by `brief`.
+    /// Returns a mouse with this search at the start of the maze that `brief` describes.
     ///
     /// # Errors
     /// If the maze is too large.

@@ -9,7 +9,7 @@ use super::{PlacesConfig, PlacesError, PlacesMapper, Site, SiteWay};
 
 /// Tells a mapper of places that another drove to, such as the robot of a log.
 pub trait OfSites {
-    /// The mapper that is told.
+    /// The mapper that learns.
     type Mapper: Mapper;
     /// Reason why it cannot begin.
     type Error;
@@ -93,7 +93,7 @@ impl<O: OfSites> SiteMapper<O> {
         keyframes.zip(self.visits()).collect()
     }
 
-    /// Tells the mapper of the places before number `end` that it was not told of.
+    /// Passes the mapper the new places before number `end`.
     fn tell(&mut self, end: usize) -> Outcome<(), O> {
         for visit in self.believed.len()..end {
             let Some(site) = self.places.site(visit) else {

@@ -160,7 +160,7 @@ impl<'a> PlaneWalker<'a> {
         }))
     }
 
-    /// Walks as `explorer` decides until there is nothing more to do for `aim`. `see` is told of
+    /// Walks as `explorer` decides until there is nothing more to do for `aim`. Calls `see` with
     /// every fragment that was walked to its end.
     ///
     /// # Errors

@@ -18,8 +18,7 @@ use crate::diktiometry::{Config, PathGraph, Percepts, PerceptualIndexing, PlaceI
 /// it.
 const DOUBLINGS: u32 = 3;
 
-/// All views of all places, by their columns and, if that is asked for, by triangles of their
-/// edges.
+/// All views of all places, by their columns and, if configured, by triangles of their edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ViewIndex {
     /// Whose they are.

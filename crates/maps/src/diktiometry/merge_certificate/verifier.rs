@@ -99,8 +99,8 @@ pub enum MergeCertificateError {
     },
 }
 
-/// Checks certificates, one by one: each may rest on those before it. It reads the journal and what
-/// was told at first, and no map.
+/// Checks certificates in order: each may rest on those before it. It reads the journal and the
+/// configuration, but no map.
 ///
 /// O(moves + certificates · length of their routes).
 ///

@@ -51,7 +51,7 @@ pub enum BetterPart {
     Fit,
     /// It goes where its map has gaps; without it, it wanders like Avoid until there are none.
     Exploration,
-    /// It plans for a robot that misses; without it for one whose motors do as they are told.
+    /// Plans for motors that err. Without it, plans for exact ones.
     Chances,
     /// Chooses the action that is best on average over the belief. Without it, chooses the best one
     /// at the likeliest standpoint.
@@ -139,7 +139,7 @@ pub struct Motors {
 }
 
 impl Motors {
-    /// Returns the same motors if they did as they are told.
+    /// Returns the same motors without errors.
     pub(super) const fn exact(self) -> Self {
         Self {
             turn_sd: 0.0,

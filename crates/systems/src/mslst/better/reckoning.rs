@@ -9,7 +9,7 @@ use crate::{Doing, RolledStep};
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Reckoning {
     heading: Option<Heading>,
-    /// Whether the compass told it at the end of the step before.
+    /// Whether the compass gave a heading at the end of the step before.
     is_fresh: bool,
     moved: Vector,
     variance: Vector,

@@ -48,7 +48,7 @@ impl Edge {
 
 /// A percept's features to be found.
 pub(super) struct Seen {
-    /// Its triangles, told from each of their longest sides.
+    /// Its triangles, one from each of their longest sides.
     features: Vec<Feature>,
     columns: usize,
 }
@@ -163,8 +163,8 @@ fn side(from: &Edge, to: &Edge, columns: usize) -> usize {
     (to.column + columns - from.column) % columns
 }
 
-/// Returns the triangle told from the beginning of its longest side on; from each of them if
-/// several are the longest.
+/// Returns the triangle from the beginning of its longest side on; if several are the longest, one
+/// from each.
 fn turns(triangle: Triangle<'_>, columns: usize) -> impl Iterator<Item = Feature> + use<'_> {
     let [a, b, c] = triangle;
     let turns = [[a, b, c], [b, c, a], [c, a, b]];
