@@ -31,7 +31,7 @@ pub enum MapFileError {
     /// The header or the JSON is not sound, or names another system; or the map has no JSON form.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A landmark was sensed at a place that is not there.
+    /// A landmark was sensed at a place that does not exist.
     #[error(
         "a landmark was sensed at place {place}, which does not exist; the number of places is {places}: learn the map again"
     )]
@@ -41,7 +41,7 @@ pub enum MapFileError {
         /// Number of places.
         places: usize,
     },
-    /// Not as many places were watched as there are.
+    /// The number of true positions differs from that of places.
     #[error(
         "the number of true positions is {found}, but that of places is {places}: learn the map again"
     )]

@@ -37,7 +37,7 @@ pub enum BetterMapFileError {
     /// The map is not sound.
     #[error("its chart is invalid")]
     Chart(#[from] ChartError),
-    /// Not as many places were watched as there are.
+    /// The number of true positions differs from that of places.
     #[error(
         "the number of true positions is {found}, but that of places is {places}: learn the map again"
     )]
@@ -47,7 +47,7 @@ pub enum BetterMapFileError {
         /// Number of places.
         places: usize,
     },
-    /// A place was watched nowhere.
+    /// A true position is invalid.
     #[error("the true position of place {place}, ({}, {}) m, is invalid: learn the map again", at.x, at.y)]
     Site {
         /// The place.
