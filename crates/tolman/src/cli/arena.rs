@@ -113,7 +113,7 @@ impl clap::ValueEnum for Robot {
     }
 }
 
-/// What came of a contest, for `--json`.
+/// The result of a contest, for `--json`.
 #[derive(Serialize)]
 struct Line<'a> {
     system: &'a str,

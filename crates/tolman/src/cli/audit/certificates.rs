@@ -24,7 +24,7 @@ const VERSION: u32 = 1;
 pub(super) struct CertificateFile {
     format: String,
     version: u32,
-    /// What every standard deviation is multiplied by.
+    /// Factor by which every standard deviation is multiplied.
     sigma_scale: f64,
     /// Standard deviations within which a cycle agrees.
     k: f64,
