@@ -106,7 +106,7 @@ impl clap::ValueEnum for Robot {
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         Some(match self {
-            Self::Own => PossibleValue::new("own").help("That of the system's paper"),
+            Self::Own => PossibleValue::new("own").help("The robot of the system's paper"),
             Self::LaserPioneer => PossibleValue::new("laser-pioneer")
                 .help("The Pioneer with a laser, a compass and encoders"),
         })
