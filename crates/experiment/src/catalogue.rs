@@ -7,7 +7,7 @@ use super::{BoxError, Error, Experiment, Options};
 pub struct Entry {
     /// The name it is called by on the command line and in `summary.json`.
     pub name: &'static str,
-    /// What it is, in one line: the title of the report.
+    /// Description in one line: the title of the report.
     pub title: &'static str,
     /// The paper whose tables these are, as a reader would cite it; empty if there is none.
     pub source: &'static str,
@@ -15,13 +15,13 @@ pub struct Entry {
     pub runs: u32,
     /// Runs of each row under `--quick`, for a first look.
     pub quick_runs: u32,
-    /// What the tour of all experiments shows of it; `None` leaves it out.
+    /// Part in the tour of all experiments; `None` leaves it out.
     pub tour: Option<Tour>,
     /// Makes it ready: reads the mazes that the options name.
     pub open: fn(&Options) -> Result<Experiment, BoxError>,
 }
 
-/// What the tour of all experiments shows of one: its main tables, in a few seconds.
+/// Part of an experiment in the tour of all: its main tables, in a few seconds.
 #[derive(Clone, Copy, Debug)]
 pub struct Tour {
     /// The names of the tables.

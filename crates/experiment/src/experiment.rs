@@ -51,7 +51,7 @@ use tolman_replay::Replay;
 /// ```
 #[derive(Debug)]
 pub struct Experiment {
-    /// What the catalogue says of it.
+    /// Entry in the catalogue.
     pub entry: Entry,
     /// The tables, in the order they are shown.
     pub tables: Vec<Table>,
@@ -59,15 +59,15 @@ pub struct Experiment {
     /// with their whole contents, gains, noise. Two experiments with equal configurations give
     /// equal runs; finished runs are reused only then.
     pub config: toml::Table,
-    /// What is left out because it is not here, and how to have it; `None` if all is here.
+    /// Parts left out for missing data, and how to get it; `None` if all is here.
     pub skipped: Option<String>,
-    /// How its runs are played.
+    /// Procedure of its runs.
     pub procedure: Box<dyn Procedure>,
     /// Whether only some tables are filled.
     in_part: bool,
 }
 
-/// How the runs of an experiment are played and drawn.
+/// Procedure by which the runs of an experiment are played and drawn.
 pub trait Procedure: Sync + core::fmt::Debug {
     /// Plays one run. A pure function of the job and the configuration: the same job gives the same
     /// fields on every thread, in any order.

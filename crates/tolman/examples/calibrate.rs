@@ -25,7 +25,7 @@ const MAZES: [(&str, &str, u32); 2] = [
 /// One figure of the robot, changed.
 type Change = fn(&mut LaserPioneerConfig, f64);
 
-/// What is swept: a name, the values, and how a value changes the frozen robot.
+/// The sweeps: each has a name, its values, and the change that a value makes to the frozen robot.
 const SWEEP: [(&str, &[f64], Change); 5] = [
     (
         "turn of a full command, degrees",

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use thiserror::Error;
 
-/// How a foreign program is started.
+/// Parameters of starting a foreign program.
 #[derive(Clone, Copy, Debug)]
 pub struct Launch<'a> {
     /// The program and its arguments.
@@ -19,13 +19,13 @@ pub struct Launch<'a> {
     /// The command that runs [`keep`](super::keep) with our process's id and the words behind it;
     /// empty for no keeper.
     pub keeper: &'a [OsString],
-    /// Where its stderr goes.
+    /// Destination of its stderr.
     pub log: Log,
     /// A flag that ends the program when it is raised.
     pub stop: &'a AtomicBool,
 }
 
-/// Whether what a foreign program writes to stderr is shown.
+/// Whether the stderr of a foreign program is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Log {
     /// On our stderr.
@@ -34,7 +34,7 @@ pub enum Log {
     Dropped,
 }
 
-/// What a foreign program may use up before it is ended.
+/// Resources that a foreign program may use before it is ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// Time from its start.
@@ -48,7 +48,7 @@ pub struct Budget {
 }
 
 impl Default for Budget {
-    /// A minute, 64 MiB, a million lines of 4096 bytes at most.
+    /// Returns a budget of a minute, 64 MiB and a million lines of at most 4096 bytes.
     fn default() -> Self {
         Self {
             time: Duration::from_secs(60),
@@ -59,7 +59,7 @@ impl Default for Budget {
     }
 }
 
-/// Why a foreign program has to be ended.
+/// Reason why a foreign program has to be ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Overrun {
@@ -67,13 +67,13 @@ pub enum Overrun {
     #[error("the program is out of time")]
     Time,
     /// It wrote more bytes than it may.
-    #[error("the program wrote more bytes than it may")]
+    #[error("the program wrote too many bytes")]
     Bytes,
     /// It wrote more lines than it may.
-    #[error("the program wrote more lines than it may")]
+    #[error("the program wrote too many lines")]
     Lines,
-    /// It wrote a line that is longer than it may be.
-    #[error("the program wrote a line that is longer than it may be")]
+    /// It wrote a line that is too long.
+    #[error("the program wrote a line that is too long")]
     LineBytes,
     /// The flag of [`Launch::stop`] was raised.
     #[error("interrupted")]
@@ -89,7 +89,7 @@ pub enum Left {
     Killed,
 }
 
-/// Why a foreign program cannot be run.
+/// Reason why a foreign program cannot be run.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LaunchError {
@@ -101,7 +101,7 @@ pub enum LaunchError {
     Start {
         /// Its name.
         program: String,
-        /// Why.
+        /// The system's reason.
         source: io::Error,
     },
     /// The program cannot be waited for.
@@ -206,10 +206,10 @@ impl<'a> ForeignProgram<'a> {
         Ok(Some(line))
     }
 
-    /// Hands it a line, without its end. A program that has closed its stdin needs none.
+    /// Sends it a line, without the line's end. A program that has closed its stdin needs none.
     ///
     /// # Errors
-    /// [`Overrun`] if it has to be ended: it does not read, and so much waits for it already.
+    /// [`Overrun`] if it has to be ended, as it does not read and too much is waiting for it.
     pub fn say(&mut self, line: String) -> Result<(), Overrun> {
         let mut waiting = line;
         loop {
@@ -250,7 +250,7 @@ impl<'a> ForeignProgram<'a> {
         }
     }
 
-    /// The time that is left.
+    /// Returns the remaining time.
     fn look_at_clock(&self) -> Result<Duration, Overrun> {
         if self.launch.stop.load(Ordering::Relaxed) {
             return Err(Overrun::Stop);

@@ -3,7 +3,7 @@ use core::array;
 use super::RunMove;
 use super::config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigError};
 
-/// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N`
+/// Duration of every move of a speed run, in whole milliseconds, for mazes of up to `N` × `N`
 /// cells: 16 for classic ones, 32 for half-size ones.
 ///
 /// Times of straights are rounded up. So a straight never takes longer than its two parts one by
@@ -20,7 +20,7 @@ pub struct SpeedRunTimes<const N: usize> {
 }
 
 impl<const N: usize> SpeedRunTimes<N> {
-    /// Works the times out. O(N).
+    /// Returns the times that follow from `config`. O(N).
     ///
     /// A straight of length `d` begins and ends at the speed `s` of the turns. With acceleration
     /// `a` it takes 2 (√(s² + a d) − s) / a while the top speed `v` is not reached, that is as
@@ -68,15 +68,15 @@ impl<const N: usize> SpeedRunTimes<N> {
         })
     }
 
-    /// Returns a straight of `cells` cells, from the middle of one to the middle of another, or
-    /// `None` if no such straight fits into the maze.
+    /// Returns the duration of a straight of `cells` cells, from the middle of one to the middle of
+    /// another, or `None` if no such straight fits into the maze.
     #[must_use]
     pub fn straight_ms(&self, cells: usize) -> Option<u16> {
         self.straights().get(cells).copied()
     }
 
-    /// Returns a diagonal across `cells` cells, from the middle of one edge to that of another,
-    /// or `None` if no such diagonal fits into the maze.
+    /// Returns the duration of a diagonal across `cells` cells, from the middle of one edge to that
+    /// of another, or `None` if no such diagonal fits into the maze.
     #[must_use]
     pub fn diagonal_ms(&self, cells: usize) -> Option<u16> {
         self.diagonals().get(cells).copied()
@@ -98,12 +98,12 @@ impl<const N: usize> SpeedRunTimes<N> {
         self.slalom
     }
 
-    /// By number of cells.
+    /// Returns the durations of straights, by number of cells.
     pub(super) const fn straights(&self) -> &[u16] {
         &self.straight
     }
 
-    /// By number of cells.
+    /// Returns the durations of diagonals, by number of cells.
     pub(super) const fn diagonals(&self) -> &[u16] {
         self.diagonal.as_flattened()
     }

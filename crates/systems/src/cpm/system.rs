@@ -26,22 +26,22 @@ use super::whereabouts::Approach;
 
 /// CPM as a system: it learns a map of any maze with any [`CpmRobot`], and goes where it is sent.
 ///
-/// An action is one fragment, from one place to the next. Between two actions it holds no robot;
-/// nobody may move the robot then, or it has to be [told](Self::carried).
+/// An action is one fragment, from one place to the next. It holds no robot between two actions. If
+/// the robot is moved then, call [`carried`](Self::carried).
 ///
 /// - [`Task::Explore`] ends when all ways of the map were walked.
-/// - [`Task::Reach`] drives the shortest known way, skipping observations, and explores where none
-///   is known.
+/// - [`Task::Reach`] drives the shortest known way, skipping observations. If none is known, it
+///   explores.
 /// - [`Task::Localize`] finds out where on its map the robot is.
 #[derive(Clone, Debug)]
 pub struct Cpm {
     walker: WalkerConfig,
     config: CpmConfig,
-    /// The maps that it may be on; none where it learns one of its own.
+    /// The maps that it may be on; empty if it learns its own.
     known: Vec<CpMap>,
     /// The one of them that it is on.
     on: usize,
-    /// What it learned before its first map.
+    /// Patterns it learned before its first map.
     patterns: CommonPatterns,
     novelty: Option<f64>,
     layer: Option<Layer3>,
@@ -57,7 +57,7 @@ pub struct Cpm {
     rng: ChaCha8Rng,
 }
 
-/// How the robot stands in the world.
+/// Situation of the robot in the world.
 #[derive(Clone, Debug)]
 enum Stance {
     /// Nobody knows where: it has just been switched on, or was carried.
@@ -79,7 +79,7 @@ const APART: f64 = 0.5;
 const MOST_DOUBTFUL: u32 = 50;
 
 /// Maximum number of walks that check a map, as a multiple of its fragments.
-const MOST_CHECKS: u32 = 3;
+const MOST_CHECKS: u32 = 2;
 
 /// Number of maps that are given up before the robot gives up.
 const MOST_MAPS: u32 = 2;
@@ -111,9 +111,9 @@ impl Cpm {
         }
     }
 
-    /// Returns a robot that has been nowhere: what it observes and finds far from all that it knows
-    /// becomes a pattern (section 8, "the CPs must be learned incrementally"). Dead reckoning takes
-    /// its headings from the walls.
+    /// Returns a robot that has been nowhere. Observations far from all it knows become patterns
+    /// (section 8, "the CPs must be learned incrementally"). Dead reckoning takes its headings from
+    /// the walls.
     ///
     /// # Errors
     /// [`CpmError::Dictionary`], which no configuration causes.
@@ -309,7 +309,9 @@ impl Cpm {
         let is_open = |place: &Junction| place.open_ports().next().is_some();
         let is_whole = !mapper.map().junctions().any(|(_, place)| is_open(place));
         let most = MOST_CHECKS * mapper.map().fragments().len() as u32;
-        if self.config.checks == 0 || self.checked >= most {
+        let is_done = self.config.checks == 0 || self.checked >= most;
+        // What is doubtful anyway need not be checked.
+        if is_done || (is_whole && self.doubt().is_some()) {
             return Aim::Explore;
         }
         self.checked += u32::from(is_whole);
@@ -321,13 +323,13 @@ impl Cpm {
         self.explorer()?.mapper.doubt(self.apart())
     }
 
-    /// Returns how far apart two places are at least, m.
+    /// Returns the minimum distance of two places, m.
     fn apart(&self) -> f64 {
         APART * self.walker.corridor_width
     }
 
-    /// After a walk: counts those in which the map could not be. One whose places grow without end
-    /// is given up.
+    /// Counts the walks in a row after which the map is impossible. After [`MOST_DOUBTFUL`] of them
+    /// it begins another map, or gives up.
     fn heed(&mut self) -> Standing {
         let doubt = self.explorer().and_then(|Explorer { mapper, .. }| {
             mapper.map().twice_at(mapper.at().junction, self.apart())
@@ -343,8 +345,8 @@ impl Cpm {
         }
     }
 
-    /// Gives up a map that is not to be believed, and begins another where the robot stands; after
-    /// some it gives up itself.
+    /// Drops a map that cannot be right, and begins another where the robot stands. Gives up after
+    /// [`MOST_MAPS`] of them, or on maps that it was given.
     fn begin_anew(&mut self, doubt: MapDoubt) -> Standing {
         if self.given_up >= MOST_MAPS || !self.known.is_empty() {
             return Standing::gave_up(format!("its map is doubtful: {doubt}"));
@@ -527,12 +529,12 @@ impl<R: CpmRobot> System<R> for Cpm {
     }
 }
 
-/// Why CPM refuses an observation.
+/// Reason why CPM refuses an observation.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CpmObserveError {
     /// No map was begun.
-    #[error("a walk before the place where it began: observe `CpmObservation::Began` first")]
+    #[error("the walk has no beginning: observe `CpmObservation::Began` first")]
     NotBegun,
     /// The map refuses it.
     #[error(transparent)]

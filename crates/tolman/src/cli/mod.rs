@@ -166,7 +166,7 @@ impl App<'_> {
         let named = systems.find(|system| system.name() == map.system);
         named.copied().ok_or_else(|| {
             Failure::BadInput(anyhow!(
-                "{}: its system, {}, is not known here",
+                "{}: its system, {}, is unknown to this program",
                 map.name,
                 map.system
             ))

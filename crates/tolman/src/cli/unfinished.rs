@@ -18,15 +18,14 @@ use tolman_geom::Pose;
 use super::kind::Kind;
 use super::{Failure, OrBadInput, called, file};
 
-/// How an interrupted run is kept and gone on with, of verbs that keep nothing else.
+/// How an interrupted run is saved and continued, for verbs that keep nothing else.
 #[derive(clap::Args)]
 pub(super) struct GoingOn {
-    /// Go on with an interrupted run; all else must be said as it was
+    /// Continue an interrupted run; repeat all other options as they were
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
-    /// Save the run to this file while it goes, once a second, so that it can be gone on with
-    /// whatever ends it. Ctrl-C saves it in any case, to drive.unfinished or run.unfinished if this
-    /// is not given
+    /// Save the run to this file once a second, so that it can be continued whatever ends it.
+    /// Ctrl-C always saves it, by default to drive.unfinished or run.unfinished
     #[arg(long, value_name = "FILE")]
     unfinished: Option<PathBuf>,
 }
@@ -141,7 +140,7 @@ impl Unfinished {
         match read.version {
             VERSION => Ok(read),
             other => Err(anyhow!(
-                "its version is {other}, and this program reads {VERSION}; take the one that wrote it"
+                "its version is {other}, and this program reads {VERSION}; use the one that wrote it"
             )),
         }
     }
@@ -235,7 +234,7 @@ impl Keeper {
             && let Some(difference) = call.difference(&former.run.call)
         {
             return Err(Failure::BadInput(anyhow!(
-                "{} is another run: {difference}; say all as it was said for it",
+                "{} is another run: {difference}; repeat all options of that run",
                 former.path.display()
             )));
         }
@@ -355,7 +354,7 @@ impl Keeper {
 fn parted(former: &Former) -> Failure {
     let Done { actions, .. } = former.run.done;
     Failure::Failed(anyhow!(
-        "{}: its first {actions} actions, made again, came to something else; go on with the program that wrote it, or \
+        "{}: its first {actions} actions, repeated, gave another result; continue with the program that wrote it, or \
          begin again without --from",
         former.path.display()
     ))

@@ -281,7 +281,7 @@ fn what_is_not_this_run_is_not_gone_on_with() {
     let mut read: serde_json::Value = serde_json::from_str(&text).unwrap();
     read["checksum"] = "0123456789abcdef".into();
     fs::write(&file, read.to_string()).unwrap();
-    let parts = ["made again, came to something else", "without --from"];
+    let parts = ["repeated, gave another result", "without --from"];
     refused(&format!("{run} {from}"), 1, &parts);
     assert!(file.exists(), "it is still what it was");
     read["version"] = 2.into();

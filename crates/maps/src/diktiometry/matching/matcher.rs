@@ -7,7 +7,7 @@ use crate::diktiometry::{
     WorldKind,
 };
 
-/// How a track came to its place.
+/// Matcher by which a track came to its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Matcher {
     /// "Matches a place that was expected with consistent position estimate and view."
@@ -24,7 +24,7 @@ pub enum Matcher {
     Beta,
 }
 
-/// What matchers look at beside the candidate.
+/// Input of the matchers beside the candidate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Situation<'a> {
     pub(crate) map: &'a Diktiometry,
@@ -32,7 +32,7 @@ pub(crate) struct Situation<'a> {
     pub(crate) percept: Option<&'a Signature>,
     /// Distance since the last CONTINUE, m.
     pub(crate) astray: f64,
-    /// How often the region just traversed was traversed before.
+    /// Number of earlier traversals of the region just traversed.
     pub(crate) traversals: u32,
     /// The track's confidence.
     pub(crate) confidence: f64,
@@ -49,11 +49,11 @@ impl Situation<'_> {
     }
 }
 
-/// What a candidate turned out to be.
+/// Result of applying the matchers to a candidate.
 enum Applicable {
     /// A matcher applies.
     Matcher(Matcher),
-    /// None does, but the robot may be there: the box is too wide to tell.
+    /// None applies, but the robot may be there: the box is too wide to tell.
     Doubtful,
     /// The robot is elsewhere.
     None,
