@@ -79,7 +79,7 @@ const APART: f64 = 0.5;
 const MOST_DOUBTFUL: u32 = 50;
 
 /// Maximum number of walks that check a map, as a multiple of its fragments.
-const MOST_CHECKS: u32 = 2;
+const MOST_CHECKS: u32 = 1;
 
 /// Number of maps that are given up before the robot gives up.
 const MOST_MAPS: u32 = 2;
