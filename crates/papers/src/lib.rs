@@ -5,6 +5,7 @@
 //! [`diktiometry::drawing`]; [`Recorder`] makes the replay of a run, [`Film`] that of any outing,
 //! [`plan_of_course`] the plan it is drawn over. [`data`] finds what other people measured,
 //! [`real`] reads their logs and graphs.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
 
