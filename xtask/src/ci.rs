@@ -4,6 +4,7 @@ mod bare_metal;
 mod firmware;
 mod msrv;
 mod outside;
+mod packages;
 
 use core::time::Duration;
 use std::env;
@@ -50,6 +51,7 @@ const STEPS: &[Step] = &[
         )
     }),
     ("outside", || passed(outside::check())),
+    ("package", || passed(packages::one())),
     ("api docs", || passed(docs::api())),
     ("golden", || passed(golden::run_quick())),
     ("commands", commands),
@@ -72,6 +74,7 @@ const THOROUGH: &[Step] = &[
     ("fuzzing", || passed(fuzz::run(FUZZING, 1, &[]))),
     ("golden, all", || passed(golden::run(&[], false))),
     ("python", python::check),
+    ("packages", || passed(packages::all())),
 ];
 
 /// How long all readers get mutated files, seconds.

@@ -317,11 +317,21 @@ impl Course {
     #[must_use]
     pub fn shortest_metres(&self) -> Option<f64> {
         if let Some(free) = &self.free {
-            let cell = free.paving.cell_at(free.start?.position)?;
-            return Some(f64::from(self.steps_from(cell)?) * free.paving.pitch);
+            return self.shortest_metres_from(free.start?.position);
         }
         let (start, _) = self.maze.start()?;
         Some(f64::from(self.steps_from(start)?) * self.corridor_width)
+    }
+
+    /// Returns the same from the cell in which `position` lies.
+    #[must_use]
+    pub fn shortest_metres_from(&self, position: Point) -> Option<f64> {
+        if let Some(free) = &self.free {
+            let cell = free.paving.cell_at(position)?;
+            return Some(f64::from(self.steps_from(cell)?) * free.paving.pitch);
+        }
+        let cell = self.world.cell_at(position)?;
+        Some(f64::from(self.steps_from(cell)?) * self.corridor_width)
     }
 
     /// Returns the first of four cells without a wall between them; `None` if there are none, and

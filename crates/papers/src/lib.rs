@@ -4,6 +4,7 @@
 //! draws its maps and runs: [`mslst::drawing`], [`cpm::drawing`], [`diktiometry::drawing`].
 //! [`Recorder`] makes the replay of a run, [`Film`] that of any outing, and [`plan_of_course`] the
 //! plan below it. [`data`] finds other people's measurements; [`real`] reads their logs and graphs.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
 

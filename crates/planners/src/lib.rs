@@ -27,7 +27,15 @@
 //! // What does it cost to reach node 2 from each?
 //! assert_eq!(costs_from(&arcs.reversed(), [2]), [Some(4), Some(2), Some(0)]);
 //! ```
+//!
+//! # A grid of your own
+//!
+//! `cargo run --example own_grid`:
+#![doc = "```"]
+#![doc = include_str!("../examples/own_grid.rs")]
+#![doc = "```"]
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;

@@ -18,8 +18,8 @@ type BoxError = Box<dyn core::error::Error + Send + Sync>;
 
 /// The mazes with the paper's limits, time steps.
 const MAZES: [(&str, &str, u32); 2] = [
-    ("J", include_str!("../../../mazes/j-long.maze"), 200),
-    ("Large", include_str!("../../../mazes/large-hard.maze"), 500),
+    ("J", include_str!("../mazes/j-long.maze"), 200),
+    ("Large", include_str!("../mazes/large-hard.maze"), 500),
 ];
 
 /// One figure of the robot, changed.

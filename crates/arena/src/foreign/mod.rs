@@ -1,6 +1,6 @@
 //! Foreign programs, run under supervision: a mouse, a brain in another language.
 //!
-//! A [`ForeignProgram`] exchanges lines, within a [`Budget`] of time, bytes and lines. When it is
+//! A [`ForeignBrain`] drives a robot, in JSON lines. A [`ForeignProgram`] exchanges lines, within a [`Budget`] of time, bytes and lines. When it is
 //! dropped, the program and all processes that it started are killed, whatever group or session
 //! they moved to.
 //!
@@ -11,9 +11,11 @@
 //!
 //! ```no_run
 //! use core::sync::atomic::AtomicBool;
+//! use std::sync::Arc;
+//!
 //! use tolman_arena::foreign::{Budget, ForeignProgram, Launch, Log};
 //!
-//! let stop = AtomicBool::new(false);
+//! let stop = Arc::new(AtomicBool::new(false));
 //! let words = ["python3".to_owned(), "brain.py".to_owned()];
 //! let launch = Launch { words: &words, keeper: &[], log: Log::Dropped, stop: &stop };
 //! let mut brain = ForeignProgram::start(&launch, Budget::default())?;
@@ -22,10 +24,12 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
+mod brain;
 #[cfg(target_os = "linux")]
 mod keeper;
 mod program;
 
+pub use brain::{BrainError, ForeignBrain, Hello};
 #[cfg(target_os = "linux")]
 pub use keeper::keep;
 pub use program::{Budget, ForeignProgram, Launch, LaunchError, Left, Log, Overrun};

@@ -1,5 +1,6 @@
 //! A foreign program and the lines that go to and fro.
 
+use alloc::sync::Arc;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use std::ffi::OsString;
@@ -22,7 +23,7 @@ pub struct Launch<'a> {
     /// Destination of its stderr.
     pub log: Log,
     /// A flag that ends the program when it is raised.
-    pub stop: &'a AtomicBool,
+    pub stop: &'a Arc<AtomicBool>,
 }
 
 /// Whether the stderr of a foreign program is shown.
@@ -115,8 +116,10 @@ pub enum LaunchError {
 /// must not hold up the clock. They end as soon as its ends of the pipes are closed, or ours of the
 /// channels.
 #[derive(Debug)]
-pub struct ForeignProgram<'a> {
-    launch: Launch<'a>,
+pub struct ForeignProgram {
+    name: String,
+    stop: Arc<AtomicBool>,
+    is_kept: bool,
     child: Child,
     lines: Receiver<Option<String>>,
     replies: Option<SyncSender<String>>,
@@ -135,13 +138,13 @@ const PULSE: Duration = Duration::from_millis(50);
 /// Time in which the keeper is to end the program, before it is killed itself.
 const KEEPER_TIME: Duration = Duration::from_secs(10);
 
-impl<'a> ForeignProgram<'a> {
+impl ForeignProgram {
     /// Starts a program.
     ///
     /// # Errors
     /// [`LaunchError`] if it does not start. Behind a keeper that is seen later, by
     /// [`left`](Self::left).
-    pub fn start(launch: &Launch<'a>, budget: Budget) -> Result<Self, LaunchError> {
+    pub fn start(launch: &Launch<'_>, budget: Budget) -> Result<Self, LaunchError> {
         let (program, arguments) = launch.words.split_first().ok_or(LaunchError::NoProgram)?;
         let mut command = match launch.keeper {
             [] => Command::new(program),
@@ -161,7 +164,7 @@ impl<'a> ForeignProgram<'a> {
                 Log::Dropped => Stdio::null(),
             })
             .spawn()
-            .map_err(|source| does_not_start(launch, source))?;
+            .map_err(|source| does_not_start(program, source))?;
         let (to_us, lines) = mpsc::sync_channel(LINES_AHEAD);
         let (replies, to_program) = mpsc::sync_channel(LINES_AHEAD);
         if let Some(output) = child.stdout.take() {
@@ -171,7 +174,9 @@ impl<'a> ForeignProgram<'a> {
             thread::spawn(move || write(input, &to_program));
         }
         Ok(Self {
-            launch: *launch,
+            name: program.clone(),
+            stop: Arc::clone(launch.stop),
+            is_kept: !launch.keeper.is_empty(),
             child,
             lines,
             replies: Some(replies),
@@ -243,8 +248,8 @@ impl<'a> ForeignProgram<'a> {
             _ => None,
         };
         match never_started {
-            Some(kind) if self.heard_lines == 0 && !self.launch.keeper.is_empty() => {
-                Err(does_not_start(&self.launch, kind.into()))
+            Some(kind) if self.heard_lines == 0 && self.is_kept => {
+                Err(does_not_start(&self.name, kind.into()))
             }
             _ => Ok(Left::ByItself(status)),
         }
@@ -252,7 +257,7 @@ impl<'a> ForeignProgram<'a> {
 
     /// Returns the remaining time.
     fn look_at_clock(&self) -> Result<Duration, Overrun> {
-        if self.launch.stop.load(Ordering::Relaxed) {
+        if self.stop.load(Ordering::Relaxed) {
             return Err(Overrun::Stop);
         }
         let left = self.budget.time.checked_sub(self.started.elapsed());
@@ -260,21 +265,23 @@ impl<'a> ForeignProgram<'a> {
     }
 }
 
-impl Drop for ForeignProgram<'_> {
+impl Drop for ForeignProgram {
     fn drop(&mut self) {
         // What has ended by itself by now is as good, and nobody can be told what fails here.
-        let _ = ask_keeper(&self.launch, &mut self.child);
+        if self.is_kept {
+            let _ = ask_keeper(&mut self.child);
+        }
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// Lets the keeper end the program, if there is one.
+/// Lets the keeper end the program.
 #[cfg(target_os = "linux")]
-fn ask_keeper(launch: &Launch<'_>, child: &mut Child) -> io::Result<()> {
+fn ask_keeper(child: &mut Child) -> io::Result<()> {
     use rustix::process::{Pid, Signal, kill_process};
 
-    if !launch.keeper.is_empty() && child.try_wait()?.is_none() {
+    if child.try_wait()?.is_none() {
         kill_process(Pid::from_child(child), Signal::TERM)?;
         wait(child, KEEPER_TIME)?;
     }
@@ -282,13 +289,13 @@ fn ask_keeper(launch: &Launch<'_>, child: &mut Child) -> io::Result<()> {
 }
 
 #[cfg(not(target_os = "linux"))]
-fn ask_keeper(_: &Launch<'_>, _: &mut Child) -> io::Result<()> {
+fn ask_keeper(_: &mut Child) -> io::Result<()> {
     Ok(())
 }
 
-fn does_not_start(launch: &Launch<'_>, source: io::Error) -> LaunchError {
+fn does_not_start(program: &str, source: io::Error) -> LaunchError {
     LaunchError::Start {
-        program: launch.words.first().cloned().unwrap_or_default(),
+        program: program.to_owned(),
         source,
     }
 }

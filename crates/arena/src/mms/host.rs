@@ -126,7 +126,7 @@ enum Said {
 
 fn converse(
     simulator: &mut Simulator<'_>,
-    mouse: &mut ForeignProgram<'_>,
+    mouse: &mut ForeignProgram,
     limits: &Limits,
     mut watch: impl FnMut(&Exchange),
 ) -> Result<Said, Overrun> {

@@ -59,9 +59,9 @@ pub(super) struct Arguments {
 }
 
 /// The mazes come with the program, so that it runs in any folder.
-const MAZE: &str = include_str!("../../../../mazes/demo.maze");
+const MAZE: &str = include_str!("../../mazes/demo.maze");
 /// For who maps a large maze slowly, or does not find itself in it.
-const SMALL: &str = include_str!("../../../../mazes/star.maze");
+const SMALL: &str = include_str!("../../mazes/star.maze");
 
 /// Returns the contestant of a name as `tolman arena` or `tolman systems` has it.
 fn contestant(name: &str) -> Result<Contestant, Failure> {

@@ -19,7 +19,8 @@ pub(super) struct Looks {
     /// the outcome and the readings of every step
     #[arg(long, value_name = "FILE")]
     pub(super) trace: Option<PathBuf>,
-    /// Write a replay: one HTML file that plays the run in any browser
+    /// Write a replay: one HTML file that plays the run in any browser; or, if the name ends in
+    /// .mcap and the feature `mcap` is on, a file for Foxglove
     #[arg(long, value_name = "FILE")]
     pub(super) replay: Option<PathBuf>,
     /// Overwrite the replay's file even if it is not a replay

@@ -27,7 +27,8 @@ pub(super) struct Arguments {
     /// The traces; - reads standard input
     #[arg(required = true, value_name = "TRACE")]
     traces: Vec<PathBuf>,
-    /// The file to write; by default beside the first trace, with the extension .html
+    /// The file to write; by default beside the first trace, with the extension .html. With .mcap,
+    /// and the feature `mcap`, it is one for Foxglove
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Overwrite the file even if it is not a replay

@@ -194,6 +194,8 @@ fn read(path: &Path) -> Result<Former, Failure> {
 /// When a run is saved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Saving {
+    /// Never: what drives it cannot be made to do the same again.
+    Never,
     /// When it is interrupted.
     AtItsEnd,
     /// Now and then, too, for whatever else may end it.
@@ -251,6 +253,21 @@ impl Keeper {
         })
     }
 
+    /// Keeps nothing of a run.
+    pub(super) fn of_nothing(verb: &str) -> Self {
+        Self {
+            path: PathBuf::new(),
+            call: Call::new(verb),
+            saving: Saving::Never,
+            map: None,
+            written: Vec::new(),
+            former: None,
+            trail: Trail::default(),
+            done: Done::default(),
+            next: Instant::now() + PERIOD,
+        }
+    }
+
     /// Says when it is saved.
     pub(super) fn saving(self, saving: Saving) -> Self {
         Self { saving, ..self }
@@ -301,6 +318,9 @@ impl Keeper {
     /// # Errors
     /// If its file cannot be written.
     pub(super) fn save(&mut self, state: &impl Fn() -> State) -> Result<(), Failure> {
+        if self.saving == Saving::Never {
+            return Ok(());
+        }
         let run = match &self.former {
             Some(former) => former.run.clone(),
             None => Unfinished {
@@ -322,10 +342,11 @@ impl Keeper {
     /// Returns how an interrupted run is gone on with.
     pub(super) fn told(&self) -> String {
         let Done { actions, steps } = self.again().unwrap_or(self.done);
-        format!(
-            "interrupted after {actions} actions, {steps} steps; go on with: {}",
-            called::going_on(&self.path)
-        )
+        let told = format!("interrupted after {actions} actions, {steps} steps");
+        match self.saving {
+            Saving::Never => told,
+            _ => format!("{told}; go on with: {}", called::going_on(&self.path)),
+        }
     }
 
     /// Removes what was saved of a run that has come to its end.

@@ -56,7 +56,7 @@ fn modes() -> [Mode; 3] {
 const EPUCK: &str = "e-puck";
 
 /// Where common patterns are learned.
-const LEARNING_MAZE: &str = include_str!("../../../../mazes/cpm-learning.maze");
+const LEARNING_MAZE: &str = include_str!("../../mazes/cpm-learning.maze");
 
 impl SystemEntry for CpmEntry {
     fn name(&self) -> &'static str {
