@@ -3,25 +3,42 @@
 use std::path::Path;
 use std::process::Command;
 
+/// The history of the project's own repository, from here.
+const REPOSITORY: &str = "../../.git";
+/// What lies beside this crate in that repository alone.
+const NEIGHBOUR: &str = "../geom/Cargo.toml";
+
 fn main() {
-    // Any change of the sources may make the tree differ from its commit, and the log of HEAD grows
-    // with every commit and checkout.
-    println!("cargo::rerun-if-changed=..");
-    let log = "../../.git/logs/HEAD";
-    if Path::new(log).exists() {
-        println!("cargo::rerun-if-changed={log}");
-    }
+    let commit = if is_checkout() {
+        // Any change of the sources may make the tree differ from its commit, and the log of HEAD
+        // grows with every commit and checkout.
+        println!("cargo::rerun-if-changed=..");
+        let log = format!("{REPOSITORY}/logs/HEAD");
+        if Path::new(&log).exists() {
+            println!("cargo::rerun-if-changed={log}");
+        }
+        commit()
+    } else {
+        println!("cargo::rerun-if-changed=build.rs");
+        None
+    };
     let compiler = std::env::var("RUSTC")
         .ok()
         .and_then(|rustc| output(&rustc, &["--version"]));
     println!(
         "cargo::rustc-env=TOLMAN_COMMIT={}",
-        commit().as_deref().unwrap_or("unknown")
+        commit.as_deref().unwrap_or(env!("CARGO_PKG_VERSION"))
     );
     println!(
         "cargo::rustc-env=TOLMAN_COMPILER={}",
         compiler.as_deref().unwrap_or("unknown")
     );
+}
+
+/// Whether this crate lies in the project's repository, not in a package or in the sources of
+/// another project, whose commit would say nothing of it.
+fn is_checkout() -> bool {
+    Path::new(REPOSITORY).exists() && Path::new(NEIGHBOUR).exists()
 }
 
 /// Returns the commit, with a mark if the sources differ from it.

@@ -4,15 +4,17 @@ mod bare_metal;
 mod firmware;
 mod msrv;
 mod outside;
+mod packages;
 
 use core::time::Duration;
+use std::env;
 use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{Result, bail};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
-use crate::{docs, fuzz, golden, layers, mazes, mutants, prose, python};
+use crate::{docs, fuzz, golden, layers, mazes, prose, python};
 
 /// How a step went when it did not fail.
 pub(crate) enum Outcome {
@@ -35,11 +37,6 @@ const STEPS: &[Step] = &[
         passes("clippy --workspace --all-features --all-targets --quiet -- --deny warnings")
     }),
     ("tests", tests),
-    ("browser", || {
-        if_installed("chromium", || {
-            passes("test --workspace --all-features --test browser --quiet -- --ignored")
-        })
-    }),
     ("doc tests", || {
         passes("test --workspace --all-features --doc --quiet")
     }),
@@ -54,9 +51,12 @@ const STEPS: &[Step] = &[
         )
     }),
     ("outside", || passed(outside::check())),
+    ("package", || passed(packages::one())),
     ("api docs", || passed(docs::api())),
     ("golden", || passed(golden::run_quick())),
     ("commands", commands),
+    // It looks at the pages that golden runs and commands have left, too.
+    ("browser", || if_installed("chromium", browser)),
     ("bare metal", bare_metal::check),
     ("firmware", firmware::check),
     ("msrv", msrv::check),
@@ -72,19 +72,10 @@ const STEPS: &[Step] = &[
 const THOROUGH: &[Step] = &[
     ("fuzz", fuzz_targets),
     ("fuzzing", || passed(fuzz::run(FUZZING, 1, &[]))),
-    // Programs that are killed, or misbehave, again and again.
-    ("endurance", || {
-        passes(
-            "test --workspace --all-features --test cli --quiet -- --ignored a_thousand a_hundred",
-        )
-    }),
-    ("mutants", || mutants::check(MUTANTS, &[])),
     ("golden, all", || passed(golden::run(&[], false))),
     ("python", python::check),
+    ("packages", || passed(packages::all())),
 ];
-
-/// Some thirty changes of the code, of all crates that are changed.
-const MUTANTS: mutants::Shard = mutants::Shard { first: 0, of: 400 };
 
 /// How long all readers get mutated files, seconds.
 const FUZZING: u64 = 600;
@@ -150,6 +141,14 @@ fn commands() -> Result<Outcome> {
     // For the whole workspace, so that what the tests have compiled serves.
     let mut test = cargo("test --workspace --all-features --test commands --quiet -- --ignored");
     passed(succeed(test.env("TOLMAN", built("tolman")?.get_program())))
+}
+
+/// The pages in a browser, those of golden runs and of shown commands among them.
+fn browser() -> Result<Outcome> {
+    let target = workspace::target_folder()?;
+    let folders = [target.join("golden"), target.join("tmp").join("commands")];
+    let mut test = cargo("test --workspace --all-features --test browser --quiet -- --ignored");
+    passed(succeed(test.env("TOLMAN_PAGES", env::join_paths(folders)?)))
 }
 
 /// Running the fuzz targets takes a nightly compiler; that they still build takes none.

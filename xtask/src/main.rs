@@ -15,7 +15,6 @@ mod fuzz;
 mod golden;
 mod layers;
 mod mazes;
-mod mutants;
 mod prose;
 mod python;
 mod workspace;
@@ -48,8 +47,7 @@ enum Verb {
         /// Run the remaining steps after one has failed
         #[arg(long)]
         keep_going: bool,
-        /// Also what takes long: fuzzing, programs that misbehave or are killed, changes of the
-        /// code, the slowest golden runs, the Python module
+        /// Also what takes long: fuzzing, the slowest golden runs, the Python module
         #[arg(long)]
         thorough: bool,
     },
@@ -89,15 +87,6 @@ enum Verb {
         /// Formats, such as `carmen` or `map_of_cpm`; all of them when left out
         targets: Vec<String>,
     },
-    /// Changes the code in small ways, here and there, and asks whether its tests notice; needs
-    /// cargo-mutants
-    Mutants {
-        /// Which changes: K/N for every N-th one, from the K-th on
-        #[arg(long, default_value = "0/400", value_parser = mutants::Shard::parse)]
-        shard: mutants::Shard,
-        /// Crates, such as `tolman-geom`; geom, maze, planners, quantizers and maps when left out
-        packages: Vec<String>,
-    },
     /// Builds the Python module, installs it into target/python and runs its tests; needs Python
     /// and its packages, and says so where they are not there
     Python,
@@ -124,7 +113,6 @@ fn main() -> ExitCode {
             seed,
             targets,
         } => fuzz::run(seconds, seed, &targets),
-        Verb::Mutants { shard, packages } => mutants::run(shard, &packages),
         Verb::Python => python::run(),
         Verb::Docs => docs::run(),
     };

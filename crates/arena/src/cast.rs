@@ -48,7 +48,7 @@ impl Agent {
         }
     }
 
-    /// Returns what it is, in one line.
+    /// Returns a description in one line.
     #[must_use]
     pub const fn description(self) -> &'static str {
         match self {

@@ -27,8 +27,9 @@ use tolman_systems::micromouse::competition::{
     CompetitionMouse, CompetitionNext, ExploreError, SpeedRunExploration,
 };
 
-/// Lets a mouse that looks at the walls of its cell, and remembers all, explore a maze from its
-/// start, or from the south-western corner, looking north. O(cells driven · n) for n cells.
+/// Lets a mouse explore a maze and returns the result. The mouse looks at the walls of its cell and
+/// remembers all. It begins at the maze's start, or in the south-western corner, looking north.
+/// O(cells driven · n) for n cells.
 ///
 /// # Errors
 /// If the maze has no way to a goal, or is larger than 32 × 32, or the times of the moves are too
@@ -37,8 +38,8 @@ pub fn explore(maze: &Maze, config: &SpeedRunConfig) -> Result<SpeedRunExplorati
     watch(maze, config, |_, _| {})
 }
 
-/// Returns the same; `see` is told of every cell that the mouse looks at, and which of its sides
-/// are open, in the order of [`Direction::ALL`].
+/// Explores like [`explore`] and returns the same. Calls `see` with every cell that the mouse looks
+/// at, and which of its sides are open, in the order of [`Direction::ALL`].
 ///
 /// # Errors
 /// As [`explore`].

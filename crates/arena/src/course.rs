@@ -62,7 +62,7 @@ pub enum CourseError {
         /// The robot's diameter, m.
         diameter: f64,
     },
-    /// What is asked for works in mazes alone.
+    /// The request works in mazes only.
     #[error(
         "{what} needs a maze of cells, and this is a world whose walls stand anywhere: give a maze, with --maze"
     )]
@@ -80,26 +80,26 @@ pub enum CourseError {
         /// The corridors' width, m.
         width: f64,
     },
-    /// In such corridors an e-puck does not see what they are.
+    /// The e-puck cannot recognize such corridors.
     #[error(
-        "corridors of {width} m: an e-puck, whose sensors reach {reach} m, tells junctions in corridors of {least} to {most} m alone; set \
+        "the corridors are {width} m wide; an e-puck, whose sensors reach {reach} m, recognizes junctions only in corridors of {least} to {most} m: set \
          corridor_width to 0.25"
     )]
     Unseen {
         /// From wall to wall, m.
         width: f64,
-        /// How narrow they may be, m.
+        /// Minimum width, m.
         least: f64,
-        /// How wide they may be, m.
+        /// Maximum width, m.
         most: f64,
-        /// How far its sensors reach, m.
+        /// Range of its sensors, m.
         reach: f64,
     },
     /// The world cannot be built.
-    #[error("the maze makes no world")]
+    #[error("no world can be built from the maze")]
     World(#[from] WorldError),
     /// The world has no form as a file.
-    #[error("the world cannot be written down")]
+    #[error("the world cannot be written as a file")]
     Unwritten(#[from] WorldFileError),
 }
 
@@ -111,9 +111,9 @@ pub enum CourseError {
 pub struct Course {
     /// The maze, or the file's, name.
     pub name: String,
-    /// The maze it was built from. Of a free world: its squares, with walls where the robot cannot
-    /// pass from the middle of one to that of the next. Whoever needs corridors and junctions as
-    /// cells asks [`is_free`](Self::is_free) first.
+    /// The maze it was built from. For a free world: its squares, with walls where the robot cannot
+    /// pass from the middle of one to that of the next. If you need corridors and junctions as
+    /// cells, check [`is_free`](Self::is_free) first.
     pub maze: Maze,
     /// Its walls and zones.
     pub world: Arc<World>,
@@ -125,7 +125,7 @@ pub struct Course {
     free: Option<FreeFloor>,
 }
 
-/// What a course in a free world has of its own.
+/// The part of a course that only a free world has.
 #[derive(Clone, Debug)]
 struct FreeFloor {
     paving: Paving,
@@ -164,11 +164,10 @@ impl Course {
         }
     }
 
-    /// Returns a world whose walls stand anywhere as a course to its zone `destination` for a robot
-    /// of this `body`, whose layers take corridors to be `corridor_width` metres wide. Doors count
-    /// as open.
+    /// Returns a world of free walls as a course to its zone `destination`. The robot has this
+    /// `body`, and its layers take corridors to be `corridor_width` m wide. Doors count as open.
     ///
-    /// A passage that is wider than the body by less than half its radius may be taken for closed.
+    /// A passage may count as closed if it is wider than the body by less than half its radius.
     /// O(area), and O(length) for each wall.
     ///
     /// # Errors
@@ -211,7 +210,8 @@ impl Course {
         self.free.is_some()
     }
 
-    /// Refuses what works in mazes alone; `what` is that, as in "the oracle".
+    /// Refuses a free world for requests that work in mazes only; `what` names the request, as in
+    /// "the oracle".
     ///
     /// # Errors
     /// [`CourseError::NoMaze`] in a free world.
@@ -249,8 +249,8 @@ impl Course {
         Ok(course)
     }
 
-    /// Returns what tells this drawing from others of its name: a hash of walls, marks and the
-    /// corridors' width; of a free world, of walls, zones and doors.
+    /// Returns a fingerprint of the drawing, which tells it from others of its name: a hash of
+    /// walls, marks and the corridors' width. For a free world, a hash of walls, zones and doors.
     #[must_use]
     pub fn drawing(&self) -> String {
         let text = match &self.free {
@@ -264,8 +264,8 @@ impl Course {
         format!("{hash:016x}")
     }
 
-    /// Time steps after which a run has failed where nothing else is said: in proportion to the
-    /// length of the corridors, as many for each metre as MSLST gives in its Large maze.
+    /// Returns the default number of time steps after which a run has failed. It is proportional to
+    /// the length of the corridors, with as many steps per metre as MSLST has in its Large maze.
     #[must_use]
     pub fn step_limit(&self) -> u32 {
         let of_a_cell = match &self.free {
@@ -312,21 +312,31 @@ impl Course {
     }
 
     /// Returns the length of the shortest way from the marked start to the destination, m; `None`
-    /// if there is none. In a free world it is that along squares, which may be longer by a factor
-    /// of up to √2.
+    /// if there is none. In a free world it is the length along squares, which may be longer by a
+    /// factor of up to √2.
     #[must_use]
     pub fn shortest_metres(&self) -> Option<f64> {
         if let Some(free) = &self.free {
-            let cell = free.paving.cell_at(free.start?.position)?;
-            return Some(f64::from(self.steps_from(cell)?) * free.paving.pitch);
+            return self.shortest_metres_from(free.start?.position);
         }
         let (start, _) = self.maze.start()?;
         Some(f64::from(self.steps_from(start)?) * self.corridor_width)
     }
 
-    /// Returns the first of four cells without a wall between them, if there are any: in rooms a
-    /// robot that follows corridors may go round forever and take one way out for another. Of a
-    /// free world nothing is said.
+    /// Returns the same from the cell in which `position` lies.
+    #[must_use]
+    pub fn shortest_metres_from(&self, position: Point) -> Option<f64> {
+        if let Some(free) = &self.free {
+            let cell = free.paving.cell_at(position)?;
+            return Some(f64::from(self.steps_from(cell)?) * free.paving.pitch);
+        }
+        let cell = self.world.cell_at(position)?;
+        Some(f64::from(self.steps_from(cell)?) * self.corridor_width)
+    }
+
+    /// Returns the first of four cells without a wall between them; `None` if there are none, and
+    /// in a free world. In rooms a robot that follows corridors may go round forever, and take one
+    /// way out for another.
     #[must_use]
     pub fn room(&self) -> Option<Cell> {
         if self.is_free() {
@@ -355,8 +365,9 @@ impl Course {
         Pose::new(self.cell_centre(cell), heading_of(direction))
     }
 
-    /// Returns the middle of the cell that the maze marks as its start, looking as it says; the
-    /// middle of a free world's zone `start`, looking along the longest clear way.
+    /// Returns the start. In a maze it is the middle of the cell and the heading that the maze
+    /// marks. In a free world it is the middle of the zone `start`, looking along the longest clear
+    /// way.
     ///
     /// # Errors
     /// [`CourseError::NoStart`], [`CourseError::NoStartZone`].
@@ -368,9 +379,9 @@ impl Course {
         Ok(self.in_cell(cell, direction))
     }
 
-    /// Returns a random start: any of [those cells](Self::starts), or of all where there is no
-    /// destination, with equal chance; any place in its middle from which the body would stand
-    /// clear of walls on all four sides, any heading. In a free world it is the middle of a square.
+    /// Returns a random start. The cell is any of [those](Self::starts), or any of all without a
+    /// destination. The position is in its middle, where the body stands clear of walls on all four
+    /// sides; the heading is any. In a free world it is the middle of a square.
     pub fn random_start(&self, body: &Body, rng: &mut impl Rng) -> Pose {
         let mut cells: Vec<Cell> = self.starts().collect();
         if cells.is_empty() {

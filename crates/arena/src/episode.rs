@@ -21,14 +21,14 @@ use crate::run::{self, InRun, Limited, TaskEnd};
 pub use crate::episode_error::EpisodeError;
 pub use step::{Chooser, Step};
 
-/// What a run is made of, beside the mind.
+/// Ingredients of a run, beside the mind.
 #[derive(Clone, Debug)]
 pub struct Trial<'a> {
-    /// Where it takes place.
+    /// Course of the run.
     pub course: &'a Course,
     /// The robot.
     pub robot: LaserPioneerConfig,
-    /// Where it begins.
+    /// Pose at the beginning.
     pub start: Pose,
     /// Time steps after which it has failed.
     pub step_limit: u32,
@@ -41,20 +41,20 @@ pub struct Trial<'a> {
 pub struct Lifted {
     /// Time steps after which it is lifted, at the end of the action under way.
     pub after: u32,
-    /// Where it is put down.
+    /// Pose where it is put down.
     pub to: Pose,
 }
 
-/// What became of a run.
+/// Result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Episode {
     /// Whether the robot's centre came to lie in the destination.
     pub reached: bool,
     /// High-level actions begun.
     pub actions: u32,
-    /// How many of those failed.
+    /// Number of these actions that failed.
     pub failed_actions: u32,
-    /// How many of those failed in their first time step.
+    /// Number of these actions that failed in their first time step.
     pub failed_at_once: u32,
     /// Time steps made; the limit where time ran out.
     pub steps: u32,
@@ -70,7 +70,7 @@ const MIND_STREAM: u64 = 2;
 /// The stream of random starts.
 pub const START_STREAM: u64 = 3;
 
-/// What a mind is asked to do.
+/// Task of a mind.
 const ARRIVE: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
 
 /// Returns the random start of the run with this seed: see [`Course::random_start`].
@@ -101,10 +101,10 @@ pub fn run(
     run_lifted(trial, mind, None, watch)
 }
 
-/// Does as [`run()`] does, with a robot that is lifted on the way.
+/// Runs like [`run()`] and returns the same, with a robot that is lifted on the way.
 ///
 /// # Errors
-/// [`EpisodeError`] if the robot cannot be built, or not be put where it begins or where it is
+/// [`EpisodeError`] if the robot cannot be built, or cannot be put where it begins or where it is
 /// lifted to.
 pub fn run_lifted(
     trial: &Trial<'_>,
@@ -118,8 +118,7 @@ pub fn run_lifted(
     })
 }
 
-/// Does as [`run_lifted`] does, until `watch` breaks it off: the run then ends with the action
-/// under way.
+/// Runs like [`run_lifted`], until `watch` breaks off: the run then ends with the action under way.
 ///
 /// # Errors
 /// As [`run_lifted`].

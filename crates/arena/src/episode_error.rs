@@ -28,18 +28,18 @@ pub enum EpisodeError {
     Course(#[from] CourseError),
     /// The course is too large for the oracle.
     #[error(
-        "the oracle would have to plan on {nodes} nodes, and {most} are the most: choose a smaller maze"
+        "the oracle would have to plan on {nodes} nodes, more than its limit of {most}: choose a smaller maze"
     )]
     Policy {
-        /// How many nodes the course needs.
+        /// Number of nodes that the course needs.
         nodes: usize,
-        /// How many it may need.
+        /// Maximum number of nodes.
         most: usize,
     },
     /// A step could not be made.
-    #[error("step {step} could not be made")]
+    #[error("step {step} failed")]
     Step {
-        /// Which one, from 0.
+        /// Number of the step, from 0.
         step: u32,
         /// The underlying error.
         source: ActorError<LimitedError<StepError>, Infallible>,

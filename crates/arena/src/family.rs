@@ -14,11 +14,11 @@ use crate::BoxError;
 pub struct Family {
     /// Its name, as in `tolman maze generate NAME`.
     pub name: &'static str,
-    /// What its drawings have in common, in one line.
+    /// Common features of its drawings, in one line.
     pub about: &'static str,
-    /// What is hard about them, in a few words.
+    /// Difficulty of its drawings, in a few words.
     pub hard: &'static str,
-    /// What their places are, beside dead ends, the start and the goal.
+    /// Kinds of places, beside dead ends, the start and the goal.
     pub places: &'static str,
     /// Columns and rows of a small, a middle and a large one.
     pub sizes: [(u16, u16); 3],
@@ -26,15 +26,15 @@ pub struct Family {
     pub draw: Draw,
 }
 
-/// How a world is drawn.
+/// Generator of a world.
 pub type Draw = fn((u16, u16), &mut ChaCha8Rng) -> Result<Maze, BoxError>;
 
-/// How large a world of a family is.
+/// Size of a family's world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FamilySize {
     /// For a first look.
     Small,
-    /// As large as the papers' mazes.
+    /// The size of the papers' mazes.
     Middle,
     /// Larger than any paper's.
     Large,
@@ -46,7 +46,8 @@ const JUNCTIONS: &str = "junctions";
 const SQUARE: [(u16, u16); 3] = [(5, 5), (8, 8), (16, 16)];
 
 impl Family {
-    /// Returns a family of which no more is said, with square worlds of 5, 8 and 16 cells a side.
+    /// Returns a family without further description, with square worlds of 5, 8 and 16 cells a
+    /// side.
     #[must_use]
     pub const fn new(name: &'static str, about: &'static str, draw: Draw) -> Self {
         Self {
@@ -197,7 +198,7 @@ const fn whole((width, height): (u16, u16)) -> Braided {
     }
 }
 
-/// Of mazes that chance leaves without an open square one is opened.
+/// Returns a braided maze, with an open square added if it has none.
 fn braided_rooms(size: (u16, u16), rng: &mut ChaCha8Rng) -> Result<Maze, BoxError> {
     let mut maze = whole(size).generate(rng)?;
     let grid = maze.grid();

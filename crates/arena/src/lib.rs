@@ -1,18 +1,21 @@
 //! Worlds made ready for robots, and the loops that run systems in them.
 //!
-//! In the order data flows: a [`course`] is a maze, or a world of free walls, made ready for runs,
-//! the [`pioneer`] the robot that runs in it, and an [`episode`] one run of a [`Mind`] of the
-//! [`cast`]: a brain of `tolman-systems`, or an [`oracle`] that knows the truth. [`run`] is the
-//! loop that lets any system drive any robot; [`mslst`] lets MSLST learn.
+//! In the order data flows:
+//!
+//! - A [`course`] is a maze, or a world of free walls, made ready for runs. The [`pioneer`] is the
+//!   robot that runs in it.
+//! - An [`episode`] is one run of a [`Mind`] of the [`cast`]: a brain of `tolman-systems`, or an
+//!   [`oracle`] that knows the truth.
+//! - [`run`] is the loop that lets any system drive any robot; [`mslst`] lets MSLST learn.
 //!
 //! [`micromouse`] is a paper's mouse and its referee; in the [`competition`] a micromouse explores
 //! a maze for its speed run. [`gngslam`] has the arenas and the data of the place map.
 //! [`log_score`] judges ways that were found from logs. [`mms`] is the protocol of the simulator of
-//! that name; [`foreign`] runs programs of others under supervision.
+//! that name; [`foreign`] runs foreign programs under supervision.
 
 extern crate alloc;
 
-/// Any error, of whoever is not known here.
+/// Any error.
 pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
 
 pub mod cast;

@@ -14,7 +14,7 @@ pub(crate) struct Lingerer {
     explorer: BetterExplorer,
     wander: AvoidBrain,
     actions: u32,
-    /// How many of those it made before it had been everywhere first.
+    /// Number of these actions until it had been everywhere.
     explored: Option<u32>,
     times: u32,
     /// Whether it wanders from the beginning.

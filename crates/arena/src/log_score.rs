@@ -1,6 +1,6 @@
-//! How right a way is that was found from a log, held against what others know of it.
+//! Errors of a way that was found from a log, by the knowledge of others.
 //!
-//! [`RelationScore`] takes relative poses that were verified by hand; [`AlignedScore`] another
+//! [`RelationScore`] uses relative poses that were verified by hand; [`AlignedScore`] another
 //! trajectory, whose frame need not be the same.
 //!
 //! Source: R. Kümmerle et al.: On Measuring the Accuracy of SLAM Algorithms, 2009.

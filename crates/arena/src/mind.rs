@@ -4,10 +4,10 @@ use tolman_systems::{Brain, RolledStep, TimeStep};
 
 use crate::oracle::Oracle;
 
-/// A brain of whichever kind that takes in all it observes.
+/// A brain of any kind that takes in all it observes.
 pub type AnyBrain = dyn Brain<Observation = TimeStep, Error = Infallible>;
 
-/// A brain of whichever kind that reckons with wheel encoders.
+/// A brain of any kind that uses wheel encoders.
 pub type AnyRollingBrain = dyn Brain<Observation = RolledStep, Error = Infallible>;
 
 /// Whoever chooses the actions in an [episode](crate::episode).

@@ -30,29 +30,30 @@ pub enum LearnError {
     #[error("the robot cannot wander")]
     Wander(#[from] EpisodeError),
     /// Its scans make no states.
-    #[error("the scans make no states")]
+    #[error("no states can be learned from the scans")]
     States(#[from] StatesError),
 }
 
-/// What the better system learned, and what whoever watched it knows of it.
+/// The better system's map, and the truth recorded about it.
 #[derive(Clone, Debug)]
 pub struct BetterLearned {
-    /// What the brain gets.
+    /// The part for the brain.
     pub map: Arc<BetterMap>,
     /// How learning ended.
     pub ended: Ended,
     /// Actions until it had been everywhere.
     pub actions: u32,
-    /// Where the robot truly was when each place was made, by id; metres.
+    /// True position of the robot when each place was made, by id, m.
     pub positions: Vec<Point>,
     /// True places: of the positions where actions ended, as many as lie a robot's diameter apart,
     /// first come first counted.
     pub true_places: Vec<Point>,
 }
 
-/// Lets the better system learn a course on its own, until it has been everywhere or has made ten
-/// times the steps that a run may take there; then lets it wander on until it has made `times` as
-/// many actions, so that its map can be seen to stop growing. The same seed gives the same map.
+/// Lets the better system learn a course on its own and returns the map. It ends once it has been
+/// everywhere, or has made ten times the steps that a run may take there. Then it wanders on until
+/// it has made `times` as many actions, to show that its map stops growing. The same seed gives the
+/// same map.
 ///
 /// # Errors
 /// [`LearnError`] if the robot cannot be built for the course.
@@ -71,8 +72,8 @@ pub fn learn_better(
     )
 }
 
-/// Lets the better system learn a course without one of its parts, if `without` names one, until it
-/// has been everywhere.
+/// Lets the better system learn a course until it has been everywhere, without the part `without`,
+/// if any. Returns the map.
 ///
 /// # Errors
 /// As [`learn_better`].
@@ -182,7 +183,8 @@ pub fn scans(
     Ok(actor.into_brain().into_scans())
 }
 
-/// Learns the graph of Phase II: see [`Topology`]. Where each node was made is noted by the way.
+/// Learns the graph of Phase II and returns it with the true position at which each node was made:
+/// see [`Topology`].
 ///
 /// # Errors
 /// If the robot cannot be built for the course.

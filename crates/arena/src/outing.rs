@@ -18,12 +18,12 @@ use crate::course::Course;
 use crate::run::{InRun, Limited, Stopwatch};
 use crate::{BoxError, Simulated};
 
-/// A system that was sent out with its robot on a course, whichever they are.
+/// A system that was sent out with its robot on a course, both of any kind.
 pub trait Outing: InRun {
     /// Returns where it is.
     fn course(&self) -> &Course;
 
-    /// Returns what its robot is.
+    /// Returns the facts of its robot.
     fn robot(&self) -> RobotFacts;
 
     /// Returns where the robot truly was after every time step.
@@ -47,7 +47,7 @@ pub trait Outing: InRun {
     /// If the robot fails or the system cannot go on with it.
     fn act(&mut self, task: Task) -> Result<Standing, BoxError>;
 
-    /// Returns in a few words what the system makes of its situation.
+    /// Returns a few words on the system's situation.
     fn words(&self) -> String;
 
     /// Returns the map of the system.
@@ -147,7 +147,7 @@ pub trait Outing: InRun {
     fn trace(&self) -> Result<Vec<u8>, BoxError>;
 }
 
-/// What a simulated robot is, for whoever draws it.
+/// Facts of a simulated robot, for drawings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotFacts {
     /// Its name, as in the files of maps.
@@ -156,12 +156,12 @@ pub struct RobotFacts {
     pub body: Body,
     /// Its laser's beams.
     pub ring: Option<Ring>,
-    /// How long a time step takes, µs.
+    /// Duration of a time step, µs.
     pub step_us: u64,
 }
 
 impl RobotFacts {
-    /// Returns what a simulated robot is.
+    /// Returns the facts of a simulated robot.
     pub fn of<M: Depicted>(robot: &Simulated<M>) -> Self {
         let model = robot.model();
         Self {
@@ -176,7 +176,7 @@ impl RobotFacts {
 /// How a place of a map was made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Founding {
-    /// Where the robot truly was, m.
+    /// True position of the robot, m.
     pub position: Point,
     /// After how many actions since the first place.
     pub action: u32,
@@ -268,14 +268,14 @@ impl Depicted for Epuck {
 
 /// Any [`System`] with any simulated robot, as an [`Outing`].
 ///
-/// What it does with its map is said by [`keeping`](Self::keeping), [`judged`](Self::judged),
-/// [`counting`](Self::counting), [`choosing`](Self::choosing) and [`lying`](Self::lying); without
+/// [`keeping`](Self::keeping), [`judged`](Self::judged), [`counting`](Self::counting),
+/// [`choosing`](Self::choosing) and [`lying`](Self::lying) say what it does with its map; without
 /// them it keeps none.
 pub struct Sent<R: Robot, S> {
     course: Course,
     robot: Limited<R>,
     system: S,
-    /// How each place of the map was made, by id.
+    /// Origin of each place of the map, by id.
     sites: Vec<Founding>,
     /// Actions made since the map has a place.
     actions: u32,
@@ -284,11 +284,11 @@ pub struct Sent<R: Robot, S> {
     judge: Judge<S>,
     lie: Lie<S>,
     choice: Count<S>,
-    /// What the robot is called, if not as its model.
+    /// Name of the robot, if it differs from its model's.
     name: Option<&'static str>,
-    /// Where the origin of the map truly lies, if the map says where its places are.
+    /// True pose of the map's origin, if the map has positions of its places.
     world_from_map: Option<Pose>,
-    /// How long actions took while that was measured.
+    /// Time that actions took, while it was measured.
     acting: Duration,
 }
 
@@ -333,7 +333,7 @@ impl<R: Robot, S> Sent<R, S> {
         Self { count, ..self }
     }
 
-    /// Keeps the map as `keep` writes it, which is told how each place was made, by id.
+    /// Keeps the map as `keep` writes it, which is called with how each place was made, by id.
     #[must_use]
     pub fn keeping(
         self,
@@ -373,8 +373,8 @@ impl<R: Robot, S> Sent<R, S> {
         Self { name, ..self }
     }
 
-    /// Shows the places of the map, and where it believes the robot to be, where the map has them,
-    /// with its origin at `world_from_map`; not where they truly lie.
+    /// Shows the map's places and the robot's believed position at their positions on the map, with
+    /// its origin at `world_from_map`; not at their true positions.
     #[must_use]
     pub fn laid_at(self, world_from_map: Pose) -> Self {
         let world_from_map = Some(world_from_map);

@@ -14,19 +14,19 @@ pub type CoursePioneer = Simulated<LaserPioneer>;
 /// Name of the robot in files of learned maps.
 pub const LASER_PIONEER: &str = "laser Pioneer";
 
-/// What the Pioneer with a camera beside its laser is called.
+/// Name of the Pioneer with a camera beside its laser.
 pub const CAMERA_PIONEER: &str = "camera Pioneer";
 
-/// The width of a corridor where a maze says nothing of it: 1.9 robot units, in metres.
+/// Width of a corridor if a maze does not give one: 1.9 robot units, in metres.
 ///
-/// Avoid's buffer of 0.9 units needs more than 1.8; the corridor test needs less than 2.0
-/// (see `docs/mslst.md`).
+/// Avoid's buffer of 0.9 units needs more than 1.8; the corridor test needs less than 2.0 (see
+/// `docs/mslst.md`).
 pub const CORRIDOR_WIDTH: f64 = 1.9 * ROBOT_UNIT;
 
-/// How many beams the ring has.
+/// Number of beams of the ring.
 const BEAMS: u32 = 72;
 
-/// How far they reach, robot units.
+/// Range of the beams, robot units.
 const REACH_UNITS: f64 = 2.5;
 
 /// Returns the ring of 72 beams over the full circle that reaches 2.5 robot units.
@@ -57,9 +57,9 @@ pub fn calibrated() -> LaserPioneerConfig {
     }
 }
 
-/// Returns the same robot with sensors that err, as the better MSLST is judged: encoders by
-/// `encoders` of each step (standard deviation) and by a share of up to 2 % that holds for the
-/// whole run, ranges by 2 %.
+/// Returns the same robot with sensor noise, as the better MSLST is judged. Encoders err by
+/// `encoders` of each step (standard deviation), and by a share of up to 2 % that is constant in a
+/// run. Ranges err by 2 %.
 #[must_use]
 pub fn with_sensor_noise(robot: &LaserPioneerConfig, encoders: f64) -> LaserPioneerConfig {
     let mut noisy = robot.clone();
@@ -73,10 +73,10 @@ pub fn with_sensor_noise(robot: &LaserPioneerConfig, encoders: f64) -> LaserPion
     noisy
 }
 
-/// What encoders err by in a step, as a share of it, where nothing else is said.
+/// Default standard deviation of encoders in a step, as a share of it.
 pub const ENCODER_SD: f64 = 0.03;
 
-/// Its body: a disc one robot unit across.
+/// Returns its body: a disc one robot unit across.
 #[must_use]
 pub const fn body() -> Body {
     Body::Circle {

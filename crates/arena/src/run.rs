@@ -56,13 +56,13 @@ impl<R: Robot> Limited<R> {
         self.stopwatch = Some(stopwatch);
     }
 
-    /// Returns the time by the stopwatch; `None` if nobody measures.
+    /// Returns the time by the stopwatch; `None` without one.
     pub fn now(&self) -> Option<Duration> {
         self.stopwatch.map(|now| now())
     }
 
-    /// Returns how long the robot itself took while that was measured: where it is simulated, the
-    /// simulator.
+    /// Returns the time that the robot itself took, while it was measured; for a simulated robot,
+    /// that of the simulator.
     pub const fn stepping(&self) -> Duration {
         self.stepping
     }
@@ -134,7 +134,7 @@ impl<R: Robot> InRun for Limited<R> {
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ended {
-    /// What became of the task.
+    /// Result of the task.
     pub end: TaskEnd,
     /// Actions that were begun.
     pub actions: u32,
@@ -142,14 +142,14 @@ pub struct Ended {
     pub steps: u32,
 }
 
-/// What became of the task of a run.
+/// Result of a run's task.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TaskEnd {
     /// The system says that it is done.
     Done,
     /// The system gave up.
     GaveUp {
-        /// Why, in its words.
+        /// Reason in its words.
         why: String,
     },
     /// The robot made as many time steps as it may.
@@ -167,10 +167,11 @@ impl TaskEnd {
     }
 }
 
-/// Lets `system` pursue `task` with `robot` until it is done, gives up, or is out of time.
+/// Lets `system` pursue `task` with `robot` until it is done, gives up, or is out of time. Returns
+/// how it ended.
 ///
 /// # Errors
-/// What the system says when the robot fails or it cannot go on.
+/// The system's error if the robot fails or it cannot go on.
 pub fn run<R: Robot, S: System<Limited<R>>>(
     robot: &mut Limited<R>,
     system: &mut S,
@@ -179,11 +180,11 @@ pub fn run<R: Robot, S: System<Limited<R>>>(
     until_done(robot, |robot| system.act(robot, task))
 }
 
-/// Lets `act` make one action with `robot`, or who drives it, after the other until one says that
-/// the task is done or given up, or the robot is out of time.
+/// Calls `act` repeatedly with `robot`, or its driver, until the task is done or given up, or the
+/// robot is out of time. Returns how it ended.
 ///
 /// # Errors
-/// What `act` says when the robot fails or it cannot go on.
+/// The error of `act` if the robot fails or it cannot go on.
 pub fn until_done<D: InRun + ?Sized, E>(
     robot: &mut D,
     mut act: impl FnMut(&mut D) -> Result<Standing, E>,

@@ -41,13 +41,13 @@ impl<M: Model> Simulated<M> {
         })
     }
 
-    /// Returns what really is, for scoring; no system sees it.
+    /// Returns the truth, for scoring; no system sees it.
     #[must_use]
     pub fn truth(&self) -> &Truth {
         self.solo.truth()
     }
 
-    /// Returns what it is built to.
+    /// Returns its model.
     #[must_use]
     pub fn model(&self) -> &M {
         self.solo.model()
@@ -59,13 +59,14 @@ impl<M: Model> Simulated<M> {
         &self.path
     }
 
-    /// In how many steps it touched something.
+    /// Returns the number of steps in which it touched something.
     #[must_use]
     pub const fn bumps(&self) -> u32 {
         self.solo.bumps()
     }
 
-    /// In which steps it touched something, counted from 1 as those of its [`path`](Self::path).
+    /// Returns the steps in which it touched something, counted from 1 like those of its
+    /// [`path`](Self::path).
     #[must_use]
     pub fn bumped(&self) -> &[u32] {
         &self.bumped
@@ -98,8 +99,8 @@ impl<M: Recordable> Simulated<M> {
     /// Returns the trace of the run so far, from where it was put first: JSON lines with the world,
     /// the robot, and every step's command, true pose, bump and readings.
     ///
-    /// The run is made once more for it: the same commands make the same run, if nobody lifted the
-    /// robot or moved a door.
+    /// The run is repeated for it: the same commands make the same run, unless the robot was lifted
+    /// or a door was moved.
     ///
     /// # Errors
     /// If the robot cannot be built again by its configuration alone, or a line has no JSON form.

@@ -15,7 +15,7 @@ pub enum RingError {
         "a ring of {beams} beams has no quarters of two beams or more: use a multiple of 4, from 8"
     )]
     Quarters {
-        /// How many beams the ring has.
+        /// Number of beams of the ring.
         beams: u32,
     },
     /// The beams leave a gap in the circle, or do not start ahead.
@@ -45,8 +45,8 @@ pub enum RingError {
 /// A corridor as its walls look from the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corridor {
-    /// How far the robot would have to turn to face along the corridor, in beams; positive is
-    /// counter-clockwise. Between −beams/4 and beams/4: a corridor has no front.
+    /// Angle by which the robot would have to turn to face along the corridor, in beams; positive
+    /// is counter-clockwise. Between −beams/4 and beams/4: a corridor has no front.
     pub misaligned_beams: i32,
     /// The least sum of two opposite beams, m: the distance from wall to wall.
     pub narrowest: f64,
@@ -67,7 +67,7 @@ pub struct CorridorDetector {
     pairs: usize,
     /// A sum below this counts as two near walls, m.
     near: f64,
-    /// How many near sums in a row make a corridor.
+    /// Number of near sums in a row that make a corridor.
     run: usize,
 }
 

@@ -56,9 +56,9 @@ pub struct Drive<G> {
 pub struct Driven<'a, R> {
     /// The action it belongs to.
     pub action: Direction,
-    /// What the robot was told.
+    /// Command of the robot.
     pub command: TurnTranslate,
-    /// How the action ended with this step; `None` while it goes on.
+    /// Outcome of the action if it ended with this step; `None` while it goes on.
     pub ends: Option<Outcome>,
     /// The robot as it is now.
     pub robot: &'a R,

@@ -5,7 +5,7 @@ use tolman_robot::{Scan, TurnTranslate};
 
 use crate::{Corridor, Outcome};
 
-/// What the robot perceives in this time step.
+/// Perception of the robot in this time step.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
     /// Ranges in the robot's frame, m; infinity where nothing was met is as good as the largest
@@ -18,18 +18,18 @@ pub struct View<'a> {
 /// A view, and what the stack has made of it once for all layers.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a> {
-    /// What is perceived.
+    /// The perception.
     pub view: View<'a>,
     /// The corridor the robot is in, if it looks like one.
     pub corridor: Option<Corridor>,
 }
 
-/// What the layers so far would do in this time step.
+/// Proposal of the layers so far for this time step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Proposal {
     /// The motor command.
     pub command: TurnTranslate,
-    /// How the action ends with this step, or `None` while it goes on.
+    /// Outcome of the action if it ends with this step, or `None` while it goes on.
     pub ends: Option<Outcome>,
 }
 
@@ -38,7 +38,7 @@ pub struct Proposal {
 /// A layer changes the proposal of the layer above and hands it on. It may keep state between the
 /// steps of one action; [`Layer::begin`] says when a new one starts.
 pub trait Layer: core::fmt::Debug {
-    /// A new high-level action starts.
+    /// Starts a new high-level action.
     fn begin(&mut self, action: Direction) {
         let _ = action;
     }

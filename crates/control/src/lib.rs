@@ -64,7 +64,15 @@
 //! assert!(heading.turn_to(Heading::NORTH).abs() < 4_f64.to_radians());
 //! # Ok::<(), tolman_control::RingError>(())
 //! ```
+//!
+//! # A layer of your own
+//!
+//! `cargo run --example own_layer`:
+#![doc = "```"]
+#![doc = include_str!("../examples/own_layer.rs")]
+#![doc = "```"]
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
 

@@ -1,4 +1,4 @@
-/// How a high-level action ended.
+/// Outcome of a high-level action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {
     /// Carried out: turned and translated.

@@ -26,7 +26,7 @@ pub struct Settle {
 }
 
 impl Settle {
-    /// Ours: more changes of side than the paper's robot makes.
+    /// Returns our values: more changes of side than the paper's robot makes.
     #[must_use]
     pub const fn ours() -> Self {
         Self {

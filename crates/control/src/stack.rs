@@ -16,7 +16,7 @@ use crate::{
 pub struct Stack {
     detector: CorridorDetector,
     layers: Vec<Box<dyn Layer + Send>>,
-    /// What mends the scans of a laser that errs.
+    /// Repair of the scans of a laser with stuck beams.
     mending: Option<StuckBeams>,
 }
 

@@ -30,14 +30,14 @@ pub struct StuckBeams {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Beam {
-    /// How often it contradicted those beside it of late.
+    /// Number of its recent contradictions with the beams beside it.
     doubts: u8,
     stuck: bool,
 }
 
 /// Ratio, either way, at which a beam's range contradicts the ranges of both its neighbours.
 const CONTRADICTS: f64 = 1.25;
-/// What a contradiction adds to the doubts, of which each scan without one takes one away.
+/// Increase of the doubts by a contradiction; each scan without one reduces them by one.
 const DOUBT: u8 = 2;
 /// Doubts at which a beam counts as stuck: eight contradictions in a row at the soonest.
 const ENOUGH: u8 = 16;

@@ -138,7 +138,7 @@ fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
 
 /// Returns every maze of the project that is drawn for this robot.
 fn mazes() -> Vec<Maze> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../mazes");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mazes");
     let mut files: Vec<_> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().path())

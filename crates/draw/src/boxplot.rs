@@ -51,7 +51,7 @@ pub struct BoxGroup {
     pub series: Series,
     /// The runs; values that are not finite are left out.
     pub dots: Vec<Dot>,
-    /// What the paper says.
+    /// Value of the paper.
     pub paper: Option<PaperMark>,
 }
 
@@ -63,7 +63,7 @@ pub struct BoxGroup {
 pub struct BoxPlot {
     /// The table it shows, kept with the dots as `data-table`.
     pub table: String,
-    /// What the value axis measures.
+    /// Quantity on the value axis.
     pub axis: String,
     /// The boxes, from left to right.
     pub groups: Vec<BoxGroup>,
@@ -192,7 +192,7 @@ fn paper_mark(paper: PaperMark, x: f64, y: &impl Fn(f64) -> f64) -> Markup {
     }
 }
 
-/// Places the dots: those that share a band of the value axis lie side by side from `left` on, so
+/// Places the dots. Those that share a band of the value axis lie side by side from `left` on, so
 /// that a crowd looks wide; a crowd too wide for its room is packed closer.
 fn swarm(dots: &[Dot], left: f64, y: &impl Fn(f64) -> f64) -> Vec<(f64, Dot)> {
     let band = |dot: &Dot| (y(dot.value) / DOT).floor() as i64;

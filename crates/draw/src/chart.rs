@@ -27,7 +27,7 @@ pub struct Axis {
     ticks: Ticks,
 }
 
-/// Where an axis may have labels.
+/// Possible labels of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ticks {
     Anywhere,
@@ -159,7 +159,7 @@ enum Layer {
 /// A line through values, with a band of spread around it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// What it shows, for the legend; empty for none.
+    /// Label for the legend; empty for none.
     pub label: String,
     /// The colour.
     pub series: Series,
@@ -181,11 +181,11 @@ impl Line {
 /// One value of a [`Line`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinePoint {
-    /// Where on the first axis.
+    /// Position on the first axis.
     pub x: f64,
     /// The value.
     pub y: f64,
-    /// How far values spread around it: quartiles, a 95 % interval, extremes.
+    /// Spread of values around it: quartiles, a 95 % interval, extremes.
     pub spread: Option<ConfidenceInterval>,
 }
 
@@ -215,16 +215,16 @@ struct Pinned {
 /// Points without order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Points {
-    /// What they show, for the legend; empty for none.
+    /// Label for the legend; empty for none.
     pub label: String,
     /// The colour.
     pub series: Series,
-    /// Where they lie.
+    /// Positions.
     pub positions: Vec<Point>,
 }
 
 impl Points {
-    /// These points.
+    /// Returns these points.
     pub fn new(label: impl Into<String>, series: Series, positions: Vec<Point>) -> Self {
         Self {
             label: label.into(),
@@ -329,7 +329,7 @@ impl Chart {
         }
     }
 
-    /// Everything that has to find room, as pairs of values.
+    /// Returns all that needs room, as pairs of values.
     fn positions(&self) -> impl Iterator<Item = (f64, f64)> {
         self.layers.iter().flat_map(|layer| -> Vec<(f64, f64)> {
             match layer {

@@ -28,7 +28,7 @@ pub struct Drawing {
     pub width: f64,
     /// Height in user units.
     pub height: f64,
-    /// What the picture shows, in words, for readers who cannot see it.
+    /// Description of the picture in words, for readers who cannot see it.
     pub description: String,
     /// The SVG elements.
     pub body: Markup,
@@ -40,7 +40,7 @@ pub struct Figure {
     /// The name of its file without the extension, and the prefix of its ids: lower-case letters,
     /// digits and hyphens.
     pub name: String,
-    /// What it shows, in a few words.
+    /// Title, in a few words.
     pub title: String,
     /// How to read it; empty if nothing need be said.
     pub caption: String,

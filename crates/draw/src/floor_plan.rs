@@ -13,10 +13,10 @@ use super::{Drawing, GraphPicture, Image, Region, Series, Shade};
 /// Free space around the outermost walls, in user units.
 const MARGIN: f64 = 8.0;
 
-/// What a zone of the floor means.
+/// Meaning of a zone of the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ZoneStyle {
-    /// Where the robot is to go.
+    /// Destination of the robot.
     Destination,
     /// A part of the floor that is told apart.
     Region,
@@ -36,9 +36,9 @@ pub struct FloorPlan {
     height: f64,
     layers: Vec<Markup>,
     walls: Markup,
-    /// What the colours of cells mean.
+    /// Meaning of the colours of cells.
     legend: Option<Shade>,
-    /// What the signs mean, and how long a metre is.
+    /// Meaning of the signs, and the length of a metre.
     key: PlanKey,
 }
 
@@ -316,7 +316,7 @@ impl FloorPlan {
         }
     }
 
-    /// SVG path data through positions. Corners that nobody would see are left out, and so is a
+    /// Returns SVG path data through positions. Corners too small to see are left out, and so is a
     /// place that rounds to the one before.
     fn path(&self, positions: &[Point]) -> String {
         let places = positions.iter().map(|position| self.at(*position));

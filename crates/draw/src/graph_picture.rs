@@ -37,22 +37,22 @@ pub struct GraphPicture {
     pub edges: Vec<GraphEdge>,
     /// The radius of a node, user units.
     pub radius: f64,
-    /// Where signs of others stand, which the labels of nodes are not to cover.
+    /// Positions of other signs, which the labels of nodes must not cover.
     pub signs: Vec<Point>,
 }
 
 /// One node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GraphNode {
-    /// Where it lies.
+    /// Position.
     pub position: Point,
     /// Its class by colour.
     pub series: Series,
     /// Its class by shape.
     pub mark: NodeMark,
-    /// What is written beside it; empty for nothing.
+    /// Text beside it; empty for none.
     pub label: String,
-    /// What is shown when the pointer rests on it; empty for nothing.
+    /// Text shown while the pointer rests on it; empty for none.
     pub note: String,
 }
 
@@ -79,11 +79,11 @@ pub struct GraphEdge {
     pub series: Series,
     /// Its class by line.
     pub line: EdgeLine,
-    /// What is written beside its middle; empty for nothing.
+    /// Text beside its middle; empty for none.
     pub label: String,
 }
 
-/// How an edge is drawn.
+/// Style of an edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum EdgeLine {
     /// A line.
@@ -96,7 +96,7 @@ pub enum EdgeLine {
 }
 
 impl GraphPicture {
-    /// No nodes, which will be 3.2 user units in radius.
+    /// Returns a picture without nodes, which will be 3.2 user units in radius.
     pub const fn new() -> Self {
         Self {
             nodes: Vec::new(),
@@ -417,7 +417,7 @@ impl GraphEdge {
     }
 }
 
-/// Beside the middle of an edge, above it: text on a line is hard to read.
+/// Returns the position beside the middle of an edge, above it: text on a line is hard to read.
 fn beside(from: (f64, f64), to: (f64, f64)) -> (f64, f64) {
     let middle = (f64::midpoint(from.0, to.0), f64::midpoint(from.1, to.1));
     let along = (to.0 - from.0, to.1 - from.1);

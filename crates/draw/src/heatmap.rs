@@ -11,10 +11,10 @@ use super::{Drawing, Shade};
 const CELL_HEIGHT: f64 = 30.0;
 const LEAST_CELL_WIDTH: f64 = 46.0;
 
-/// How far the lines of a hatching lie apart.
+/// Distance between the lines of a hatching.
 const HATCH: f64 = 5.0;
 
-/// What is written in a cell that is hatched all over.
+/// Text of a cell that is hatched all over.
 const NONE: &str = "–";
 
 /// A table of values as a picture: one parameter across, another down, each value written in its
@@ -38,19 +38,19 @@ const NONE: &str = "–";
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
-    /// What the columns are values of.
+    /// Quantity of the columns.
     pub across: String,
     /// The columns, from left to right.
     pub columns: Vec<String>,
-    /// What the rows are values of.
+    /// Quantity of the rows.
     pub down: String,
     /// The rows, from the top.
     pub rows: Vec<String>,
     /// By row and column; one that is not finite, or not there, leaves its cell empty.
     pub values: Vec<Vec<f64>>,
-    /// How values become colours.
+    /// Colours of values.
     pub shade: Shade,
-    /// What part of a cell is hatched, if any is.
+    /// Part of each cell that is hatched, if any.
     pub hatching: Option<Hatching>,
 }
 
@@ -58,7 +58,7 @@ pub struct HeatMap {
 /// another kind than all else.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hatching {
-    /// What a hatched part stands for, in a few words.
+    /// Meaning of a hatched part, in a few words.
     pub title: String,
     /// By row and column, 0 … 1. A cell that is hatched all over shows a dash for its value.
     pub shares: Vec<Vec<f64>>,
@@ -87,8 +87,8 @@ fn words_of(name: &str) -> Vec<String> {
     name.split_whitespace().map(str::to_owned).collect()
 }
 
-/// Slanted lines in a rectangle, and its outline, as the data of a path. It needs no pattern, whose
-/// name would be known to the whole page.
+/// Returns slanted lines in a rectangle, and its outline, as path data. It needs no pattern, whose
+/// name would be global to the page.
 fn hatch([x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
     let mut path = format!(
         "M{} {}h{}v{}h{}z",

@@ -38,9 +38,9 @@ pub enum ImageError {
         height: u32,
         /// Values of a pixel: 1 or 3.
         channels: u32,
-        /// How many values there must be.
+        /// Number of values expected.
         expected: u64,
-        /// How many there are.
+        /// Number found.
         found: usize,
     },
     /// The picture cannot be written.

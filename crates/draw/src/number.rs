@@ -12,7 +12,7 @@ pub(super) fn tenths(value: f64) -> String {
     }
 }
 
-/// Path data of a line through places; empty for none.
+/// Returns path data of a line through places; empty for none.
 pub(super) fn line(places: impl IntoIterator<Item = (f64, f64)>) -> String {
     joined(&places.into_iter().map(place).collect::<Vec<_>>())
 }
@@ -48,7 +48,7 @@ pub(super) fn extent(values: impl Iterator<Item = f64>, extent: (f64, f64)) -> (
     })
 }
 
-/// Of no values: nothing is below its low end or above its high end.
+/// Range of no values: nothing is below its low end or above its high end.
 pub(super) const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 /// Returns the label of a value on an axis with this distance between labels: as many decimals as
@@ -65,7 +65,7 @@ pub(super) fn tick_label(value: f64, step: f64) -> String {
     grouped(&format!("{value:.decimals$}"))
 }
 
-/// `2·10⁵`, `10⁻⁶`, `0`.
+/// Returns a power of ten in the form `2·10⁵`, `10⁻⁶`, `0`.
 pub(super) fn power_of_ten(value: f64, exponent: f64) -> String {
     let factor = value / libm::pow(10.0, exponent);
     let digits = exponent.abs().to_string();
@@ -85,7 +85,7 @@ pub(super) fn power_of_ten(value: f64, exponent: f64) -> String {
     }
 }
 
-/// Thin spaces between the groups of three digits of a long whole part.
+/// Returns a number with thin spaces between the groups of three digits of a long whole part.
 fn grouped(number: &str) -> String {
     let whole = number.find('.').unwrap_or(number.len());
     let digits = number[..whole].trim_start_matches('-').len();

@@ -1,4 +1,4 @@
-//! What stands below a plan: how long a metre is, and what its signs mean.
+//! Key below a plan: the length of a metre, and the meaning of its signs.
 
 use maud::{Markup, html};
 

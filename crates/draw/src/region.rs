@@ -1,4 +1,4 @@
-//! Where something may be: boxes and ellipses of uncertainty.
+//! Regions where something may be: boxes and ellipses of uncertainty.
 
 use tolman_geom::{Heading, Point, Pose};
 use tolman_sim::Bounds;

@@ -1,4 +1,4 @@
-//! Where values lie along an axis, and its ticks.
+//! Positions of values along an axis, and its ticks.
 
 use super::number::{power_of_ten, tick_label};
 
@@ -8,11 +8,11 @@ pub(super) struct Scale {
     spacing: Spacing,
     low: f64,
     high: f64,
-    /// Where labels stand, ascending.
+    /// Positions of labels, ascending.
     pub(super) ticks: Vec<Tick>,
 }
 
-/// How values are spread along an axis.
+/// Spacing of values along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Spacing {
     /// Equal differences are equally long.
@@ -133,7 +133,7 @@ fn power_label(value: f64, power: f64) -> String {
     }
 }
 
-/// Ends with some distance between them.
+/// Returns ends with some distance between them.
 fn proper(low: f64, high: f64) -> (f64, f64) {
     match (low.is_finite() && high.is_finite(), high > low) {
         (true, true) => (low, high),

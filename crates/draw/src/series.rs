@@ -8,7 +8,7 @@
 pub struct Series(pub u32);
 
 impl Series {
-    /// How many colours there are before they repeat.
+    /// Number of colours before they repeat.
     pub const COLOURS: u32 = 7;
 
     /// Returns the CSS class that gives an element its colour.

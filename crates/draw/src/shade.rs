@@ -5,11 +5,11 @@ use maud::{Markup, html};
 use super::Series;
 use super::number::{NOTHING, extent, tenths};
 
-/// How values become depths of one colour: none at the low end, full at the high end. Works on
-/// light and dark pages alike, and one colour tells more from less to every reader.
+/// Depth of one colour by value: none at the low end, full at the high end. It works on light and
+/// dark pages alike, and one colour shows more and less to every reader.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shade {
-    /// What the values are, with their unit.
+    /// Quantity of the values, with its unit.
     pub title: String,
     /// The value that is not coloured at all.
     pub low: f64,
@@ -17,7 +17,7 @@ pub struct Shade {
     pub high: f64,
     /// The colour.
     pub series: Series,
-    /// How many decimals values are written with.
+    /// Number of decimals of values.
     pub decimals: u8,
 }
 
@@ -33,7 +33,8 @@ impl Shade {
         }
     }
 
-    /// From the least to the greatest of these values; those that are not finite do not count.
+    /// Returns the shade from the least to the greatest of these values; those that are not finite
+    /// do not count.
     pub fn of(title: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
         let finite = values.into_iter().filter(|value| value.is_finite());
         let (low, high) = extent(finite, NOTHING);
@@ -63,7 +64,7 @@ impl Shade {
         format!("{value:.0$}", usize::from(self.decimals))
     }
 
-    /// From 0 to 1; 0 where all values are the same.
+    /// Returns the share from 0 to 1; 0 if all values are the same.
     fn share(&self, value: f64) -> f64 {
         let share = (value - self.low) / (self.high - self.low);
         if share.is_finite() {

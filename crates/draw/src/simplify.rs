@@ -1,6 +1,6 @@
 //! Lines with fewer corners that look the same.
 
-/// How far a line may lie beside what it stands for, user units: less than the eye sees.
+/// Maximum distance of a line from what it stands for, user units: less than the eye sees.
 const BESIDE: f64 = 0.3;
 
 /// Returns the corners of a line that matter: no position left out lies farther than [`BESIDE`]
@@ -31,7 +31,7 @@ pub(super) fn simplified(line: &[(f64, f64)]) -> Vec<(f64, f64)> {
     pairs.filter(|(_, kept)| *kept).map(|(at, _)| *at).collect()
 }
 
-/// From a point to a stretch between two others.
+/// Returns the distance of a point from a stretch between two others.
 fn distance(point: (f64, f64), from: (f64, f64), to: (f64, f64)) -> f64 {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let length = dx * dx + dy * dy;

@@ -89,7 +89,7 @@ impl Tiles {
     }
 }
 
-/// As much of a caption as there is room for.
+/// Returns the part of a caption that fits.
 fn cut(caption: &str, room: f64) -> String {
     // Small text is ten user units high and not twelve.
     let most = (room / words::width("x") * 1.2) as usize;

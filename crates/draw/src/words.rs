@@ -7,12 +7,12 @@ use super::number::tenths;
 /// The height of a line, user units.
 pub(super) const LINE: f64 = 14.0;
 
-/// About the width of a text in the font of drawings, user units.
+/// Returns the approximate width of a text in the font of drawings, user units.
 pub(super) fn width(text: &str) -> f64 {
     6.6 * text.chars().count() as f64
 }
 
-/// As much as a text may take in a broad font, user units: room for it to end in.
+/// Returns the maximum width of a text in a broad font, user units: room for it to end in.
 pub(super) fn broad(text: &str) -> f64 {
     7.6 * text.chars().count() as f64
 }
@@ -40,7 +40,7 @@ pub(super) fn lines(text: &str, most: usize) -> Vec<String> {
     lines
 }
 
-/// As much of a text as `most` characters hold, which ends in `…` where more would follow.
+/// Returns the first `most` characters of a text, ending in `…` if more would follow.
 pub(super) fn cut(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         return text.to_owned();

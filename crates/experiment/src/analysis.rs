@@ -1,4 +1,4 @@
-//! What the runs say: every metric of every row, beside the paper and beside the reference row.
+//! Every metric of every row, beside the paper and beside the reference row.
 
 use super::sample::Sample;
 use super::verdict::Case;
@@ -40,7 +40,7 @@ pub struct MetricAnalysis {
 pub struct Measured {
     /// The name of the row.
     pub row: String,
-    /// How many runs were measured; 0 where the paper's value stands alone.
+    /// Number of runs measured; 0 if there is only the paper's value.
     pub n: u64,
     /// The value, in the metric's unit; NaN of no runs.
     pub value: f64,
@@ -54,15 +54,15 @@ pub struct Measured {
     pub median: Option<f64>,
     /// The 95 % interval of the value.
     pub interval: Option<ConfidenceInterval>,
-    /// What the paper says.
+    /// Value of the paper.
     pub paper: Option<PaperValue>,
     /// Whether that matches, where the paper says something.
     pub verdict: Option<Verdict>,
-    /// How the row differs from the reference row.
+    /// Difference from the reference row.
     pub contrast: Option<Contrast>,
 }
 
-/// How a row differs from the reference row.
+/// Difference of a row from the reference row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contrast {
     /// Mann and Whitney's p-value, corrected for the comparisons of the metric.

@@ -10,7 +10,7 @@ use crate::files;
 const REPAIR: &str = "check that the folder is writable and the disk is not full, or choose another \
                       folder with --out";
 
-/// Names what was tried on which path when the system refuses.
+/// Adds action and path to an error of the system.
 pub(super) fn at<T>(action: &'static str, path: &Path, result: io::Result<T>) -> Result<T, Error> {
     result.map_err(|source| Error::File {
         action,
@@ -37,7 +37,7 @@ pub(super) fn make_folder(path: &Path) -> Result<(), Error> {
     at("make the folder", path, fs::create_dir_all(path))
 }
 
-/// [`files::write_whole`], with its name in the error.
+/// Calls [`files::write_whole`], with its name in the error.
 pub(super) fn write_whole(path: &Path, contents: &[u8]) -> Result<(), Error> {
     at("write", path, files::write_whole(path, contents))
 }

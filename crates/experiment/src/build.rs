@@ -1,4 +1,4 @@
-//! What program made the results.
+//! The program that made the results.
 
 use std::fs;
 

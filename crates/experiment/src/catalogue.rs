@@ -7,7 +7,7 @@ use super::{BoxError, Error, Experiment, Options};
 pub struct Entry {
     /// The name it is called by on the command line and in `summary.json`.
     pub name: &'static str,
-    /// What it is, in one line: the title of the report.
+    /// Description in one line: the title of the report.
     pub title: &'static str,
     /// The paper whose tables these are, as a reader would cite it; empty if there is none.
     pub source: &'static str,
@@ -15,13 +15,13 @@ pub struct Entry {
     pub runs: u32,
     /// Runs of each row under `--quick`, for a first look.
     pub quick_runs: u32,
-    /// What the tour of all experiments shows of it; `None` leaves it out.
+    /// Part in the tour of all experiments; `None` leaves it out.
     pub tour: Option<Tour>,
     /// Makes it ready: reads the mazes that the options name.
     pub open: fn(&Options) -> Result<Experiment, BoxError>,
 }
 
-/// What the tour of all experiments shows of one: its main tables, in a few seconds.
+/// Part of an experiment in the tour of all: its main tables, in a few seconds.
 #[derive(Clone, Copy, Debug)]
 pub struct Tour {
     /// The names of the tables.
@@ -34,7 +34,7 @@ pub struct Tour {
 /// Makes the experiment of a catalogue that bears this name ready.
 ///
 /// # Errors
-/// [`Error::Unknown`] if there is none of that name, or it lacks a table that the options choose;
+/// [`Error::Unknown`] if there is none of that name, or it lacks a table or row that the options choose;
 /// [`Error::FixedRuns`] if such a table has a number of runs of its own and the options ask for
 /// another; [`Error::Open`] if what it needs cannot be read.
 pub fn open(catalogue: &[Entry], name: &str, options: &Options) -> Result<Experiment, Error> {
@@ -44,5 +44,5 @@ pub fn open(catalogue: &[Entry], name: &str, options: &Options) -> Result<Experi
         name: name.to_owned(),
         source,
     })?;
-    experiment.choose(&options.tables)?.with_runs(options)
+    experiment.choose(options)?.with_runs(options)
 }

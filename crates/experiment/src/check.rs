@@ -1,4 +1,4 @@
-//! What is refused before or after it is used.
+//! Checks that refuse tables and records.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 

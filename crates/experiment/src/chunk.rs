@@ -23,7 +23,7 @@ pub struct Chunk {
 /// A text that names no chunk.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{text:?} is no chunk; write I/K for the I-th of K, such as 3/8, with I from 1 to K and K up \
+    "{text:?} is not a chunk; write I/K for the I-th of K, such as 3/8, with I from 1 to K and K up \
      to {}",
     Chunk::MOST
 )]

@@ -1,4 +1,4 @@
-//! What is said of one field of a record: once, for the runner, the tables and the report.
+//! Description of one field of a record: once, for the runner, the tables and the report.
 
 use super::Tolerance;
 
@@ -7,7 +7,7 @@ use super::Tolerance;
 pub struct Column {
     /// Name of the field, as serde writes it.
     pub field: String,
-    /// What the field holds.
+    /// Kind of its values.
     pub kind: Kind,
     /// Whether every run has it.
     pub presence: Presence,
@@ -15,15 +15,15 @@ pub struct Column {
     pub title: String,
     /// Unit, shown behind the title; empty if there is none.
     pub unit: String,
-    /// Which way is better.
+    /// Direction in which values are better.
     pub better: Better,
-    /// What is measured, in a sentence.
+    /// Definition, in a sentence.
     pub definition: String,
     /// Least value that a run can have.
     pub low: Option<f64>,
     /// Greatest value that a run can have.
     pub high: Option<f64>,
-    /// How far our value may lie from the paper's, where a metric does not say it.
+    /// Tolerance between our value and the paper's, unless a metric has its own.
     pub tolerance: Option<Tolerance>,
     /// Number of decimals shown, where a metric does not say it.
     pub decimals: Option<u8>,
@@ -161,7 +161,7 @@ impl Column {
     }
 }
 
-/// What a field holds.
+/// Kind of a field's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Yes or no.
@@ -185,7 +185,7 @@ pub enum Presence {
     Sometimes,
 }
 
-/// Which way a measured value is better.
+/// Direction in which a measured value is better.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Better {
     /// More is better.
@@ -210,7 +210,7 @@ impl Better {
 
 /// A type that a field of a record can have.
 pub trait Value {
-    /// What it holds.
+    /// Kind of the values.
     const KIND: Kind;
     /// Whether every run has it.
     const PRESENCE: Presence = Presence::Always;

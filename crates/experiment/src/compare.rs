@@ -1,4 +1,4 @@
-//! What two folders of results say differently, run by run and to the bit.
+//! Differences between two folders of results, run by run and bit by bit.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use core::fmt;
@@ -59,7 +59,7 @@ pub struct Differences {
 struct Found {
     /// The first run that shows it.
     run: u32,
-    /// How that run shows it.
+    /// How that run shows the difference.
     change: String,
     /// The number of runs that show it.
     runs: usize,

@@ -1,4 +1,4 @@
-//! What can go wrong while an experiment is run.
+//! Errors of running an experiment.
 
 use std::io;
 use std::path::PathBuf;
@@ -19,8 +19,8 @@ pub enum Error {
         /// The name that was probably meant, and those there are.
         choices: String,
     },
-    /// What the experiment needs cannot be read.
-    #[error("experiment {name} cannot be made ready")]
+    /// Input of the experiment cannot be read.
+    #[error("experiment {name} cannot be prepared")]
     Open {
         /// The experiment.
         name: String,
@@ -34,15 +34,15 @@ pub enum Error {
         option: &'static str,
     },
     /// A table has a number of runs that no caller changes.
-    #[error("table {table:?} has a number of runs of its own, {own} of a row; leave --runs out")]
+    #[error("table {table:?} always has {own} runs per row; leave --runs out")]
     FixedRuns {
         /// The table.
         table: String,
-        /// How many runs its rows have, at most.
+        /// Maximum number of runs of its rows.
         own: u32,
     },
     /// No row of a table that was named has a run.
-    #[error("table {table:?} has no runs of so few; give it more --runs")]
+    #[error("table {table:?} would have no runs; give a greater number with --runs")]
     EmptyTable {
         /// The table.
         table: String,
@@ -50,9 +50,9 @@ pub enum Error {
     /// More runs are asked for than there is room for.
     #[error("{runs} runs of each row are too many; give --runs {most} or fewer")]
     TooManyRuns {
-        /// How many were wanted.
+        /// Number of runs asked for.
         runs: u32,
-        /// How many there may be.
+        /// Maximum number.
         most: u32,
     },
     /// The master seed does not fit TOML's integers.
@@ -62,7 +62,7 @@ pub enum Error {
         seed: u64,
     },
     /// The experiment's tables contradict themselves.
-    #[error("the tables of experiment {name} are unsound: {what}")]
+    #[error("the tables of experiment {name} are invalid: {what}")]
     Tables {
         /// The experiment.
         name: String,
@@ -99,7 +99,7 @@ pub enum Error {
         path: PathBuf,
         /// What helps.
         repair: &'static str,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
     /// The configuration cannot be written as TOML.
@@ -121,7 +121,7 @@ pub enum Error {
     /// The threads cannot be started.
     #[error("cannot start {jobs} threads; give fewer with --jobs")]
     Threads {
-        /// How many were wanted.
+        /// Number of threads asked for.
         jobs: u32,
         /// The underlying error.
         source: BoxError,

@@ -51,7 +51,7 @@ use tolman_replay::Replay;
 /// ```
 #[derive(Debug)]
 pub struct Experiment {
-    /// What the catalogue says of it.
+    /// Entry in the catalogue.
     pub entry: Entry,
     /// The tables, in the order they are shown.
     pub tables: Vec<Table>,
@@ -59,15 +59,15 @@ pub struct Experiment {
     /// with their whole contents, gains, noise. Two experiments with equal configurations give
     /// equal runs; finished runs are reused only then.
     pub config: toml::Table,
-    /// What is left out because it is not here, and how to have it; `None` if all is here.
+    /// Parts left out for missing data, and how to get it; `None` if all is here.
     pub skipped: Option<String>,
-    /// How its runs are played.
+    /// Procedure of its runs.
     pub procedure: Box<dyn Procedure>,
     /// Whether only some tables are filled.
     in_part: bool,
 }
 
-/// How the runs of an experiment are played and drawn.
+/// Procedure by which the runs of an experiment are played and drawn.
 pub trait Procedure: Sync + core::fmt::Debug {
     /// Plays one run. A pure function of the job and the configuration: the same job gives the same
     /// fields on every thread, in any order.
@@ -144,26 +144,47 @@ impl Experiment {
         self
     }
 
-    /// Leaves the rows of all tables but those of these names without runs; of no names, fills all.
-    /// The configuration stays, so runs of other tables stay in the folder of results.
+    /// Leaves the tables and rows that the options do not name without runs; where they name none,
+    /// fills all. The configuration stays, so other runs stay in the folder of results.
     ///
     /// # Errors
-    /// [`Error::Unknown`] if it has no table of a name.
-    pub(super) fn choose(mut self, names: &[String]) -> Result<Self, Error> {
-        self.in_part = !names.is_empty();
-        for name in names {
+    /// [`Error::Unknown`] if it has no table or no row of a name; [`Error::EmptyTable`].
+    pub(super) fn choose(mut self, options: &Options) -> Result<Self, Error> {
+        let Options { tables, rows, .. } = options;
+        for name in tables {
             if !self.table(name)?.1.is_shown() {
                 return Err(Error::EmptyTable {
                     table: name.clone(),
                 });
             }
         }
-        for table in &mut self.tables {
-            if self.in_part && !names.contains(&table.name) {
-                table.leave_out();
-            }
+        if !tables.is_empty() {
+            self.leave_out(|table, _| !tables.contains(table));
+        }
+        let shown = self.tables.iter().filter(|table| table.is_shown());
+        let known: Vec<&str> = shown
+            .flat_map(|table| &table.rows)
+            .map(|row| row.name.as_str())
+            .collect();
+        for name in rows {
+            Error::place_of("row", name, known.iter().copied())?;
+        }
+        if !rows.is_empty() {
+            self.leave_out(|_, row| !rows.contains(row));
         }
         Ok(self)
+    }
+
+    /// Leaves rows without runs, by the name of their table and their own.
+    fn leave_out(&mut self, is_left_out: impl Fn(&String, &String) -> bool) {
+        self.in_part = true;
+        for table in &mut self.tables {
+            for row in &mut table.rows {
+                if is_left_out(&table.name, &row.name) {
+                    row.leave_out();
+                }
+            }
+        }
     }
 
     /// Holds the number of runs that the caller asks for against the tables that have one of their

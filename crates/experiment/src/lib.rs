@@ -89,5 +89,5 @@ pub(crate) use sample::RESAMPLES;
 pub(crate) use terminal::duration;
 pub(crate) use text::{heading, ours, value_with_spread};
 
-/// What goes wrong inside an experiment; the runner adds where it happened.
+/// Error inside an experiment; the runner adds where it happened.
 pub type BoxError = Box<dyn core::error::Error + Send + Sync>;

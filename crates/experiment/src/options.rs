@@ -1,4 +1,4 @@
-//! What the caller chooses.
+//! Choices of the caller.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::thread;
 use super::{Chunk, Entry, Tour};
 use crate::shell::quoted;
 
-/// What the caller calls experiments with.
+/// Program with which the caller runs experiments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Program {
     /// The installed program of this name.
@@ -16,7 +16,7 @@ pub enum Program {
     Xtask,
 }
 
-/// What this project's own program is called.
+/// Name of this project's own program.
 const OWN: &str = "tolman";
 
 impl Default for Program {
@@ -45,7 +45,7 @@ impl Program {
     }
 }
 
-/// How an experiment is run.
+/// Options of running an experiment.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// The master seed, from which every run's seed is derived. Below 2^63, for TOML.
@@ -64,9 +64,11 @@ pub struct Options {
     pub out: Option<PathBuf>,
     /// The names of the tables that are filled; all of them if none is named.
     pub tables: Vec<String>,
+    /// The names of the rows that are filled, in each table that has them; all if none is named.
+    pub rows: Vec<String>,
     /// Few runs, for a first look.
     pub quick: bool,
-    /// What the command that makes the results again begins with.
+    /// Beginning of the command that makes the results again.
     pub program: Program,
 }
 
@@ -130,7 +132,7 @@ impl Options {
         self.command(&verb, entry)
     }
 
-    /// The command that goes on with a chunk.
+    /// Returns the command that continues a chunk.
     pub(super) fn command_of_chunk(&self, entry: &Entry, chunk: Chunk) -> String {
         let program = match self.program {
             Program::Command(command) => command,
@@ -143,7 +145,7 @@ impl Options {
         self.command(&verb, entry)
     }
 
-    /// A command that begins like this, with all options that the results depend on.
+    /// Returns a command that begins like this, with all options that the results depend on.
     fn command(&self, verb: &str, entry: &Entry) -> String {
         let mut command = format!("{verb} --seed {}", self.seed);
         // A table alone may have a number of runs of its own.
@@ -158,6 +160,9 @@ impl Options {
         }
         for table in &self.tables {
             command += &format!(" --table {}", quoted(table));
+        }
+        for row in &self.rows {
+            command += &format!(" --row {}", quoted(row));
         }
         for maze in &self.mazes {
             command += &format!(" --maze {}", quoted(&maze.to_string_lossy()));

@@ -3,14 +3,14 @@
 use super::sample::Sample;
 use super::{Contrast, Correction, Doubt, Run, Statistic, Table, Verdict};
 
-/// Which rows are compared with each other, and in what.
+/// Rows that are compared with each other, and the metric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pairwise {
     /// The numeric field of the runs that is compared.
     pub field: String,
     /// The rows; every two of them are a pair.
     pub rows: Vec<String>,
-    /// How p-values are corrected for the number of pairs.
+    /// Correction of p-values for the number of pairs.
     pub correction: Correction,
     /// The paper's p-values, each with its two rows, in either order.
     pub paper: Vec<(String, String, f64)>,
@@ -25,7 +25,8 @@ pub struct RowPair {
     pub second: String,
     /// Runs of both.
     pub n: u64,
-    /// How the first row differs from the second; its p-value is corrected for the number of pairs.
+    /// Difference of the first row from the second; its p-value is corrected for the number of
+    /// pairs.
     pub contrast: Contrast,
     /// The paper's p-value.
     pub paper: Option<f64>,
@@ -37,7 +38,7 @@ pub struct RowPair {
 const OF_SAMPLES: &str = "a p-value speaks of its samples, not of a quantity";
 
 impl RowPair {
-    /// Both rows in words.
+    /// Returns both rows in words.
     pub fn name(&self) -> String {
         format!("{} – {}", self.first, self.second)
     }

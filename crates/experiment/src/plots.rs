@@ -86,7 +86,7 @@ fn box_plot(name: String, table: &Table, metric: &Metric, field: &str, runs: &[R
     .table(&table.name)
 }
 
-/// Lower-case letters, digits and single hyphens.
+/// Returns the name in lower-case letters, digits and single hyphens.
 fn slug(name: &str) -> String {
     let mut slug = String::new();
     for c in name.chars() {

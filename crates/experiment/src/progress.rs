@@ -1,4 +1,4 @@
-//! What the runner tells its caller while it works.
+//! Messages of the runner to its caller while it works.
 
 use core::time::Duration;
 use std::path::Path;
@@ -11,7 +11,7 @@ pub enum ProgressEvent<'a> {
     SetAside {
         /// The folder of results.
         folder: &'a Path,
-        /// Where its former contents are now.
+        /// New folder of its former contents.
         moved_to: &'a Path,
         /// What differs.
         reason: &'a str,
@@ -24,12 +24,12 @@ pub enum ProgressEvent<'a> {
         line: u64,
         /// What is wrong with it.
         what: &'a str,
-        /// What becomes of its run.
+        /// What happens to its run.
         remedy: Remedy,
     },
     /// The experiment leaves something out.
     Skipped {
-        /// What, and how to have it.
+        /// The missing data, and how to get it.
         what: &'a str,
     },
     /// The runs begin.
@@ -45,14 +45,14 @@ pub enum ProgressEvent<'a> {
     RunsFinished {
         /// Runs that were played now.
         played: u64,
-        /// How long that took.
+        /// Duration.
         elapsed: Duration,
     },
     /// The first runs of each row are played again, for the report to replay.
     Recording,
 }
 
-/// What becomes of the run of a line that cannot be used.
+/// What happens to the run of a line that cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy {
     /// The run is played again.
@@ -63,7 +63,7 @@ pub enum Remedy {
     MissingPlayed,
 }
 
-/// Where the runner's messages go; the runner itself prints nothing.
+/// Receiver of the runner's messages; the runner itself prints nothing.
 pub trait Progress: Sync {
     /// Hears of an event. May be called from several threads at once.
     fn event(&self, event: &ProgressEvent<'_>);

@@ -8,8 +8,8 @@ use thiserror::Error;
 
 use super::{BoxError, Column, Fields, Run};
 
-/// What one run of a table measures. [`record!`](crate::record) declares the struct and its columns
-/// at once.
+/// Measurements of one run of a table. [`record!`](crate::record) declares the struct and its
+/// columns at once.
 pub trait Record: Serialize + DeserializeOwned {
     /// Returns one column for each field that serde writes.
     fn columns() -> Vec<Column>;
@@ -146,7 +146,7 @@ pub enum FieldsError {
     Write {
         /// Name of the type.
         record: &'static str,
-        /// What serde says.
+        /// The error of serde.
         source: toml::ser::Error,
     },
     /// A value that no field can hold.
@@ -162,7 +162,7 @@ pub enum FieldsError {
     Read {
         /// Name of the type.
         record: &'static str,
-        /// What serde says.
+        /// The error of serde.
         source: toml::de::Error,
     },
 }

@@ -28,7 +28,7 @@ pub(super) fn budget(page: usize) -> usize {
 /// Replays of the first runs of each row.
 #[derive(Clone, Debug, Default)]
 pub struct Replays {
-    /// How many runs of each row there are, where the row can be recorded at all.
+    /// Number of runs of each row, if the row can be recorded at all.
     pub of_each_row: u32,
     /// By run, then in the order of tables and rows.
     pub recorded: Vec<Recorded>,
@@ -47,7 +47,7 @@ pub struct Recorded {
     pub row: String,
     /// The index of the run.
     pub run: u32,
-    /// What the player reads, fit to stand in a `script` element.
+    /// Input of the player, fit for a `script` element.
     pub json: String,
 }
 

@@ -31,7 +31,7 @@ pub struct Run {
     pub run: u32,
     /// The seed of the run.
     pub seed: u64,
-    /// What was measured.
+    /// Measurements.
     #[serde(flatten)]
     pub fields: Fields,
 }
@@ -74,7 +74,7 @@ impl Run {
     }
 }
 
-/// What one run measured, by name: a [`Record`](super::Record) without its type. Alphabetical, so
+/// Measurements of one run, by name: a [`Record`](super::Record) without its type. Alphabetical, so
 /// that equal fields are written equally.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]

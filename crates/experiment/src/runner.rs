@@ -16,15 +16,15 @@ use super::{
 use crate::report;
 use tolman_draw::Figure;
 
-/// What came of an experiment.
+/// Result of an experiment.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ExperimentOutcome {
-    /// What the catalogue says of the experiment.
+    /// Entry in the catalogue.
     pub entry: Entry,
-    /// What the experiment leaves out because it is not here.
+    /// Parts left out for missing data.
     pub skipped: Option<String>,
-    /// Where the results lie.
+    /// Folder of the results.
     pub folder: PathBuf,
     /// The command that makes them again.
     pub command: String,
@@ -36,15 +36,15 @@ pub struct ExperimentOutcome {
     pub jobs: u32,
     /// Runs that were played now; the others were there from before.
     pub played: u64,
-    /// How long the runs that were played now took.
+    /// Duration of the runs that were played now.
     pub elapsed: Duration,
     /// The program that played them.
     pub build: Build,
     /// Every run, sorted by table, row and index.
     pub runs: Vec<Run>,
-    /// What the runs say.
+    /// Analysis of the runs.
     pub analysis: Analysis,
-    /// What `summary.json` holds.
+    /// Contents of `summary.json`.
     pub summary: Summary,
     /// The pictures.
     pub figures: Vec<Figure>,
@@ -103,7 +103,7 @@ pub fn play_chunk(
     Ok(played.path)
 }
 
-/// What is run, and how.
+/// Experiment and options of a run.
 struct Runner<'a> {
     experiment: &'a Experiment,
     options: &'a Options,
@@ -118,7 +118,7 @@ struct Played {
     config: ConfigFile,
     /// Every run, sorted by table, row and index.
     runs: Vec<Run>,
-    /// How many were played now.
+    /// Number of runs played now.
     count: u64,
     elapsed: Duration,
     threads: rayon::ThreadPool,

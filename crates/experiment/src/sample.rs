@@ -33,7 +33,7 @@ pub(super) enum Sample<'a> {
     },
 }
 
-/// How numbers become one value.
+/// Statistic by which numbers become one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Centre {
     Mean,
@@ -44,7 +44,7 @@ pub(super) enum Centre {
     Total,
 }
 
-/// 1 − the mean squared error over the variance of what came about.
+/// Returns 1 − the mean squared error over the variance of the outcomes.
 fn skill(forecasts: &[(f64, f64)]) -> f64 {
     let count = forecasts.len() as f64;
     let (errors, came) = forecasts.iter().fold((0.0, 0.0), |(errors, came), one| {

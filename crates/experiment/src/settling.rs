@@ -11,11 +11,11 @@
 pub struct Settling {
     /// A field that holds numbers at equal steps.
     pub curve: String,
-    /// How much of the metric's unit one number of the curve stands for.
+    /// Amount of the metric's unit per number of the curve.
     pub step: f64,
     /// A numeric field: where a run's curve ends up.
     pub level: String,
-    /// How far above the lowest level the limit lies, as a share of `scale`.
+    /// Distance of the limit above the lowest level, as a share of `scale`.
     pub margin: f64,
     /// A numeric field: what the margin is a share of.
     pub scale: String,
@@ -32,8 +32,8 @@ pub enum Reached {
     No,
 }
 
-/// When the mean of curves settles at or below a limit, and whether it does. A curve that ends
-/// early counts as far as it goes.
+/// Returns when the mean of curves settles at or below a limit, and whether it does. A curve that
+/// ends early counts as far as it goes.
 pub(super) fn settles(curves: &[&[f64]], step: f64, limit: f64) -> (f64, Reached) {
     let length = curves.iter().map(|curve| curve.len()).max().unwrap_or(0);
     let above = |at: &usize| {

@@ -37,11 +37,11 @@ pub struct SummaryRow {
     pub reached: Option<bool>,
     /// The standard deviation, for means and medians of two runs or more.
     pub sd: Option<f64>,
-    /// How many runs were measured.
+    /// Number of runs measured.
     pub n: u64,
     /// The paper's value.
     pub paper: Option<f64>,
-    /// Where the paper has a value: `matches`, `better`, `differs` or `cannot tell`.
+    /// Verdict, if the paper has a value: `matches`, `better`, `differs` or `cannot tell`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<&'static str>,
     /// Reason why nobody can tell.

@@ -1,4 +1,4 @@
-//! What a table holds: rows, the metrics that summarize their runs, and the paper's values.
+//! Tables: rows, the metrics that summarize their runs, and the paper's values.
 
 use super::{Better, Column, Contrast, Kind, Pairwise, Record, RecordType, Settling};
 use tolman_stats::PValue;
@@ -8,22 +8,22 @@ use tolman_stats::PValue;
 pub struct Table {
     /// The name it has in `summary.json`, such as `2 (J)`.
     pub name: String,
-    /// What it shows, in words.
+    /// Title in words.
     pub title: String,
     /// The rows, in the order they are shown.
     pub rows: Vec<Row>,
-    /// What its runs measure. A run with other fields is no run of this table.
+    /// Record of its runs. A run with other fields is not a run of this table.
     pub record: RecordType,
-    /// What is measured of every row, in the order it is shown.
+    /// Metrics of every row, in the order they are shown.
     pub metrics: Vec<Metric>,
-    /// How many runs each of the paper's rows has, where it says so.
+    /// Number of runs of each of the paper's rows, if it says so.
     pub paper_runs: Option<u32>,
-    /// How the rows are compared with each other; `None` compares none.
+    /// Comparison of the rows with each other; `None` compares none.
     pub comparison: Option<Comparison>,
-    /// Which rows are compared each with each; `None` compares none.
+    /// Rows that are compared pairwise; `None` compares none.
     pub pairwise: Option<Pairwise>,
-    /// What a reader must know to read the values, such as how runs without success count; empty if
-    /// there is nothing.
+    /// Note that a reader needs to read the values, such as how runs without success count; empty
+    /// for none.
     pub note: String,
 }
 
@@ -55,14 +55,6 @@ impl Table {
     pub fn rows(mut self, rows: impl IntoIterator<Item = Row>) -> Self {
         self.rows.extend(rows);
         self
-    }
-
-    /// Leaves it out.
-    pub(super) fn leave_out(&mut self) {
-        for row in &mut self.rows {
-            row.runs = Some(0);
-            row.missing = None;
-        }
     }
 
     /// Returns whether it is shown: a row has runs, or would have if its files were here.
@@ -187,12 +179,12 @@ impl Table {
     }
 }
 
-/// How the rows of a table are compared.
+/// Comparison of the rows of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Comparison {
     /// The row all others are compared with.
     pub reference: String,
-    /// How p-values are corrected for the number of comparisons in one metric.
+    /// Correction of p-values for the number of comparisons in one metric.
     pub correction: Correction,
 }
 
@@ -235,18 +227,17 @@ pub struct Row {
     pub name: String,
     /// The paper's values, at most one for each metric.
     pub paper: Vec<PaperValue>,
-    /// How many runs it has, whatever the caller asks for: those of something without chance, one
-    /// for each thing it is tried on. `None` leaves it to the caller.
+    /// Number of its runs, whatever the caller asks for, for deterministic rows: one for each case.
+    /// `None` leaves it to the caller.
     pub runs: Option<u32>,
     /// Whether no caller changes the number of its runs.
     pub(super) is_fixed: bool,
-    /// How many runs the paper's row has, if another number than the table's.
+    /// Number of runs of the paper's row, if it differs from the table's.
     pub paper_runs: Option<u32>,
     /// Whether it is a system of our own, which may be better than what the paper has; others
     /// reproduce the paper.
     pub own: bool,
-    /// Which files its runs need that are not here, and where they come from; `None` if all is
-    /// here.
+    /// Missing files that its runs need, and where they come from; `None` if all is here.
     pub missing: Option<String>,
     /// Whether it has no runs of its own, but those of all other rows.
     pub(super) is_pooled: bool,
@@ -273,6 +264,12 @@ impl Row {
             is_pooled: true,
             ..Self::new(name).runs(0)
         }
+    }
+
+    /// Leaves it without runs.
+    pub(super) fn leave_out(&mut self) {
+        self.runs = Some(0);
+        self.missing = None;
     }
 
     /// Adds a value of the paper that stands without a spread: a percentage, a median, a count.
@@ -365,7 +362,7 @@ impl Row {
     }
 }
 
-/// What the paper says of one metric in one row.
+/// The paper's value of one metric in one row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperValue {
     /// The name of the metric.
@@ -387,15 +384,15 @@ pub struct Metric {
     pub title: String,
     /// The unit, shown behind the title; empty if there is none.
     pub unit: String,
-    /// How the runs are summarized.
+    /// Statistic by which the runs are summarized.
     pub statistic: Statistic,
-    /// Which way its values are better; `None` until the table's column says it.
+    /// Direction in which its values are better; `None` until the table's column says it.
     pub better: Option<Better>,
-    /// What is measured, in a sentence.
+    /// Definition, in a sentence.
     pub definition: String,
-    /// How many decimals its values are shown with; `None`: two, unless the column says it.
+    /// Number of decimals shown; `None`: two, unless the column says it.
     pub decimals: Option<u8>,
-    /// How far our value may lie from the paper's and still match.
+    /// Tolerance between our value and the paper's.
     pub tolerance: Option<Tolerance>,
 }
 
@@ -549,7 +546,7 @@ impl Metric {
         Self::new(name, Statistic::Skill { error, outcome }).better(Better::Higher)
     }
 
-    /// When the mean of the runs' curves settles.
+    /// Returns when the mean of the runs' curves settles.
     pub fn settling(name: impl Into<String>, settling: Settling) -> Self {
         let metric = Self::new(name, Statistic::Settling(settling));
         metric.decimals(0).better(Better::Lower)
@@ -605,7 +602,7 @@ impl Metric {
     }
 }
 
-/// How the runs of a row become one value. A run without the field is left out.
+/// Statistic by which the runs of a row become one value. A run without the field is left out.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Statistic {
@@ -632,7 +629,7 @@ pub enum Statistic {
     Count {
         /// A field of [`Kind::Flag`](crate::Kind::Flag).
         field: String,
-        /// How many runs the paper counts in.
+        /// Number of runs in which the paper counts.
         whole: u32,
     },
     /// The ratio of two sums.
@@ -656,8 +653,7 @@ pub enum Statistic {
         /// The name of the other row.
         of: String,
     },
-    /// How much better forecasts are than the base rate; see [`Metric::skill`]. No interval is
-    /// told.
+    /// Skill of forecasts over the base rate; see [`Metric::skill`]. It has no interval.
     Skill {
         /// The numeric field of the squared errors.
         error: String,
@@ -704,11 +700,11 @@ impl Statistic {
     }
 }
 
-/// How far our value may lie from the paper's and still match it. A quantity has one tolerance in
-/// all tables.
+/// Tolerance within which our value matches the paper's. A quantity has one tolerance in all
+/// tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// How far.
+    /// The distance allowed.
     pub within: Within,
     /// Reason it is so much, as a sentence without its full stop.
     pub reason: &'static str,

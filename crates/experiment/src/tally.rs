@@ -2,7 +2,7 @@ use core::fmt;
 
 use super::{Finding, Verdict};
 
-/// How many values of the paper ours match, of all that it has.
+/// Number of the paper's values that ours match, of all that it has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct VerdictTally {
     /// Values that match.

@@ -43,7 +43,7 @@ pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
     text
 }
 
-/// What stands behind a verdict, in words.
+/// Text after a verdict.
 const SEEN: &str =
     "\nBehind a verdict: a smaller difference from the paper could not have been seen.\n";
 
@@ -72,7 +72,8 @@ pub(crate) fn value_with_spread(metric: &Metric, value: f64, sd: Option<f64>) ->
     }
 }
 
-/// Our value: a mean with its spread, anything else alone; what was not reached as `> 2000`.
+/// Returns our value: a mean with its spread, anything else alone; what was not reached as
+/// `> 2000`.
 pub(crate) fn ours(metric: &Metric, measured: &Measured) -> String {
     let sd = match metric.statistic {
         Statistic::Mean(_) => measured.sd,
@@ -132,10 +133,10 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
     text
 }
 
-/// What stands between two columns.
+/// Gap between two columns.
 const GAP: &str = "   ";
 
-/// The rows of a table below as many metrics as fit beside each other.
+/// Writes the rows of a table below as many metrics as fit beside each other.
 fn block_as_text(
     analysis: &TableAnalysis,
     names: usize,
@@ -221,8 +222,8 @@ impl<'a> Column<'a> {
         self.paper.map_or(0, |paper| paper + 2) + self.ours + apart(self.verdict)
     }
 
-    /// A line of it, with the gap before it: the verdict is as wide as `verdict` and looks as
-    /// `painted` does.
+    /// Returns a line of it, with the gap before it. The verdict is as wide as `verdict` and has
+    /// the style of `painted`.
     fn line(&self, paper: &str, ours: &str, verdict: &str, painted: &str) -> String {
         let paper = match self.paper {
             Some(width) => format!("{paper:>width$}  "),
@@ -240,7 +241,8 @@ impl<'a> Column<'a> {
 /// Columns that a heading may take before it goes on in the next line.
 const HEADING: usize = 14;
 
-/// The verdict in words and how much of a difference could have been seen; empty without one.
+/// Returns the verdict in words and how small a difference could have been detected; empty without
+/// one.
 fn verdict(metric: &Metric, measured: Option<&Measured>) -> String {
     let judged = measured.and_then(|measured| Some((measured, measured.verdict.as_ref()?)));
     judged.map_or_else(String::new, |(measured, verdict)| {
@@ -249,7 +251,7 @@ fn verdict(metric: &Metric, measured: Option<&Measured>) -> String {
     })
 }
 
-/// The text of a verdict in its colour.
+/// Returns the text of a verdict in its colour.
 fn told(text: &str, measured: Option<&Measured>, ink: Ink) -> String {
     let verdict = measured.and_then(|measured| measured.verdict.as_ref());
     let colour = match verdict.map(|verdict| &verdict.finding) {

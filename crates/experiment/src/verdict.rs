@@ -15,7 +15,7 @@ use tolman_stats::{
 /// the tolerance and the interval includes 0. Of all else the runs cannot tell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// What was found.
+    /// The finding.
     pub finding: Finding,
     /// Interval of ours minus the paper's, in the metric's unit; `None` where nobody can say. Half
     /// its width is what could have been seen.
@@ -24,7 +24,7 @@ pub struct Verdict {
     pub accepted: Option<ConfidenceInterval>,
 }
 
-/// What is found of a value beside the paper's.
+/// Finding about a value beside the paper's.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
     /// It is the paper's.
@@ -52,13 +52,13 @@ pub enum Doubt {
     NoTolerance,
     /// One run of ours shows no spread.
     OneRun,
-    /// What the metric waits for did not come about.
+    /// The event that the metric waits for did not happen.
     NotReached,
     /// The files that its runs need are not here: which, and where they come from.
     NoData(String),
     /// No run was made.
     NoRuns,
-    /// What the paper says is no value that can be met: why.
+    /// Reason why no value can be compared with the paper's.
     Aside(String),
     /// There is no interval for such runs.
     NoInterval,
@@ -129,7 +129,7 @@ pub(super) struct Case<'a> {
     pub(super) metric: &'a Metric,
     pub(super) sample: &'a Sample<'a>,
     pub(super) paper: &'a PaperValue,
-    /// Of the resamples.
+    /// Seed of the resamples.
     pub(super) seed: u64,
 }
 

@@ -28,7 +28,7 @@ pub struct Verification {
     pub runs: usize,
     /// Runs that were played again.
     pub played: usize,
-    /// What is wrong, one thing each; empty if nothing is.
+    /// Faults, one thing each; empty if there are none.
     pub faults: Vec<String>,
 }
 

@@ -18,6 +18,13 @@
 //! assert_eq!(command, Command::Drive(Direction::North));
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
+//!
+//! # The main loop
+//!
+//! `cargo run --example search`:
+#![doc = "```"]
+#![doc = include_str!("../examples/search.rs")]
+#![doc = "```"]
 #![no_std]
 
 mod mouse;

@@ -1,5 +1,5 @@
-//! Logs of the Carnegie Mellon Robot Navigation Toolkit (CARMEN): one message a line, of which
-//! these are read:
+//! Logs of the Carnegie Mellon Robot Navigation Toolkit (CARMEN), one message per line. These are
+//! read:
 //!
 //! ```text
 //! PARAM name value …
@@ -9,8 +9,8 @@
 //!     ipc_time host logger_time
 //! ```
 //!
-//! Older logs have ROBOTLASER1 without remissions and without `turn`. Whatever else is met is
-//! counted and left out.
+//! Older logs have ROBOTLASER1 without remissions and without `turn`. Other messages are counted
+//! and left out.
 //!
 //! Source: the comments at the head of each log, and CARMEN's `logger.c`. A beam of 80 m or more
 //! has hit nothing.

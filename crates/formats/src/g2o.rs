@@ -45,7 +45,7 @@ pub struct G2o {
     pub edges: Vec<G2oEdge>,
     /// Ids of the poses that stay where they are.
     pub fixed: Vec<u64>,
-    /// What was left out, in the order of the file.
+    /// Lines that were left out, in the order of the file.
     pub left_out: Vec<G2oFault>,
 }
 
@@ -54,7 +54,7 @@ pub struct G2o {
 pub struct G2oPose {
     /// Its number in the file.
     pub id: u64,
-    /// Where the file has it.
+    /// Pose in the file.
     pub pose: Pose,
 }
 
@@ -65,7 +65,7 @@ pub struct G2oEdge {
     pub from: u64,
     /// The id of the pose that was measured.
     pub to: u64,
-    /// Where `to` lies as seen from `from`.
+    /// Pose of `to` relative to `from`.
     pub measured: Pose,
     /// The inverse of the measurement's covariance: x, y, m, and the heading, rad; symmetric and
     /// positive definite.
@@ -87,7 +87,7 @@ pub enum G2oError {
     /// The file is compressed, and no beginning of it can be unpacked.
     #[error("the gzip file cannot be unpacked: {why}; pack it again, or give it plain")]
     Gzip {
-        /// What the unpacker says.
+        /// Error of the unpacker.
         why: String,
     },
     /// The compressed file holds more than this program takes.
@@ -102,11 +102,11 @@ fn of_first(fault: &Option<Box<str>>) -> String {
 }
 
 impl G2o {
-    /// Reads a file's bytes, plain or gzipped. Of a truncated gzip file the beginning is used, and
-    /// said to be.
+    /// Reads a file's bytes, plain or gzipped, and returns the graph. Of a truncated gzip file the
+    /// beginning is used, and a fault reported.
     ///
     /// # Errors
-    /// [`G2oError`] if nothing of it is of use; single lines that are not are
+    /// [`G2oError`] if nothing in it is usable; single unusable lines are
     /// [left out](Self::left_out).
     pub fn read(bytes: &[u8]) -> Result<Self, G2oError> {
         if !bytes.starts_with(&[0x1f, 0x8b]) {
@@ -153,7 +153,7 @@ impl G2o {
     }
 }
 
-/// What was read so far.
+/// Contents read so far.
 #[derive(Default)]
 struct Reading {
     poses: BTreeMap<u64, (Pose, usize)>,

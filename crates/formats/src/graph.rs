@@ -1,7 +1,7 @@
-//! Maps of places as graphs, in the formats that others read: all of them are written from a
+//! Maps of places as graphs, in formats that other programs read. All are written from a
 //! [`MapView`](tolman_robot::MapView).
 //!
-//! A way that can be gone both ways stands in a `MapView` twice, and so it does in the files: all
+//! A way that can be driven both ways is in a `MapView` twice, and so it is in the files: all
 //! graphs are directed.
 
 mod dot;

@@ -1,7 +1,7 @@
 //! Files read whole, within a budget of bytes.
 //!
-//! Every reader of a whole file goes through this module, so that none grows without bound on a
-//! device or a pipe that never ends, and each says the same of what is no text.
+//! Every reader of a whole file uses this module. So none grows without bound on a device or a pipe
+//! that never ends, and each reports non-text in the same way.
 
 use core::str;
 use std::fs::File;
@@ -10,11 +10,11 @@ use std::path::Path;
 
 use thiserror::Error;
 
-/// The most bytes that are read of one file, 256 MiB: far above any map, world or trace, and low
-/// enough for the memory of any machine that runs this.
+/// Maximum number of bytes read of one file, 256 MiB. It is far above any map, world or trace, and
+/// low enough for the memory of any machine that runs this.
 pub const MOST_BYTES: u64 = 256 << 20;
 
-/// Why a file cannot be read whole. It does not name the file; whoever asks adds that.
+/// Reason why a file cannot be read whole. It does not name the file; the caller adds that.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SourceError {

@@ -21,6 +21,7 @@
 //! assert_eq!(map.cells, [MapCell::Free, MapCell::Occupied]);
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
 

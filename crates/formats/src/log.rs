@@ -1,4 +1,4 @@
-//! What a log of a robot holds, whichever program wrote it, and what was wrong with it.
+//! Contents of a robot's log, from any program, and what was wrong with it.
 
 mod entry;
 mod lines;

@@ -26,11 +26,11 @@ pub struct RosMap {
     pub resolution: f64,
     /// The south-west corner of the grid, m.
     pub origin: Point,
-    /// What each cell holds, row by row from the south-west.
+    /// State of each cell, row by row from the south-west.
     pub cells: Vec<MapCell>,
 }
 
-/// What is known of a cell of an occupancy grid.
+/// State of a cell of an occupancy grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapCell {
     /// Floor.
@@ -48,15 +48,15 @@ pub enum RosMapError {
     /// One of its two files cannot be read.
     #[error("cannot read {}; give a .yaml of map_server with its picture beside it", path.display())]
     File {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         source: SourceError,
     },
     /// The YAML file is not UTF-8 text.
     #[error("{}: byte {byte} is not UTF-8 text; give the .yaml, not its picture", path.display())]
     Text {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
         /// The first byte at fault, from 0.
         byte: usize,
@@ -64,7 +64,7 @@ pub enum RosMapError {
     /// The YAML file is not that of a map.
     #[error("{}", path.display())]
     Header {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
         /// What is wrong with it, and where.
         source: RosMapHeaderError,
@@ -72,7 +72,7 @@ pub enum RosMapError {
     /// The picture is not one.
     #[error("{}", path.display())]
     Picture {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
         /// What is wrong with it, and where.
         source: GreyMapError,

@@ -34,13 +34,13 @@ const SCAN: &str = "sensor_msgs/msg/LaserScan";
 const ODOMETRY: &str = "nav_msgs/msg/Odometry";
 const TRANSFORMS: &str = "tf2_msgs/msg/TFMessage";
 
-/// What a bag holds. Entries are in the order of the file; instead of a line, the number of the
-/// message stands, from 1.
+/// Contents of a bag. Entries are in the order of the file; each has the number of its message,
+/// from 1, in place of a line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RosBag {
     /// Scans and odometry. A scan before the first odometry or after the last is left out.
     pub entries: Vec<LogEntry>,
-    /// How it was read.
+    /// Report on reading it.
     pub report: LogReport,
 }
 
@@ -54,9 +54,9 @@ struct PlacelessScan {
 #[derive(Default)]
 struct Reader {
     report: LogReport,
-    /// By id: what messages are.
+    /// Type of messages, by id.
     schemas: BTreeMap<u16, String>,
-    /// By id: the topic, and what its messages are.
+    /// Topic and type of messages, by id.
     channels: BTreeMap<u16, [String; 2]>,
     scans: Vec<PlacelessScan>,
     odometry: Vec<LogOdometry>,
@@ -113,7 +113,7 @@ impl RosBag {
         }
     }
 
-    /// Reads from `source`; what cannot be used is left out and reported.
+    /// Reads from `source` and returns the bag; unusable messages are left out and reported.
     #[must_use]
     pub fn of(source: impl Read) -> Self {
         let mut reader = Reader::default();

@@ -14,9 +14,9 @@ use crate::log::{self, LogError, LogReport, LogTrouble};
 pub struct SonarTable {
     /// The scans, all of as many ranges, m.
     pub scans: Vec<Vec<f64>>,
-    /// What the robot did at each.
+    /// Action of the robot at each.
     pub actions: Vec<String>,
-    /// How the file was read.
+    /// Report on reading the file.
     pub report: LogReport,
 }
 

@@ -18,14 +18,14 @@ use tolman_robot::{TimedPose, Trajectory};
 use crate::fields::{Fields, Wrong};
 use crate::log::{self, LogError, LogReport, LogTrouble, LogVelocity};
 
-/// A drive of which pairs of places are told that look alike.
+/// A drive, with pairs of places that look alike.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TucDrive {
-    /// How fast the robot goes.
+    /// Speeds of the robot.
     pub odometry: Vec<LogVelocity>,
     /// Places that look alike, true and false ones.
     pub matches: Vec<PlaceMatch>,
-    /// How it was read.
+    /// Report on reading it.
     pub report: LogReport,
 }
 
@@ -36,11 +36,11 @@ pub struct PlaceMatch {
     pub time: f64,
     /// The earlier time, s.
     pub earlier: f64,
-    /// How alike, 0 … 1.
+    /// Similarity, 0 to 1.
     pub similarity: f64,
 }
 
-/// What a line says.
+/// Contents of a line.
 enum TucLine {
     Velocity(LogVelocity),
     Match(PlaceMatch),

@@ -1,5 +1,5 @@
 //! The multi-robot data set of the University of Toronto (UTIAS MRCLAM, K. Leung 2009): a folder
-//! with a file of each kind a robot.
+//! with one file of each kind per robot.
 //!
 //! ```text
 //! RobotN_Odometry.dat      time forward_velocity turn_rate
@@ -22,15 +22,15 @@ use crate::log::{self, LogError, LogReport, LogVelocity};
 /// One robot of the data set.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UtiasRobot {
-    /// How fast its wheels say it goes.
+    /// Speeds by its wheels.
     pub odometry: Vec<LogVelocity>,
-    /// What its camera recognized.
+    /// Barcodes that its camera recognized.
     pub sightings: Vec<BarcodeSighting>,
-    /// Where it was, by cameras on the ceiling.
+    /// True trajectory, by cameras on the ceiling.
     pub truth: Trajectory,
-    /// How each file was read.
+    /// Report on reading each file.
     pub reports: Vec<(PathBuf, LogReport)>,
-    /// Barcodes that nobody wears, by how often they were read.
+    /// Barcodes without a subject, with the number of readings of each.
     pub strangers: BTreeMap<u32, u32>,
 }
 

@@ -117,7 +117,7 @@ impl Heading {
         Self::from_radians(target.0 - self.0).0
     }
 
-    /// This heading turned counter-clockwise by `radians`.
+    /// Returns this heading turned counter-clockwise by `radians`.
     #[must_use]
     pub fn turned(self, radians: f64) -> Self {
         Self::from_radians(self.0 + radians)
@@ -137,14 +137,14 @@ impl Heading {
 }
 
 impl From<f64> for Heading {
-    /// From radians, wrapped.
+    /// Returns the heading of `radians`, wrapped.
     fn from(radians: f64) -> Self {
         Self::from_radians(radians)
     }
 }
 
 impl From<Heading> for f64 {
-    /// To radians.
+    /// Returns the heading in radians.
     fn from(heading: Heading) -> Self {
         heading.0
     }

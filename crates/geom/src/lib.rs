@@ -28,6 +28,7 @@
 //! assert!((arrived.position - Point::new(1.0, 1.0)).norm() < 1e-12);
 //! ```
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 // What the signatures need, whole: see docs/architecture.md, API boundaries.
 pub use nalgebra;

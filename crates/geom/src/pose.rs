@@ -16,9 +16,9 @@ use crate::{Heading, Point, Twist, Vector};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
-    /// Where, in metres.
+    /// Position, m.
     pub position: Point,
-    /// Which way it looks.
+    /// Heading.
     pub heading: Heading,
 }
 
@@ -32,7 +32,7 @@ impl Pose {
         Self { position, heading }
     }
 
-    /// `a_from_b.compose(b_from_c)` is `a_from_c`.
+    /// Returns `a_from_c` for `a_from_b.compose(b_from_c)`.
     #[must_use]
     pub fn compose(self, inner: Self) -> Self {
         Self::new(
@@ -41,7 +41,7 @@ impl Pose {
         )
     }
 
-    /// `a_from_b.inverse()` is `b_from_a`.
+    /// Returns `b_from_a` for `a_from_b.inverse()`.
     #[must_use]
     pub fn inverse(self) -> Self {
         let heading = Heading::from_radians(-self.heading.radians());
@@ -127,7 +127,7 @@ impl From<Isometry2<f64>> for Pose {
     }
 }
 
-/// sin(x)/x, by its series where the quotient would lose digits.
+/// Returns sin(x)/x, by its series where the quotient would lose digits.
 fn sinc(x: f64) -> f64 {
     if x.abs() < 1e-4 {
         let square = x * x;

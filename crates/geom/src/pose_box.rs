@@ -32,9 +32,9 @@ use crate::{Interval, IntervalError, PointBox, Pose};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseBox {
-    /// Where, m.
+    /// Position, m.
     pub position: PointBox,
-    /// Which way it looks, rad, not wrapped.
+    /// Heading, rad, not wrapped.
     pub heading: Interval,
 }
 
@@ -69,21 +69,21 @@ impl PoseBox {
         ))
     }
 
-    /// `a_from_b.compose(b_from_c)` is `a_from_c`.
+    /// Returns `a_from_c` for `a_from_b.compose(b_from_c)`.
     #[must_use]
     pub fn compose(self, inner: Self) -> Self {
         Self::new(self.transform(inner.position), self.heading + inner.heading)
     }
 
-    /// `a_from_b.inverse()` is `b_from_a`.
+    /// Returns `b_from_a` for `a_from_b.inverse()`.
     #[must_use]
     pub fn inverse(self) -> Self {
         Self::new((-self.position).rotated(-self.heading), -self.heading)
     }
 
-    /// `other` as seen from here: `world_from_a.between(world_from_b)` is `a_from_b`. Narrower than
-    /// composing with the inverse, which forgets that its position and its heading are seen from
-    /// the same place.
+    /// Returns `other` relative to this pose: `a_from_b` for `world_from_a.between(world_from_b)`.
+    /// It is narrower than composing with the inverse, which ignores that position and heading are
+    /// relative to the same place.
     #[must_use]
     pub fn between(self, other: Self) -> Self {
         Self::new(
@@ -92,7 +92,7 @@ impl PoseBox {
         )
     }
 
-    /// Positions of this pose's own frame, in the frame the pose is given in.
+    /// Returns positions of this pose's own frame in the frame in which the pose is given.
     #[must_use]
     pub fn transform(self, position: PointBox) -> PointBox {
         self.position + position.rotated(self.heading)
@@ -149,7 +149,7 @@ fn common(a: Interval, b: Interval) -> Option<Interval> {
     parts.into_iter().flatten().reduce(Interval::hull)
 }
 
-/// `angles` turned by as many full circles as bring their middle nearest to that of `target`.
+/// Returns `angles` turned by whole circles such that their middle is nearest to that of `target`.
 fn nearest(angles: Interval, target: Interval) -> Interval {
     let circles = libm::round((target.middle() - angles.middle()) / TAU);
     if circles == 0.0 {

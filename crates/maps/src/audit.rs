@@ -1,22 +1,22 @@
-//! An auditor of loop closures: which of a pose graph's closures are right, as far as its odometry
-//! and its other closures tell.
+//! An auditor of loop closures: finds which closures of a pose graph are right, by its odometry and
+//! its other closures.
 //!
 //! [`audit`] finds each closure *supported* by independent cycles, *refuted* by a cycle that can be
-//! measured again, or *undecided*, with the reason. Nothing is optimized: a map bends to a false
-//! closure, and what it errs by then is no evidence.
+//! measured again, or *undecided*, with the reason. Nothing is optimized: a false closure bends a
+//! map, and the errors of a bent map are no evidence.
 //!
-//! - **Cycle**: a closure with a way back over odometry and other closures. Its *bound* is χ² of
-//!   the logarithm of its product, 3 degrees of freedom, by first-order propagation of its edges'
-//!   covariances: at most k², k = 5. It is *tight* if the region of k standard deviations fills at
-//!   most 3 ‰ of all poses within 5 m.
-//! - **Run**: closures linked by at most 3 poses at both ends, one by one, that do not contradict
-//!   each other. They err together, so a run is one witness, however long.
+//! - **Cycle**: a closure with a way back over odometry and other closures. Its error is χ² of the
+//!   logarithm of its product, with 3 degrees of freedom, by first-order propagation of its edges'
+//!   covariances. The *bound* is k², k = 5. A cycle is *tight* if the region of k standard
+//!   deviations fills at most 3 ‰ of all poses within 5 m.
+//! - **Run**: closures that do not contradict each other, each linked to the next by at most 3
+//!   poses at both ends. They err together, so a run is one witness, however long.
 //! - **Witness**: a tight cycle within its bound. Witnesses of one closure share no run with it or
 //!   each other. Odometry alone is one.
 //!
-//! How: closures that odometry alone refutes are told in O(1) by sums of its covariance (`chain`).
-//! The others are held against each other in pairs (`consistency`); the greatest group without
-//! conflicts is believed first. Then a closure stays believed only as long as the surest way over
+//! The steps: closures that odometry alone refutes are found in O(1) by sums of its covariance
+//! (`chain`). The others are compared in pairs (`consistency`), and the greatest group without
+//! conflicts is believed first. A closure then stays believed only as long as the surest way over
 //! odometry and other believed closures agrees with it (`belief`, `search`): a greatest fixed
 //! point.
 //!

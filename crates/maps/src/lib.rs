@@ -21,7 +21,15 @@
 //! A map takes in what is observed and answers what is known. What to do next is the business of
 //! planners, which see no map type: they ask a trait of their own crate or of the vocabulary below
 //! them, such as [`tolman_maze::Walls`].
+//!
+//! # A mapper on your own robot
+//!
+//! `cargo run --example own_robot`:
+#![doc = "```"]
+#![doc = include_str!("../examples/own_robot.rs")]
+#![doc = "```"]
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;

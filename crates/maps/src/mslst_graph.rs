@@ -3,9 +3,9 @@
 //! Tingle, Ball, Augat: "Maze Solving by Learning State Topologies", Phase II (*Mapping the
 //! Topology Into a Graph*) and, of Phase III, *Localization* and the search of *Path-Finding*.
 //!
-//! A [`GraphMapper`] builds the [`MslstGraph`] while the robot wanders; [`localize`] finds the node
-//! that fits what the robot has sensed and done of late; [`MslstGraph::path_to_destination`] says
-//! how to go on from there.
+//! A [`GraphMapper`] builds the [`MslstGraph`] while the robot wanders. [`localize`] finds the node
+//! that fits what the robot has sensed and done lately. [`MslstGraph::path_to_destination`] returns
+//! the way on from there.
 //!
 //! ```
 //! use tolman_maps::mslst_graph::{localize, GraphMapper, Memory, NodeZone};

@@ -1,9 +1,9 @@
-//! Places and where they lie, learned while the robot moves: its pose is corrected from the map
-//! that it makes.
+//! A map of places and their positions, learned while the robot moves. The map corrects the robot's
+//! pose.
 //!
-//! The paper's own list of what to do next (section 6): displacement "relative to the previous
-//! point", features in place of pixels, and a map that corrects the odometry. In the order data
-//! flows:
+//! It follows the paper's own list of what to do next (section 6): displacement "relative to the
+//! previous point", features in place of pixels, and a map that corrects the odometry. In the order
+//! data flows:
 //!
 //! 1. An [`Outline`] is what a snapshot shows of the things round the robot: points where they
 //!    stand on the floor, with their colours, and the arcs that sonars heard them on.

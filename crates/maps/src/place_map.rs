@@ -5,12 +5,12 @@
 //! Mapping system using Growing Neural Gas, 2006. In the order data flows:
 //!
 //! - a [`PlaceRecord`] is what was recorded at one place (section 3.2);
-//! - a [`FeatureChoice`] says which features it is told by: the image, smaller and in some
+//! - a [`FeatureChoice`] names the features that describe it: the image, smaller and in some
 //!   [`ColourSpace`], the ranges, the odometry ("Features");
-//! - a [`FeatureTable`] makes them of many records, scaled by how they vary;
-//! - a [`PlaceMap`] learns from the table, as its [`PlaceMapConfig`] says ("Learning"), and answers
-//!   which node is nearest to a record, where nodes lie, what they look like and by which way one
-//!   leads to another.
+//! - a [`FeatureTable`] computes them for many records, scaled by how they vary;
+//! - a [`PlaceMap`] learns from the table by its [`PlaceMapConfig`] ("Learning"). It then answers
+//!   which node is nearest to a record, where nodes lie, what they look like, and which way leads
+//!   from one to another.
 //!
 //! Squared distances are those of equation 3.1, d² = Σ w (a − b)², with one weight a group: see
 //! [`FeatureScaling`] for what a group's size does.

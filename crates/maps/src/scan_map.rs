@@ -1,18 +1,18 @@
-//! Places learned from scans, a compass and what the wheels rolled, each of them once: a map that
-//! stops growing.
+//! Places learned from scans, a compass and the odometry, each place once: a map that stops
+//! growing.
 //!
 //! In the order data flows:
 //!
-//! 1. A [`ScanMap`] takes in [how far](Advance) the robot came and what it sees there. It fits the
-//!    scan to the walls that it knows and so corrects the position; then it draws the walls that
-//!    are new on a [`WallGrid`], and finds the place or adds it.
-//! 2. [`Clearings`] say where the robot can stand and has not been:
+//! 1. A [`ScanMap`] takes in each [advance](Advance) of the robot with the scan at its end. It fits
+//!    the scan to the known walls and so corrects the position. Then it draws new walls on a
+//!    [`WallGrid`], and finds the place or adds it.
+//! 2. [`Clearings`] are where the robot can stand and has not been:
 //!    [where the map has gaps](WayToGap).
-//! 3. A [`ScanChart`] is what is left when nothing more is learned: the [ground](GroundPlan), two
-//!    bits a cell, the places and the links. A file holds its [parts](ChartParts).
+//! 3. A [`ScanChart`] is the map once learning is over: the [ground](GroundPlan), two bits a cell,
+//!    the places and the links. A file holds its [parts](ChartParts).
 //! 4. A [`CorridorMap`] has the places where corridors meet or end, and the ways between them.
-//! 5. [`Standpoints`] are a lattice of positions on it; they say what is seen from each.
-//! 6. A [`StandpointBelief`] is what a robot that was put down somewhere believes of where it is.
+//! 5. [`Standpoints`] are a lattice of positions on it, with the view from each.
+//! 6. A [`StandpointBelief`] is the belief of a robot that was put down somewhere about its place.
 //!
 //! The frame's axes are the compass's. Positions are in metres from where the robot was put down.
 

@@ -1,19 +1,19 @@
-//! The way of a robot and a map of points, by scans that are matched to those before: the dense
+//! The way of a robot and a map of points, by scans that are matched to earlier ones: the dense
 //! baseline.
 //!
 //! In the order data flows:
 //!
-//! 1. A [`ScanStep`] brings a scan and how far the wheels came since the one before. Beams become
-//!    an outline of surface points.
-//! 2. The outline is matched to the last keyframes: all poses in a window about where the odometry
-//!    has it, by branch and bound on a grid of likelihoods, then Newton's steps from the best.
+//! 1. A [`ScanStep`] brings a scan and the odometry since the one before. Beams become an outline
+//!    of surface points.
+//! 2. The outline is matched to the last keyframes. All poses in a window about the odometry's are
+//!    tried, by branch and bound on a grid of likelihoods, then Newton's steps from the best.
 //! 3. After some way the scan becomes a keyframe: a pose of a
-//!    [`PoseGraph`](crate::pose_graph::PoseGraph), joined to the one before with the information
-//!    that the match has.
-//! 4. The last keyframes together are matched to old ones that lie near, in a window that grows
-//!    with the way since the last closure. Two matches that agree become closures, and the graph is
+//!    [`PoseGraph`](crate::pose_graph::PoseGraph), joined to the one before with the information of
+//!    the match.
+//! 4. The last keyframes together are matched to old ones near by, in a window that grows with the
+//!    way since the last closure. Two matches that agree become closures, and the graph is
 //!    optimized.
-//! 5. [`ScanMatching::finish`] looks for all closures again, on the map that they made, until it
+//! 5. [`ScanMatching::finish`] searches all closures again, on the map that they made, until it
 //!    finds the same ones twice.
 //! 6. [`ScanMatching::overlay`] finds where the map of another day lies on this one.
 //!

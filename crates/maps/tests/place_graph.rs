@@ -269,6 +269,10 @@ fn a_file_that_holds_no_map_is_refused() {
         "`place_distance` is -1",
     );
     check("/places/0/outline/points/0/deviation", 0.into(), "place 0");
-    check("/links/0/1", 999.into(), "there are");
-    check("/edges/0/to", 999.into(), "needs a pose that is not there");
+    check("/links/0/1", 999.into(), "the number of places is");
+    check(
+        "/edges/0/to",
+        999.into(),
+        "names a pose that does not exist",
+    );
 }

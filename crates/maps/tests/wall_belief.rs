@@ -146,6 +146,31 @@ fn particles_gather_where_the_mouse_is() {
 }
 
 #[test]
+fn particles_in_two_cells_agree_when_the_cells_turn_out_to_differ() {
+    // Two corridors side by side, one of three cells and one of two.
+    let text = "+---+---+---+\n|           |\n+---+---+---+\n|       |   |\n+---+---+---+";
+    let maze = tolman_maze::read(text).unwrap().maze;
+    let world = World::from_maze(&maze, &SIZE).unwrap();
+    let belief = seen_from_everywhere(&maze, &world, 2);
+    let [long, short] = [1, 0].map(|row| belief.middle(Cell::new(0, row)));
+    let poses = [long, short].map(|middle| vec![Pose::new(middle, Heading::EAST); 100]);
+    let mut filter = PoseFilter::new(FILTER, Pose::IDENTITY).unwrap();
+    filter.spread(poses.concat());
+    let (_, before) = filter.likeliest(belief.pitch());
+    assert!((before - 0.5).abs() < 1e-9);
+    let mut rng = ChaCha8Rng::seed_from_u64(7);
+    let truth = Pose::new(long, Heading::EAST);
+    filter.sense(&belief, &readings(&world, truth), &mut rng);
+    let (pose, weight) = filter.likeliest(belief.pitch());
+    assert!(
+        weight > 0.95 && (pose.position - long).norm() < 1e-9,
+        "{weight}"
+    );
+    filter.gather(&mut rng);
+    assert!((filter.estimate().position - long).norm() < 0.2 * belief.pitch());
+}
+
+#[test]
 fn without_walls_the_mean_goes_where_the_wheels_are_told() {
     let start = Pose::new(Point::new(0.5, 0.5), Heading::EAST);
     let mut filter = PoseFilter::new(FILTER, start).unwrap();

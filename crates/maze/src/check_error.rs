@@ -43,7 +43,7 @@ pub enum CheckError {
     /// Walls part the start from every goal.
     #[error("no way leads from the start {start} to the goal {goal}: open a wall between them")]
     NoWay {
-        /// Where runs begin.
+        /// Start of the runs.
         start: Cell,
         /// The first of the goals.
         goal: Cell,

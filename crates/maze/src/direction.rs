@@ -19,7 +19,7 @@ impl Direction {
     /// All four, clockwise from north.
     pub const ALL: [Self; 4] = [Self::North, Self::East, Self::South, Self::West];
 
-    /// 0 for north, then clockwise.
+    /// Returns 0 for north, then counts clockwise.
     #[must_use]
     pub const fn index(self) -> usize {
         self as usize

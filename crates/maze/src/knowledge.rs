@@ -1,6 +1,6 @@
 use crate::{Cell, Direction, Grid};
 
-/// What is known of one wall of a maze.
+/// Knowledge of one wall of a maze.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -57,7 +57,7 @@ impl Knowledge {
 /// assert_eq!(dark.knowledge(Cell::new(0, 0), Direction::West), Knowledge::Wall);
 /// ```
 pub trait Walls {
-    /// Size and wall numbering.
+    /// Returns size and wall numbering.
     fn grid(&self) -> Grid;
 
     /// Returns what is known of the `direction` side of `cell`; the same from both sides of a wall.

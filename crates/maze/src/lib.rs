@@ -51,6 +51,7 @@
 //! Without the feature `alloc` only cells, directions, the numbering of walls and the vocabulary of partial
 //! knowledge are left: what firmware builds its own map on.
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;

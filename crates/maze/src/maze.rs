@@ -73,7 +73,7 @@ impl Maze {
         maze
     }
 
-    /// Size and wall numbering.
+    /// Returns size and wall numbering.
     #[must_use]
     pub const fn grid(&self) -> Grid {
         self.grid
@@ -118,8 +118,8 @@ impl Maze {
         Direction::ALL.into_iter().filter_map(beside)
     }
 
-    /// To how many sides `cell` is open: 0 enclosed, 1 a dead end, 2 a corridor or bend, 3 or 4 a
-    /// junction.
+    /// Returns the number of open sides of `cell`: 0 enclosed, 1 a dead end, 2 a corridor or bend,
+    /// 3 or 4 a junction.
     #[must_use]
     pub fn degree(&self, cell: Cell) -> usize {
         self.neighbours(cell).count()
@@ -218,15 +218,15 @@ impl Maze {
         self.goals = goals;
     }
 
-    /// For every cell, by [`Grid::index`], the number of steps to the nearest goal, or none where
-    /// no way leads there. O(cells).
+    /// Returns, for every cell by [`Grid::index`], the number of steps to the nearest goal, or
+    /// `None` if no way leads there. O(cells).
     #[must_use]
     pub fn steps_to_goal(&self) -> Vec<Option<u32>> {
         self.steps_to(&self.goals)
     }
 
-    /// For every cell, by [`Grid::index`], the number of steps to the nearest of `targets`, or none
-    /// where no way leads there. O(cells).
+    /// Returns, for every cell by [`Grid::index`], the number of steps to the nearest of `targets`,
+    /// or `None` if no way leads there. O(cells).
     ///
     /// ```
     /// use tolman_maze::{Cell, Grid, Maze};

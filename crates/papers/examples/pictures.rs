@@ -23,7 +23,7 @@ type Anything = Box<dyn Error>;
 
 fn main() -> Result<(), Anything> {
     let path = env::args().nth(1).ok_or("name the file to write")?;
-    let text = include_str!("../../../mazes/large-hard.maze");
+    let text = include_str!("../mazes/large-hard.maze");
     let course = Course::for_body("Large", &tolman_maze::read(text)?, &pioneer::body())?;
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let figures = [

@@ -1,15 +1,15 @@
 //! Mazes and logs of others, which are not part of this project.
 //!
 //! They are read from the folder that the variable `TOLMAN_DATA` names, or else from
-//! `../shared/data` beside the current folder. What needs them is skipped, and says so, where
-//! neither is there.
+//! `../shared/data` beside the current folder. If neither exists, experiments that need them are
+//! skipped with a message.
 
 use std::env;
 use std::path::PathBuf;
 
 const DEFAULT: &str = "../shared/data";
 
-/// Where mazes of others come from, as a sentence without its beginning.
+/// Origin of the mazes of others, as a sentence without its beginning.
 pub(crate) const MAZES: &str = "it is one of the mazes that Udacity gives with its project \"Plot and Navigate a Virtual Maze\", or of \
                                 the collections of micromouse contests; put it into `mazes` of the folder that TOLMAN_DATA names";
 
@@ -20,7 +20,7 @@ pub fn folder() -> Option<PathBuf> {
     named.is_dir().then_some(named)
 }
 
-/// Returns what to tell the reader where it is not.
+/// Returns the message for missing data.
 #[must_use]
 pub fn missing(what: &str) -> String {
     format!("Skipped: {what}, which are not here. Set TOLMAN_DATA to the folder that holds them.")

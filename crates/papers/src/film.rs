@@ -13,11 +13,11 @@ use tolman_robot::{Landmark, Position};
 /// Nodes that moved less than this are left where they are, m.
 const STILL: f64 = 0.05;
 
-/// Number of actions after each of which the map is looked at; then more and more rarely.
+/// Number of actions after each of which the map is recorded; later it is recorded more rarely.
 const DENSE: u32 = 200;
 
-/// What was noted of an outing: after every action what the system thinks, where it believes to be,
-/// and its map.
+/// Record of an outing: after every action the system's thoughts, its believed position, and its
+/// map.
 #[derive(Debug)]
 pub struct Film {
     actions: u32,
@@ -26,24 +26,24 @@ pub struct Film {
     nodes: BTreeMap<u32, MapNode>,
     edges: BTreeMap<(u32, u32), MapEdge>,
     places: TimeSeries,
-    /// Where the robot truly was when the system first believed to be at a place.
+    /// True position of the robot when the system first believed to be at a place.
     met: BTreeMap<u32, Point>,
     /// The place that is labelled as the goal.
     goal: Option<u32>,
     /// Steps before which the robot was lifted and put down elsewhere.
     lifts: Vec<u32>,
-    /// Where the frame lies in which the map has its places.
+    /// Pose of the frame in which the map has its places.
     world_from_map: Pose,
 }
 
-/// What a system knows at a moment, in the world's frame.
+/// Knowledge of a system at a moment, in the world's frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Glimpse {
-    /// Where the places of its map lie.
+    /// Positions of the places of its map.
     pub places: Vec<Point>,
     /// The ways between them, each once.
     pub ways: Vec<[Point; 2]>,
-    /// Where it believes to be, the likeliest first.
+    /// Its believed positions, the likeliest first.
     pub belief: Vec<Point>,
 }
 
@@ -55,8 +55,7 @@ impl Film {
         Self::laid_at(outing, world_from_map)
     }
 
-    /// The same of an outing whose map and belief have places in a frame that lies at
-    /// `world_from_map`.
+    /// Returns a film of an outing whose map and belief have places in a frame at `world_from_map`.
     #[must_use]
     pub fn laid_at(outing: &dyn Outing, world_from_map: Pose) -> Self {
         let mut film = Self {
@@ -173,7 +172,7 @@ impl Film {
         }
     }
 
-    /// Returns what the system knew when it was last seen. O(map).
+    /// Returns the system's knowledge at its last action. O(map).
     #[must_use]
     pub fn glimpse(&self) -> Glimpse {
         let places: BTreeMap<u32, Point> = self

@@ -1,10 +1,10 @@
-//! The tables of the papers: one folder a set of tables, filled by the project's systems.
+//! The tables of the papers: one folder per set of tables, filled by the project's systems.
 //!
-//! [`catalogue`] lists them as the experiments that `tolman experiment` knows. What a map or a run
-//! looks like is drawn in the folder of its paper: [`mslst::drawing`], [`cpm::drawing`],
-//! [`diktiometry::drawing`]; [`Recorder`] makes the replay of a run, [`Film`] that of any outing,
-//! [`plan_of_course`] the plan it is drawn over. [`data`] finds what other people measured,
-//! [`real`] reads their logs and graphs.
+//! [`catalogue`] lists them as the experiments of `tolman experiment`. The folder of each paper
+//! draws its maps and runs: [`mslst::drawing`], [`cpm::drawing`], [`diktiometry::drawing`].
+//! [`Recorder`] makes the replay of a run, [`Film`] that of any outing, and [`plan_of_course`] the
+//! plan below it. [`data`] finds other people's measurements; [`real`] reads their logs and graphs.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
 

@@ -1,4 +1,4 @@
-//! The maze files of an experiment, and what they are called.
+//! The maze files of an experiment, and their names.
 
 use std::path::{Path, PathBuf};
 

@@ -25,8 +25,8 @@ pub(crate) fn mean_with_quartiles(x: f64, values: &[f64]) -> Option<LinePoint> {
     Some(LinePoint::new(x, mean(values).ok()?).spread(quartiles))
 }
 
-/// Returns a plan of a course that is `width` user units wide, with its walls and its destination;
-/// what is walled off is solid.
+/// Returns a plan of a course, `width` user units wide, with its walls and its destination;
+/// walled-off parts are solid.
 #[must_use]
 pub fn plan_of_course(course: &Course, width: f64) -> FloorPlan {
     let world = &course.world;

@@ -7,9 +7,9 @@ use tolman_robot::{Body, Guess, Robot};
 use tolman_arena::episode::{Episode, Step, Trial};
 use tolman_replay::{Belief, Floor, Mark, Marks, Notes, Replay, RobotTrack, Scenery};
 
-/// Watches an episode and makes its replay: the robot's way, the action under way and how the last
-/// one ended, whether it is in a corridor, what it thinks and where it believes to be, how much of
-/// the maze it has seen, and where it bumped and failed.
+/// Watches an episode and makes its replay. It shows the robot's way, the action under way, how the
+/// last one ended, and whether the robot is in a corridor. It also shows the robot's thoughts and
+/// believed position, how much of the maze it has seen, and where it bumped and failed.
 ///
 /// ```
 /// use tolman_arena::cast::{Agent, Cast};
@@ -41,7 +41,7 @@ pub struct Recorder<'a> {
     corridor: Notes,
     thoughts: Notes,
     belief: Belief,
-    /// Where the nodes of the robot's map lie, by id.
+    /// Positions of the nodes of the robot's map, by id.
     nodes: &'a [Point],
     bumps: Marks,
     failures: Marks,

@@ -1,5 +1,5 @@
-//! How far a quantity may lie from the paper's and still match it: one tolerance each, in all
-//! tables, with its reason.
+//! Maximum difference between a quantity and the paper's at which they match. Each kind of quantity
+//! has one tolerance in all tables, with its reason.
 
 use tolman_experiment::Tolerance;
 
@@ -21,7 +21,7 @@ pub(crate) const STEPS_PER_ACTION: Tolerance = Tolerance::relative(
     "it is the pace of the motors, to which the robot is calibrated",
 );
 
-/// What the second episode saves.
+/// Savings of the second episode.
 pub(crate) const SAVED: Tolerance = Tolerance::absolute(
     15.0,
     "the ways of a maze that is drawn again have other lengths",
@@ -33,7 +33,7 @@ pub(crate) const PROTOTYPES: Tolerance = Tolerance::factor(
     "they vary by a quarter from walk to walk, and follow parameters that no source gives",
 );
 
-/// A number of things of which one more is another outcome.
+/// A count of which one more is another outcome.
 pub(crate) const COUNTED: Tolerance =
     Tolerance::absolute(0.5, "the next number is another outcome");
 

@@ -6,7 +6,7 @@ use crate::Graph;
 /// A graph stored as a list of arcs, grouped by the node they leave (compressed sparse rows).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Arcs {
-    /// Where each node's arcs begin in `arcs`; one more entry than nodes.
+    /// Index in `arcs` of each node's first arc; one more entry than nodes.
     first: Vec<u32>,
     /// (head, cost) of every arc, by tail, then in the order given.
     arcs: Vec<(u32, u32)>,

@@ -13,7 +13,7 @@ pub struct Found {
     pub path: Vec<u32>,
     /// The sum of arc costs along it.
     pub cost: u32,
-    /// How many nodes' arcs were listed.
+    /// Number of nodes whose arcs were listed.
     pub expanded: u32,
 }
 
@@ -48,9 +48,9 @@ pub fn a_star(
     searched.found(source)
 }
 
-/// Some path from `source` to a goal, or `None` where no way leads to one: greedy best-first
-/// search, which always goes on from the node that `heuristic` guesses nearest to a goal, whatever
-/// it has cost to get there. O(arcs · log arcs).
+/// Returns some path from `source` to a goal, or `None` if no way leads to one. Greedy best-first
+/// search: it always continues from the node that `heuristic` puts nearest to a goal, whatever the
+/// cost so far. O(arcs · log arcs).
 ///
 /// ```
 /// use tolman_planners::{Arcs, best_first};
@@ -71,7 +71,7 @@ pub fn best_first(
     search(graph, [source], is_goal, |node, _| (heuristic(node), 0)).found(source)
 }
 
-/// What a search has found.
+/// Result of a search.
 pub(crate) struct Searched {
     /// By node: the least cost so far, and the node before it on that way. A source comes from
     /// itself.

@@ -3,9 +3,9 @@ use alloc::vec::Vec;
 
 use crate::Graph;
 
-/// For every node, the least number of arcs that lead to it from any of `sources`, or none where no
-/// way leads. Breadth-first search, O(nodes + arcs). Nodes the graph does not have, as sources or
-/// at the end of an arc, are passed over.
+/// Returns, for every node, the least number of arcs that lead to it from any of `sources`, or
+/// `None` if no way leads there. Breadth-first search, O(nodes + arcs). Nodes that the graph does
+/// not have are ignored.
 #[must_use]
 pub fn steps_from(graph: &impl Graph, sources: impl IntoIterator<Item = u32>) -> Vec<Option<u32>> {
     let (reached, _) = search(graph, sources, |_| false);
@@ -15,8 +15,8 @@ pub fn steps_from(graph: &impl Graph, sources: impl IntoIterator<Item = u32>) ->
         .collect()
 }
 
-/// For every node the number of arcs to it and the node before it, as far as they are known when a
-/// goal's turn comes, which is given as well. A source comes from itself.
+/// Returns, for every node, the number of arcs to it and the node before it, as far as they are
+/// known when the first goal is reached. That goal is returned as well. A source comes from itself.
 pub(crate) fn search(
     graph: &impl Graph,
     sources: impl IntoIterator<Item = u32>,

@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
-/// Takes detours out of a sequence of actions (MSLST, *Path Compression*). `opposite` must name
-/// each action's opposite, and be its own inverse.
+/// Returns a sequence of actions without its detours (MSLST, *Path Compression*). `opposite` must
+/// return each action's opposite, and be its own inverse.
 ///
 /// Two simplifications are repeated alternately until neither is possible:
 ///

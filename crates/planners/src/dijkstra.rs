@@ -3,10 +3,10 @@ use alloc::vec::Vec;
 use crate::Graph;
 use crate::best_first::search;
 
-/// For every node, the least sum of arc costs on a way to it from any of `sources`, or none where
-/// no way leads. Dijkstra's algorithm with a binary heap, O(arcs · log nodes); ties go to the lower
-/// node id. Sums that would exceed `u32::MAX` count as no way. Nodes the graph does not have, as
-/// sources or at the end of an arc, are passed over.
+/// Returns, for every node, the least sum of arc costs on a way to it from any of `sources`, or
+/// `None` if no way leads there. Dijkstra's algorithm with a binary heap, O(arcs · log nodes); ties
+/// go to the lower node id. Sums that would exceed `u32::MAX` count as no way. Nodes that the graph
+/// does not have are ignored.
 #[must_use]
 pub fn costs_from(graph: &impl Graph, sources: impl IntoIterator<Item = u32>) -> Vec<Option<u32>> {
     let searched = search(graph, sources, |_| false, |_, cost| (cost, 0));

@@ -9,7 +9,7 @@ use crate::{Arcs, costs_from};
 #[derive(Clone, Debug, Default)]
 pub struct Decisions {
     actions: usize,
-    /// Of each state and action, in this order.
+    /// Choices of each state and action, in this order.
     choices: Vec<Choice>,
     ends: Vec<(u32, f32)>,
 }
@@ -32,9 +32,9 @@ impl Decisions {
         }
     }
 
-    /// Adds the next action of the state under way, or the first one of the next state: what it
-    /// costs, and the states that it may lead to, each with its probability. What they lack to 1
-    /// counts as staying.
+    /// Adds the next action of the present state, or the first one of the next state. `cost` is its
+    /// cost and `ends` the states that it may lead to, each with its probability. What they lack to
+    /// one counts as staying.
     pub fn add(&mut self, cost: f64, ends: impl IntoIterator<Item = (u32, f64)>) {
         let ends = ends.into_iter();
         self.ends
@@ -45,13 +45,13 @@ impl Decisions {
         });
     }
 
-    /// Returns how many actions there are in each state.
+    /// Returns the number of actions in each state.
     #[must_use]
     pub const fn actions(&self) -> usize {
         self.actions
     }
 
-    /// Returns how many states there are.
+    /// Returns the number of states.
     #[must_use]
     pub fn len(&self) -> usize {
         self.choices.len().checked_div(self.actions).unwrap_or(0)
@@ -63,8 +63,8 @@ impl Decisions {
         self.choices.is_empty()
     }
 
-    /// Returns what it costs on average to reach a goal, by an action of a state and then by the
-    /// cheapest ones; infinite where none leads there. `costs` are those of the states.
+    /// Returns the average cost to reach a goal by an action of a state and then by the cheapest
+    /// ones; infinite if none leads there. `costs` are those of the states.
     #[must_use]
     pub fn cost(&self, costs: &[f32], state: usize, action: usize) -> f32 {
         let index = state * self.actions + action;
@@ -91,8 +91,8 @@ impl Decisions {
     }
 }
 
-/// Returns what it costs on average to reach one of the `goals` from each state by the actions that
-/// are cheapest on average; `hopeless` at most, which is what it costs to give up.
+/// Returns the average cost to reach one of the `goals` from each state by the actions that are
+/// cheapest on average. It is at most `hopeless`, the cost of giving up.
 ///
 /// Value iteration, in place, the states nearest to a goal first, until no cost changes by more
 /// than `tolerance` or `sweeps` are made. O(sweeps · ends). R. Bellman: *A Markovian decision

@@ -1,6 +1,6 @@
 /// A directed graph whose nodes are numbered 0 … `node_count()` − 1.
 pub trait Graph {
-    /// Returns how many nodes there are.
+    /// Returns the number of nodes.
     fn node_count(&self) -> usize;
 
     /// Calls `visit(head, cost)` for every arc that leaves `node`. Always in the same order:

@@ -1,12 +1,15 @@
 //! Search on graphs, over anything that can list a node's neighbours.
 //!
 //! A [`Graph`] numbers its nodes from 0 and lists the arcs that leave one. The searches know
-//! nothing of maps, mazes or robots: [`steps_from`] counts arcs (breadth-first), [`costs_from`]
-//! sums their costs (Dijkstra), [`path_to`] lists the nodes of a shortest path, [`a_star`] those of
-//! a cheapest one by an admissible heuristic, [`expected_costs`] plans where actions may fail,
-//! [`best_first`] of any by the heuristic alone. [`compressed`] takes detours out of the actions
-//! along one. To ask how far every node is *from a goal's point of view*, search the graph turned
-//! round: [`Arcs::reversed`].
+//! nothing of maps, mazes or robots:
+//!
+//! - [`steps_from`] counts arcs (breadth-first), and [`costs_from`] sums their costs (Dijkstra).
+//! - [`path_to`] lists the nodes of a shortest path, [`a_star`] those of a cheapest one by an
+//!   admissible heuristic, and [`best_first`] those of any path by the heuristic alone.
+//! - [`expected_costs`] plans where actions may fail. [`compressed`] removes detours from a path's
+//!   actions.
+//!
+//! To get distances *to* a goal, search the reversed graph: [`Arcs::reversed`].
 //!
 //! Grid mazes are searched without a graph, without allocation and some hundred times faster: on
 //! [`Passages`], taken from all that is known of their [`Walls`](tolman_maze::Walls), a [`StepMap`]
@@ -24,7 +27,15 @@
 //! // What does it cost to reach node 2 from each?
 //! assert_eq!(costs_from(&arcs.reversed(), [2]), [Some(4), Some(2), Some(0)]);
 //! ```
+//!
+//! # A grid of your own
+//!
+//! `cargo run --example own_grid`:
+#![doc = "```"]
+#![doc = include_str!("../examples/own_grid.rs")]
+#![doc = "```"]
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;

@@ -2,8 +2,8 @@ use tolman_maze::{Cell, Direction, Knowledge, Walls};
 
 use crate::TooLarge;
 
-/// Which edges of a maze of up to `N` × `N` cells, `N` ≤ 255, a plan may cross: what planners
-/// search on. One byte a cell. A larger `N` does not compile:
+/// Edges of a maze of up to `N` × `N` cells, `N` ≤ 255, that a plan may cross: the input of
+/// planners. One byte a cell. A larger `N` does not compile:
 ///
 /// ```compile_fail
 /// # use tolman_maze::{Grid, Maze};
@@ -29,7 +29,7 @@ pub struct Passages<const N: usize> {
     sides: [[u8; N]; N],
 }
 
-/// What to take a wall for that nobody has looked at.
+/// Treatment of unknown walls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]

@@ -51,19 +51,19 @@ pub struct PoseSet<const N: usize> {
     guess: Option<(Cell, Direction)>,
 }
 
-/// What is known of where a mouse is.
+/// Knowledge of a mouse's pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PoseKnowledge {
     /// Only here.
     Found {
         /// The cell.
         cell: Cell,
-        /// Where the mouse looks.
+        /// Heading of the mouse.
         heading: Direction,
     },
     /// At one of several places.
     Among {
-        /// How many, at least 2.
+        /// Number of poses, at least 2.
         poses: u32,
     },
     /// Nowhere: a wall in the map is wrong, or something seen was.
@@ -109,8 +109,8 @@ impl<const N: usize> PoseSet<N> {
         Self { grid, cells, guess }
     }
 
-    /// Takes in that the mouse sees its cell open, or a wall there, to `side`. Where the map does
-    /// not know, both can be. O(N²).
+    /// Takes in whether the mouse sees its cell open, or a wall there, to `side`. Unknown walls
+    /// exclude nothing. O(N²).
     pub fn see(&mut self, walls: &impl Walls, side: Direction, is_open: bool) {
         let contrary = Knowledge::of_standing(is_open);
         let fits = |(cell, heading): &(Cell, Direction)| {
@@ -150,10 +150,10 @@ impl<const N: usize> PoseSet<N> {
         }
     }
 
-    /// Returns where to drive to find out more: to the next place that looks different from what it
-    /// would be for another pose, on ways known to be open, from the point of view of one pose of
-    /// the set. None if the walls known tell no pose from another. O(poses · N²), and for each pose
-    /// that cannot be told from any other as much again.
+    /// Returns the first direction of a drive that tells poses apart, or `None` if the known walls
+    /// tell no pose from another. The drive leads, from one pose of the set and on known open ways,
+    /// to the next place that looks different for another pose. O(poses · N²), and as much again
+    /// for each pose that cannot be told from any other.
     #[must_use]
     pub fn next_drive(&mut self, walls: &impl Walls) -> Option<Direction> {
         let guess = self
@@ -169,8 +169,8 @@ impl<const N: usize> PoseSet<N> {
         Some(side)
     }
 
-    /// Breadth-first search, in the frame of the first pose, for a cell with a wall that the other
-    /// one has not.
+    /// Searches breadth-first, in the frame of the first pose, for a cell with a wall that the
+    /// other pose does not have. Returns the way there.
     fn tell_apart(
         &self,
         walls: &impl Walls,
@@ -244,9 +244,9 @@ impl<const N: usize> PoseSet<N> {
 /// A way to some cell.
 #[derive(Clone, Copy)]
 struct Way {
-    /// How long it is.
+    /// Length in cells.
     cells: u16,
-    /// Where its first cell lies, as the mouse sees it.
+    /// Direction of its first cell, as the mouse sees it.
     side: Direction,
 }
 

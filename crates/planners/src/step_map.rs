@@ -10,7 +10,7 @@ use crate::Passages;
 /// let _: fn(&Passages<300>) -> StepMap<300> = |passages| StepMap::new(passages, []);
 /// ```
 ///
-/// What a mouse follows that drives from cell to cell: always to a neighbour with a smaller number.
+/// A mouse that drives from cell to cell follows it: always to a neighbour with a smaller number.
 ///
 /// ```
 /// use tolman_maze::{Cell, Grid, Maze};
@@ -32,7 +32,8 @@ pub struct StepMap<const N: usize> {
 const NEVER: u16 = u16::MAX;
 
 impl<const N: usize> StepMap<N> {
-    /// Breadth-first search from `targets`; those outside of `N` × `N` cells are left out. O(N²).
+    /// Returns the distances to `targets`, by breadth-first search; targets outside of `N` × `N`
+    /// cells are left out. O(N²).
     #[must_use]
     pub fn new(passages: &Passages<N>, targets: impl IntoIterator<Item = Cell>) -> Self {
         const { assert!(N <= 255, "16 bits count the steps through all cells") };
@@ -81,7 +82,8 @@ impl<const N: usize> StepMap<N> {
         map
     }
 
-    /// Steps from `cell` to the nearest target, or `None` if no way leads there.
+    /// Returns the number of steps from `cell` to the nearest target, or `None` if no way leads
+    /// there.
     #[must_use]
     pub fn steps(&self, cell: Cell) -> Option<u16> {
         let row = self.steps.get(usize::from(cell.y))?;

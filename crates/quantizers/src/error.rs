@@ -98,7 +98,7 @@ pub enum QuantizerConfigError {
     #[error("all weights are zero: at least one feature has to count")]
     NoWeight,
     /// A unit the network shall begin with is no valid input.
-    #[error("unit {unit} of those to begin with: {source}")]
+    #[error("initial unit {unit}: {source}")]
     BadUnit {
         /// Its number, from 0.
         unit: usize,

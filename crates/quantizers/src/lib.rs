@@ -36,7 +36,15 @@
 //! Everything is deterministic: ties go to the smaller id, and nothing here draws random numbers
 //! unasked. What is invalid (NaN, infinities, the wrong size, values whose squares overflow) is
 //! refused with a typed error and not learnt.
+//!
+//! # A quantizer of your own
+//!
+//! `cargo run --example own_quantizer`:
+#![doc = "```"]
+#![doc = include_str!("../examples/own_quantizer.rs")]
+#![doc = "```"]
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
 #[cfg(feature = "std")]

@@ -60,7 +60,7 @@ pub struct Soinn<S: Scalar> {
     doomed: Vec<usize>,
 }
 
-/// What a unit of a [`Soinn`] remembers.
+/// Memory of a unit of a [`Soinn`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tally {
@@ -76,7 +76,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Of a unit that was made of an input.
+    /// Returns the tally of a unit that was made of an input.
     fn new(since: u64) -> Self {
         Self {
             error: 0.0,
@@ -95,7 +95,7 @@ impl Tally {
         self.radius.is_some_and(|radius| self.mean_error() > radius)
     }
 
-    /// Left to one of two units between which a unit is put.
+    /// Returns what is left to one of two units between which a unit is put.
     fn reduced(self) -> Self {
         Self {
             error: self.error * 2.0 / 3.0,
@@ -104,7 +104,7 @@ impl Tally {
         }
     }
 
-    /// For a unit put between two.
+    /// Returns the tally of a unit put between two.
     fn between(q: Self, f: Self) -> Self {
         Self {
             error: (q.error + f.error) / 6.0,
@@ -167,7 +167,8 @@ impl<S: Scalar> Soinn<S> {
         self.steps
     }
 
-    /// M: how many inputs a unit has won, less what it has left to units that were put beside it.
+    /// Returns M, the number of inputs that a unit has won, less what it has left to units put
+    /// beside it.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -175,8 +176,8 @@ impl<S: Scalar> Soinn<S> {
         Ok(self.tallies[self.network.slot(id)?].wins)
     }
 
-    /// E: the sum of the distances, not squared, of the inputs a unit has won, less what it has
-    /// left to units that were put beside it.
+    /// Returns E, the sum of the distances, not squared, of the inputs that a unit has won, less
+    /// what it has left to units put beside it.
     ///
     /// # Errors
     /// If there is no such unit.

@@ -27,7 +27,7 @@ pub struct Nearest<S> {
 }
 
 impl<S: Scalar> Nearest<S> {
-    /// Its distance.
+    /// Returns its distance.
     pub fn distance(&self) -> S {
         S::from_f64(libm::sqrt(self.squared_distance.to_f64()))
     }

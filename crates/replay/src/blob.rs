@@ -3,7 +3,7 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-/// Bytes as base64.
+/// Returns bytes as base64.
 pub(super) fn bytes(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
@@ -17,8 +17,8 @@ pub(super) fn floats(numbers: impl IntoIterator<Item = f64>) -> String {
     bytes(&all)
 }
 
-/// Whole numbers in groups of seven bits from the lowest, each byte but a number's last with its
-/// top bit set (LEB128): a byte for each number below 128.
+/// Returns whole numbers in groups of seven bits from the lowest, each byte but a number's last
+/// with its top bit set (LEB128): a byte for each number below 128.
 pub(super) fn numbers(numbers: impl IntoIterator<Item = u32>) -> String {
     let mut all = Vec::new();
     for mut number in numbers {
@@ -31,7 +31,7 @@ pub(super) fn numbers(numbers: impl IntoIterator<Item = u32>) -> String {
     bytes(&all)
 }
 
-/// Ascending steps as [`numbers`], each less the one before.
+/// Returns ascending steps as [`numbers`], each minus the one before.
 pub(super) fn steps(steps: impl IntoIterator<Item = u32>) -> String {
     let mut before = 0;
     numbers(steps.into_iter().map(move |step| {
@@ -41,8 +41,8 @@ pub(super) fn steps(steps: impl IntoIterator<Item = u32>) -> String {
     }))
 }
 
-/// Whole numbers as [`numbers`], each less the one before, the sign in the lowest bit: a byte for
-/// each change by less than 64.
+/// Returns whole numbers as [`numbers`], each minus the one before, the sign in the lowest bit: a
+/// byte for each change by less than 64.
 pub(super) fn changes(all: impl IntoIterator<Item = i32>) -> String {
     let mut before = 0_i32;
     numbers(all.into_iter().map(move |number| {

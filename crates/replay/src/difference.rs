@@ -1,4 +1,4 @@
-//! Where two runs part.
+//! First difference of two runs.
 
 use core::fmt;
 
@@ -17,13 +17,13 @@ pub struct Difference {
     pub what: Differs,
 }
 
-/// What differs first.
+/// First thing that differs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Differs {
-    /// What the robot was told.
+    /// Command of the robot.
     Command,
-    /// Where it was.
+    /// Pose of the robot.
     Pose,
     /// Whether it touched something.
     Bump,

@@ -25,35 +25,35 @@ pub enum EncodeError {
     /// The step has no length.
     #[error("the time step is {step_s} s; give one above 0")]
     Step {
-        /// What it is, s.
+        /// The time step, s.
         step_s: f64,
     },
     /// A number is not finite.
     #[error("{what} {index} holds a number that is not finite")]
     NotFinite {
-        /// Of what.
+        /// Kind of thing.
         what: String,
-        /// Which of them, from 0.
+        /// Its number, from 0.
         index: usize,
     },
     /// Steps that must ascend do not.
     #[error("{what} {index} is of an earlier step than the one before it; sort them by step")]
     Order {
-        /// Of what.
+        /// Kind of thing.
         what: String,
-        /// Which of them, from 0.
+        /// Its number, from 0.
         index: usize,
     },
     /// A reading has not one range for each beam.
     #[error("{what} {index} has {found} ranges for {expected} beams")]
     Ranges {
-        /// Of what.
+        /// Kind of thing.
         what: String,
-        /// Which of them, from 0.
+        /// Its number, from 0.
         index: usize,
-        /// How many it has.
+        /// Number of ranges it has.
         found: usize,
-        /// How many beams there are.
+        /// Number of beams.
         expected: usize,
     },
     /// An edge ends at a node that is not there.
@@ -61,7 +61,7 @@ pub enum EncodeError {
     NoNode {
         /// The map's name.
         map: String,
-        /// Which edge, from 0.
+        /// Number of the edge, from 0.
         index: usize,
         /// The id it names.
         id: u32,
@@ -197,8 +197,8 @@ fn ring(ring: &Ring) -> Value {
 const FINE: f64 = 65535.0;
 const COARSE: f64 = 255.0;
 
-/// Ranges as shares of the ring's reach, in whole parts of `most`. What was not met, or read as
-/// NaN, lies at the reach.
+/// Returns ranges as shares of the ring's reach, in whole parts of `most`. A beam that met nothing,
+/// or read NaN, has the reach.
 fn shares<'a>(
     (what, index): (&str, usize),
     ring: &'a Ring,

@@ -1,4 +1,4 @@
-//! Which cells of a maze a robot can get to, and which it has been in.
+//! Cells of a maze that a robot can reach, and those where it has been.
 
 use tolman_geom::{Point, Vector};
 use tolman_maze::{Cell, Direction, Grid};

@@ -1,4 +1,4 @@
-//! What a robot knew, and when: layers that any system can hand over.
+//! Knowledge of a robot over time: layers that any system can hand over.
 
 use serde::Serialize;
 use tolman_geom::{Heading, Point, Pose};
@@ -9,7 +9,7 @@ use super::Fact;
 /// A learned map as it grew: nodes and edges that come, may move, and may go again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MapGrowth {
-    /// What the layer is called: `state graph`.
+    /// Name of the layer: `state graph`.
     pub name: String,
     /// The nodes, in any order; no two of the same id.
     pub nodes: Vec<MapNode>,
@@ -20,9 +20,9 @@ pub struct MapGrowth {
 /// A node of a [`MapGrowth`]: a state, a place, a unit of a rounding, a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapNode {
-    /// What edges and beliefs name it by.
+    /// Id by which edges and beliefs name it.
     pub id: u32,
-    /// Where it is drawn when it is born, in the world's frame.
+    /// Position at its birth, in the world's frame.
     pub position: Point,
     /// The step at which it came to be.
     pub born: u32,
@@ -30,11 +30,11 @@ pub struct MapNode {
     pub died: Option<u32>,
     /// A word or two beside it; empty for none.
     pub label: String,
-    /// What is told when it is clicked.
+    /// Facts shown when it is clicked.
     pub facts: Vec<Fact>,
     /// Steps at which the robot was there, ascending.
     pub visits: Vec<u32>,
-    /// Where it moved to afterwards, ascending.
+    /// Its later positions, ascending by step.
     pub moves: Vec<NodeMove>,
     /// The scan it stands for.
     pub exemplar: Option<Exemplar>,
@@ -79,7 +79,7 @@ impl MapNode {
 pub struct NodeMove {
     /// The step from which it holds.
     pub step: u32,
-    /// Where it is drawn.
+    /// Position.
     pub position: Point,
 }
 
@@ -99,7 +99,7 @@ pub struct MapEdge {
     pub a: u32,
     /// The id of the node it leads to.
     pub b: u32,
-    /// What it means, and so how it is drawn.
+    /// Meaning, which sets its look.
     pub kind: EdgeKind,
     /// The step at which it came to be.
     pub born: u32,
@@ -124,7 +124,7 @@ impl MapEdge {
     }
 }
 
-/// What a [`MapEdge`] means.
+/// Meaning of a [`MapEdge`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum EdgeKind {
@@ -136,17 +136,17 @@ pub enum EdgeKind {
     Relation,
 }
 
-/// Where a robot believes itself, or something, to be.
+/// Believed positions of a robot, or of something else.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Belief {
-    /// What the layer is called.
+    /// Name of the layer.
     pub name: String,
-    /// What it believed and from when on, ascending; each holds until the next.
+    /// Beliefs with their first steps, ascending; each holds until the next.
     pub entries: Vec<BeliefAt>,
 }
 
 impl Belief {
-    /// Nothing believed yet.
+    /// Returns a layer without beliefs.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -175,11 +175,10 @@ impl Belief {
     }
 }
 
-/// How many of the places where a robot may be are shown. More would be a blot, and make the file
-/// large.
+/// Maximum number of possible poses that are shown. More would be a blot, and make the file large.
 const SHOWN_GUESSES: usize = 8;
 
-/// What is believed less is not shown.
+/// Weight below which a guess is not shown.
 const LEAST_WEIGHT: f64 = 0.01;
 
 /// One state of a [`Belief`].
@@ -196,23 +195,23 @@ pub struct BeliefAt {
 pub enum Shape {
     /// It may be here.
     Point {
-        /// Where.
+        /// Position.
         position: Point,
-        /// How likely.
+        /// Probability.
         weight: f64,
     },
     /// It may stand here and look there.
     Pose {
-        /// How it stands.
+        /// Pose.
         pose: Pose,
-        /// How likely.
+        /// Probability.
         weight: f64,
     },
     /// It may be at this node of any map.
     Node {
         /// The node's id.
         id: u32,
-        /// How likely.
+        /// Probability.
         weight: f64,
     },
     /// It is inside this box along the axes.
@@ -221,7 +220,7 @@ pub enum Shape {
         min: Point,
         /// North-east corner.
         max: Point,
-        /// How likely.
+        /// Probability.
         weight: f64,
     },
     /// It is about here: an ellipse of uncertainty.
@@ -230,9 +229,9 @@ pub enum Shape {
         centre: Point,
         /// Its semi-axes, m.
         semi_axes: [f64; 2],
-        /// Where the first of them points.
+        /// Direction of the first of them.
         heading: Heading,
-        /// How likely.
+        /// Probability.
         weight: f64,
     },
 }
@@ -241,7 +240,7 @@ pub enum Shape {
 /// room, in digits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    /// What the layer is called: `distance to the goal`.
+    /// Name of the layer: `distance to the goal`.
     pub name: String,
     /// The south-west corner of cell 0.
     pub origin: Point,
@@ -252,7 +251,7 @@ pub struct Field {
     pub columns: u32,
     /// The values drawn in the palest and the strongest colour.
     pub range: [f64; 2],
-    /// What changed, by step, ascending. A cell that never had a value is not drawn.
+    /// Changes by step, ascending. A cell that never had a value is not drawn.
     pub changes: Vec<FieldChange>,
 }
 
@@ -261,7 +260,7 @@ pub struct Field {
 pub struct FieldChange {
     /// The step from which it holds.
     pub step: u32,
-    /// Which cell.
+    /// Number of the cell.
     pub cell: u32,
     /// Its new value, or `None` if it has none any more.
     pub value: Option<f64>,
@@ -270,7 +269,7 @@ pub struct FieldChange {
 /// A number over time, shown with its curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TimeSeries {
-    /// What it is called: `coverage`.
+    /// Name: `coverage`.
     pub name: String,
     /// Its unit, set behind it; `%` shows a share as per cent.
     pub unit: String,
@@ -279,7 +278,7 @@ pub struct TimeSeries {
 }
 
 impl TimeSeries {
-    /// No values yet.
+    /// Returns a series without values.
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -307,14 +306,14 @@ pub struct Sample {
 /// Words over time: the action under way, the state it is in.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Notes {
-    /// What they are about: `action`.
+    /// Subject: `action`.
     pub name: String,
     /// The words, by step, ascending; each holds until the next.
     pub notes: Vec<Note>,
 }
 
 impl Notes {
-    /// No notes yet.
+    /// Returns a layer without notes.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -336,16 +335,16 @@ impl Notes {
 pub struct Note {
     /// The step from which it holds.
     pub step: u32,
-    /// What it says.
+    /// Text.
     pub text: String,
 }
 
 /// Steps at which something happened, marked on the slider.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Marks {
-    /// What happened, and so the colour.
+    /// Kind of event, which sets the colour.
     pub kind: Mark,
-    /// What it is called: `bump`.
+    /// Name: `bump`.
     pub name: String,
     /// When, ascending.
     pub steps: Vec<u32>,
@@ -362,7 +361,7 @@ impl Marks {
     }
 }
 
-/// What a mark on the slider says.
+/// Kind of a mark on the slider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Mark {

@@ -7,8 +7,9 @@
 //! these over and needs no line of JavaScript.
 //!
 //! Replays come from a [trace](Replay::of_traces) or from a run that was watched. [`page`] makes
-//! the file. A page that holds many replays carries [`script`] and [`style`] once and calls
-//! `TolmanReplay.open(element, data)` with what [`json`] wrote; `docs/replay.md` has the format.
+//! the file, and with the feature `mcap` the function `mcap` one for Foxglove. A page that holds
+//! many replays carries [`script`] and [`style`] once and calls `TolmanReplay.open(element, data)`
+//! with what [`json`] wrote; `docs/replay.md` has the format.
 //!
 //! ```
 //! use tolman_replay::{page, Replay, RobotTrack, Scenery};
@@ -25,6 +26,7 @@
 //! assert!(page(&replay)?.starts_with("<!DOCTYPE html>"));
 //! # Ok::<(), tolman_replay::EncodeError>(())
 //! ```
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
 
@@ -40,6 +42,8 @@ mod difference;
 mod encode;
 mod floor;
 mod knowledge;
+#[cfg(feature = "mcap")]
+mod mcap_file;
 mod model;
 mod moving_picture;
 mod of_trace;
@@ -54,6 +58,8 @@ pub use knowledge::{
     Belief, BeliefAt, EdgeKind, Exemplar, Field, FieldChange, MapEdge, MapGrowth, MapNode, Mark,
     Marks, NodeMove, Note, Notes, Sample, Shape, TimeSeries,
 };
+#[cfg(feature = "mcap")]
+pub use mcap_file::{McapExportError, mcap};
 pub use model::{Fact, Replay, RobotTrack, Scans};
 pub use moving_picture::{Chapter, moving_picture};
 pub use of_trace::{CompareError, Portrait, Trace, TraceComparison};

@@ -8,14 +8,13 @@ use super::{Belief, Field, MapGrowth, Marks, Notes, Scenery, TimeSeries};
 /// Time is counted in steps: step 0 is before the first time step, step *k* after the *k*-th.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replay {
-    /// What it shows, in a few words.
+    /// Title, in a few words.
     pub title: String,
-    /// What is to be known of it as a whole: maze, brain, seed, outcome, the command that makes it
-    /// again.
+    /// Facts about the whole run: maze, brain, seed, outcome, the command that makes it again.
     pub facts: Vec<Fact>,
     /// The length of a time step, s; the speed 1× plays as many steps a second as there are in one.
     pub step_s: f64,
-    /// What stands still.
+    /// The things that stand still.
     pub scenery: Scenery,
     /// The robots, one track each; they begin together.
     pub tracks: Vec<RobotTrack>,
@@ -42,7 +41,7 @@ impl Replay {
         }
     }
 
-    /// This replay with a further fact.
+    /// Returns this replay with a further fact.
     #[must_use]
     pub fn fact(mut self, name: impl Into<String>, value: impl Into<String>) -> Self {
         self.facts.push(Fact::new(name, value));
@@ -60,9 +59,9 @@ impl Replay {
 /// One thing to be known, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fact {
-    /// What it is about: `seed`.
+    /// Name: `seed`.
     pub name: String,
-    /// What there is to say: `7`.
+    /// Value: `7`.
     pub value: String,
 }
 
@@ -79,22 +78,21 @@ impl Fact {
 /// One robot: where it was at every step, and what it knew.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotTrack {
-    /// What it is called where there are several: `Avoid`, `first.jsonl`.
+    /// Name, if there are several: `Avoid`, `first.jsonl`.
     pub name: String,
     /// Its outline.
     pub body: Body,
     /// Its range sensor, whose beams the player casts on the walls, or `None` for a robot without.
     pub ring: Option<Ring>,
-    /// What the range sensor really read, for runs whose walls are not known; then no beams are
-    /// cast.
+    /// Readings of the range sensor, for runs with unknown walls; then no beams are cast.
     pub scans: Option<Scans>,
-    /// Where it was, from step 0 on.
+    /// Poses from step 0 on.
     pub poses: Vec<Pose>,
     /// Steps that did not lead on from the step before: the robot was lifted. Ascending.
     pub lifts: Vec<u32>,
     /// Maps that it learned.
     pub maps: Vec<MapGrowth>,
-    /// Where it believed to be.
+    /// Believed positions.
     pub beliefs: Vec<Belief>,
     /// Numbers over the cells of a grid: distances to the goal, chances of a wall.
     pub fields: Vec<Field>,
@@ -102,7 +100,7 @@ pub struct RobotTrack {
     pub series: Vec<TimeSeries>,
     /// Words over time.
     pub notes: Vec<Notes>,
-    /// What happened when.
+    /// Events by step.
     pub marks: Vec<Marks>,
 }
 
@@ -130,7 +128,7 @@ impl RobotTrack {
 /// Recorded readings of a range sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scans {
-    /// Which way the beams looked.
+    /// Geometry of the beams.
     pub ring: Ring,
     /// The step of each reading, ascending. A reading holds until the next one.
     pub steps: Vec<u32>,

@@ -11,9 +11,9 @@ use super::{Replay, RobotTrack, Shape, ZoneKind};
 pub struct Chapter {
     /// Its first step.
     pub from: u32,
-    /// What happens in it.
+    /// Caption.
     pub caption: String,
-    /// How long it is played, s.
+    /// Duration, s.
     pub seconds: f64,
 }
 
@@ -72,7 +72,7 @@ pub fn moving_picture(replay: &Replay, chapters: &[Chapter]) -> String {
     Figure::new("moving", &replay.title, drawing).standalone()
 }
 
-/// Which step is shown when.
+/// Step shown at each moment.
 struct Clock {
     /// The step of each picture.
     steps: Vec<u32>,
@@ -132,7 +132,7 @@ impl Clock {
         format!("{:.2}s", self.steps.len() as f64 / RATE)
     }
 
-    /// A picture as a share of the whole.
+    /// Returns the number of a picture as a share of the whole.
     fn key(&self, picture: usize) -> String {
         short(picture as f64 / self.steps.len().max(1) as f64, 4)
     }
@@ -158,7 +158,7 @@ impl Clock {
     }
 }
 
-/// Where things of the same fate lie, as path data, and between which pictures they are shown.
+/// Things of the same fate as path data, and the pictures between which they are shown.
 #[derive(Default)]
 struct Fates(alloc::collections::BTreeMap<(usize, usize), String>);
 
@@ -208,7 +208,7 @@ fn map(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
     }
 }
 
-/// The way of each chapter, drawn as it is driven.
+/// Returns the way of each chapter, drawn as it is driven.
 fn ways(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
     let ends = clock.begins.iter().skip(1).copied();
     let ends = ends.chain([clock.steps.len()]);
@@ -253,7 +253,7 @@ fn drawn(points: &[(f64, f64)], from: usize, clock: &Clock) -> Markup {
     }
 }
 
-/// Where it believed to be since it was first lifted.
+/// Returns the believed positions since it was first lifted.
 fn beliefs(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
     let Some(lifted) = track.lifts.first() else {
         return html! {};

@@ -18,9 +18,9 @@ use super::difference::{Difference, first_difference};
 use super::floor::Floor;
 use super::{DoorChange, Fact, Mark, Marks, Replay, RobotTrack, Scenery, SceneryDoor, TimeSeries};
 
-/// What a replay shows of a kind of robot beyond its body.
+/// View of a kind of robot in a replay, beyond its body.
 pub trait Portrait: Recordable {
-    /// Its range sensor, if it has one.
+    /// Returns its range sensor, if it has one.
     fn ring(config: &Self::Config) -> Option<Ring>;
 
     /// Returns the parts of a command by name, as shares of their full rates.
@@ -74,7 +74,7 @@ impl Portrait for Epuck {
 /// A trace in memory: what there is to show of it and to compare it by.
 #[derive(Debug)]
 pub struct Trace<M: Recordable> {
-    /// What it is called.
+    /// Name of the trace.
     pub name: String,
     world: World,
     seed: u64,
@@ -85,7 +85,7 @@ pub struct Trace<M: Recordable> {
     doors: Vec<(u32, String, DoorState)>,
 }
 
-/// What one robot of a trace did.
+/// Track of one robot of a trace.
 #[derive(Debug)]
 pub(super) struct RobotTrace<M: Recordable> {
     config: M::Config,
@@ -107,7 +107,7 @@ pub enum CompareError {
     None,
     /// They happened in different worlds.
     #[error(
-        "{second} happened in another world than {first}; give traces of the same world, or replay each by itself"
+        "{second} was recorded in another world than {first}; give traces of the same world, or replay each by itself"
     )]
     Worlds {
         /// The first trace's name.
@@ -132,21 +132,21 @@ pub enum CompareError {
     Robot {
         /// The trace's name.
         trace: String,
-        /// Which robot, from 0.
+        /// Number of the robot, from 0.
         robot: usize,
         /// The underlying error.
         source: Box<dyn core::error::Error + Send + Sync>,
     },
 }
 
-/// How a trace compares to the first one.
+/// Comparison of a trace with the first one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TraceComparison {
     /// The first trace's name.
     pub first: String,
     /// The other's.
     pub second: String,
-    /// Where they part, or `None` if they are the same to the bit.
+    /// First difference, or `None` if they are the same bit for bit.
     pub difference: Option<Difference>,
 }
 

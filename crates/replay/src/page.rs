@@ -4,7 +4,7 @@ use maud::{DOCTYPE, PreEscaped, html};
 
 use super::{EncodeError, Replay, json};
 
-/// What the page says of itself, so that a command knows its own files again.
+/// Generator named in the page, by which a command recognizes its own files.
 const GENERATOR: &str = "tolman replay";
 
 /// Returns the player, for a page that opens replays itself: it defines `TolmanReplay`. What is

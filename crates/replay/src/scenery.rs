@@ -4,8 +4,8 @@ use serde::Serialize;
 use tolman_geom::{Point, Vector};
 use tolman_sim::{Area, Bounds, World};
 
-/// What stands still: walls, zones of the floor, and doors in their frames. Metres, x to the right
-/// and y upwards.
+/// Things that stand still: walls, zones of the floor, and doors in their frames. Metres, x to the
+/// right and y upwards.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scenery {
     /// The ends of each wall.
@@ -19,21 +19,21 @@ pub struct Scenery {
 /// A part of the floor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneryZone {
-    /// What it means, and so how it is coloured.
+    /// Meaning, which sets the colour.
     pub kind: ZoneKind,
-    /// What it is called.
+    /// Name.
     pub name: String,
     /// Its corners in order.
     pub corners: Vec<Point>,
 }
 
-/// What a [`SceneryZone`] means.
+/// Meaning of a [`SceneryZone`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ZoneKind {
-    /// Where the robot is to go.
+    /// Destination of the robot.
     Destination,
-    /// Where it began.
+    /// Start of the robot.
     Start,
     /// A part of the floor that is told apart.
     Region,
@@ -44,11 +44,11 @@ pub enum ZoneKind {
 /// A wall that comes and goes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneryDoor {
-    /// What it is called.
+    /// Name.
     pub name: String,
     /// Its ends.
     pub ends: [Point; 2],
-    /// How it stood and from when on, ascending; before the first change it is open.
+    /// States with their first steps, ascending; before the first change it is open.
     pub changes: Vec<DoorChange>,
 }
 

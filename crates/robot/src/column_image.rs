@@ -28,12 +28,12 @@ impl ColumnImage {
     }
 }
 
-/// What a robot with a camera beside a laser ring, compass, wheel encoders and a bumper senses in
+/// Readings of a robot with a camera beside a laser ring, a compass, wheel encoders and a bumper in
 /// one time step.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CameraSensing {
-    /// What all but the camera sense.
+    /// Readings of all sensors but the camera.
     pub laser: LaserSensing,
     /// The camera's image; `None` is a drop-out.
     pub image: Option<ColumnImage>,

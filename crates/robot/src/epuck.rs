@@ -17,15 +17,15 @@ pub const TRACK: f64 = 0.053;
 #[expect(clippy::approx_constant, reason = "the data sheet says 6.28, not 2π")]
 pub const MOST_WHEEL_SPEED: f64 = 6.28;
 
-/// What the encoders count, rad: thousandths of a turn, as the motor has 20 steps behind a gear of
-/// 50 to 1.
+/// Resolution of the encoders, rad: a thousandth of a turn, as the motor has 20 steps per turn
+/// behind a gear of ratio 50.
 pub const ENCODER_STEP: f64 = TAU / 1000.0;
 
-/// How many proximity sensors look round.
+/// Number of proximity sensors.
 pub const PROXIMITY_SENSORS: usize = 8;
 
-/// Where each proximity sensor sits and looks, degrees and m. Number 0 looks ahead, a little to the
-/// right; the others follow clockwise.
+/// Position and direction of each proximity sensor, degrees and m. Number 0 looks ahead, a little
+/// to the right; the others follow clockwise.
 const MOUNTS: [(f64, f64, f64); PROXIMITY_SENSORS] = [
     (-17.2, 0.030, -0.010),
     (-45.9, 0.022, -0.025),
@@ -102,7 +102,7 @@ impl crate::Standstill for WheelSpeeds {
     const STOP: Self = Self::STOP;
 }
 
-/// How far each wheel turned in a time step, rad, whether the robot moved or not.
+/// Turn of each wheel in a time step, rad, whether the robot moved or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelTurns {
@@ -112,7 +112,7 @@ pub struct WheelTurns {
     pub right: f64,
 }
 
-/// What an e-puck senses in one time step. A sensor that gave nothing this time is `None`.
+/// Readings of an e-puck in one time step. A sensor that gave nothing this time is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EpuckSensing {
@@ -121,7 +121,7 @@ pub struct EpuckSensing {
     /// The proximity sensors' raw values, in the order of [`proximity_mounts`]: the larger the
     /// nearer.
     pub proximity: Option<[f64; PROXIMITY_SENSORS]>,
-    /// What the wheels turned since the step before.
+    /// Turns of the wheels since the step before.
     pub encoders: Option<WheelTurns>,
     /// Whether the body touched something in this step. The real robot has no bumper and says
     /// nothing.

@@ -252,7 +252,7 @@ pub enum SerialError {
     /// The port failed.
     #[error("the port failed: {0:?}")]
     Port(ErrorKind),
-    /// What came is no line of text.
+    /// The answer is not a line of text.
     #[error("the e-puck sends bytes that are not text: check the port's speed and its firmware")]
     Garbage,
     /// The answer is that to another command.
@@ -260,9 +260,9 @@ pub enum SerialError {
         "the e-puck answers {answer:?} where `{expected}` should stand: open its port again; if that does not help, switch it off and on"
     )]
     Unexpected {
-        /// How it should begin.
+        /// Expected beginning.
         expected: &'static str,
-        /// What came.
+        /// Answer received.
         answer: String,
     },
     /// There are not as many numbers as there should be.
@@ -270,9 +270,9 @@ pub enum SerialError {
         "the e-puck answers {answer:?}, which has not {expected} numbers: a part of the line was lost"
     )]
     Numbers {
-        /// How many there should be.
+        /// Number of numbers expected.
         expected: usize,
-        /// What came.
+        /// Answer received.
         answer: String,
     },
     /// The wheels' speeds are not those that it was told.
@@ -280,9 +280,9 @@ pub enum SerialError {
         "the e-puck drives at {set:?} steps a second where it was told {told:?}: a byte was lost, or its remote control is in use; open its port again"
     )]
     Speeds {
-        /// What it was told, left and right, encoder steps a second.
+        /// Commanded speed, left and right, encoder steps a second.
         told: [i32; 2],
-        /// What it says is set.
+        /// Speed that it reports, left and right, encoder steps a second.
         set: [i32; 2],
     },
     /// A speed is no number.

@@ -1,12 +1,12 @@
 use crate::Robot;
 
-/// What tells a place from others that look like it.
+/// A mark that tells a place from others that look like it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Landmark {
-    /// Where the robot started.
+    /// The robot's start.
     Start,
-    /// Where it has to go.
+    /// The robot's goal.
     Goal,
     /// Another one that it can recognize, by a number of the caller's.
     Numbered(u32),

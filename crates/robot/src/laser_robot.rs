@@ -2,7 +2,7 @@ use tolman_geom::Heading;
 
 use crate::{Odometry, Ring, Scan};
 
-/// What a robot with a laser ring, a compass, wheel encoders and a bumper senses in one time step.
+/// Readings of a robot with a laser ring, a compass, wheel encoders and a bumper in one time step.
 ///
 /// A sensor that gave nothing this time (a drop-out) is `None`; the other readings still hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,14 +14,15 @@ pub struct LaserSensing {
     pub scan: Option<Scan>,
     /// The compass: absolute heading, 0 is east.
     pub compass: Option<Heading>,
-    /// What the wheels rolled since the step before.
+    /// Odometry since the step before.
     pub odometry: Option<Odometry>,
     /// Whether the body touched something in this step.
     pub bump: Option<bool>,
 }
 
 impl LaserSensing {
-    /// Before the first reading: a scan that met nothing, and no word from any other sensor.
+    /// Returns the state before the first reading: a scan that met nothing, and nothing from any
+    /// other sensor.
     #[must_use]
     pub fn silent(ring: Ring) -> Self {
         Self {

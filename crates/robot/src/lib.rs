@@ -8,6 +8,7 @@
 //!
 //! Metres, radians, seconds; the robot's frame has x ahead and y to the left.
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
 #[cfg(feature = "epuck-serial")]

@@ -12,7 +12,7 @@ use crate::Landmark;
 /// diktiometry a move with bounds on its odometry. Whoever has a log makes these of it; what a
 /// mapper needs and a log does not have is a field that cannot be filled.
 pub trait Mapper {
-    /// What it takes in at a time.
+    /// One observation of the mapper.
     type Observation;
     /// Reason why it refuses an observation.
     type Error;
@@ -108,7 +108,7 @@ pub struct MapView {
 pub struct MapPlace {
     /// The name by which links and beliefs call it.
     pub id: u32,
-    /// Where it lies, m, in the map's own frame; `None` where the map does not know.
+    /// Position, m, in the map's own frame; `None` if the map does not know it.
     pub position: Option<Point>,
     /// The landmark that stands there.
     pub landmark: Option<Landmark>,
@@ -126,9 +126,9 @@ pub struct MapLink {
 /// A place where a robot may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guess {
-    /// Where.
+    /// Position.
     pub at: Position,
-    /// How much it is believed, 0 … 1.
+    /// Probability, 0 to 1.
     pub weight: f64,
 }
 

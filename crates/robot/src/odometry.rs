@@ -1,6 +1,6 @@
 use tolman_geom::Pose;
 
-/// What the wheels say the robot did in the last time step.
+/// Motion of the robot in the last time step, by its wheels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Odometry {
@@ -11,7 +11,7 @@ pub struct Odometry {
 }
 
 impl Odometry {
-    /// Dead reckoning: the pose after this motion, from the pose before it.
+    /// Returns the pose after this motion, from the pose before it: dead reckoning.
     ///
     /// ```
     /// use core::f64::consts::{FRAC_PI_2, PI};

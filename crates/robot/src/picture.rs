@@ -21,13 +21,13 @@ pub struct Picture {
     pub pixels: Vec<[u8; 3]>,
 }
 
-/// Where a camera sits and how much it sees. It looks straight ahead and level.
+/// Mount and field of view of a camera. It looks straight ahead and level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PinholeCamera {
-    /// Where it sits, in the robot's frame, m.
+    /// Position in the robot's frame, m.
     pub position: Point,
-    /// How high it sits above the floor, m.
+    /// Height above the floor, m.
     pub height: f64,
     /// The whole angle that it sees across, rad; below π.
     pub field_across: f64,
@@ -82,7 +82,7 @@ impl Picture {
     }
 }
 
-/// 0.5 at the first edge, −0.5 at the last.
+/// Returns 0.5 at the first edge, −0.5 at the last.
 fn share_before_middle(index: u32, count: u32) -> f64 {
     0.5 - (f64::from(index) + 0.5) / f64::from(count.max(1))
 }

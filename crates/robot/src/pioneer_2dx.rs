@@ -17,8 +17,8 @@ pub const LENGTH: f64 = 0.44;
 /// Width of the body, m.
 pub const WIDTH: f64 = 0.33;
 
-/// How far the body reaches ahead of the wheels' axle, m. The sonars at the back then sit within
-/// it.
+/// Distance from the wheels' axle to the front of the body, m. The sonars at the back then lie
+/// within it.
 pub const FRONT: f64 = 0.18;
 
 /// Radius of a wheel, m.
@@ -27,10 +27,10 @@ pub const WHEEL_RADIUS: f64 = 0.0825;
 /// From wheel to wheel, m.
 pub const TRACK: f64 = 0.3206;
 
-/// How many sonars look round.
+/// Number of sonars.
 pub const SONARS: usize = 16;
 
-/// How far to either side a sonar hears, rad: its cone is 15° wide.
+/// Half-width of a sonar's cone, rad: the cone is 15° wide.
 pub const SONAR_HALF_WIDTH: f64 = 7.5 * PI / 180.0;
 
 /// A sonar reads nothing nearer, m.
@@ -47,8 +47,8 @@ pub const CAMERA: PinholeCamera = PinholeCamera {
     field_down: 37.0 * PI / 180.0,
 };
 
-/// Where each sonar sits and looks, m and degrees. Number 0 looks left, 3 and 4 ahead, 7 right; 8
-/// to 15 go on clockwise round the back.
+/// Position and direction of each sonar, m and degrees. Number 0 looks left, 3 and 4 ahead, 7
+/// right; 8 to 15 go on clockwise round the back.
 const MOUNTS: [(f64, f64, f64); SONARS] = [
     (0.069, 0.136, 90.0),
     (0.114, 0.119, 50.0),
@@ -97,7 +97,7 @@ pub fn body() -> Body {
     }
 }
 
-/// What it senses in one time step. A sensor that gave nothing this time is `None`; the other
+/// Its readings in one time step. A sensor that gave nothing this time is `None`; the other
 /// readings still hold.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -106,9 +106,9 @@ pub struct Pioneer2dxSensing {
     pub time_us: u64,
     /// The range of each sonar, m, [`SONAR_MOST`] where it met nothing.
     pub sonars: Option<[f64; SONARS]>,
-    /// What the camera sees; `None` while the robot moves, which would blur it.
+    /// Picture of the camera; `None` while the robot moves, which would blur it.
     pub picture: Option<Picture>,
-    /// What the wheels rolled since the step before.
+    /// Odometry since the step before.
     pub odometry: Option<Odometry>,
     /// Whether the body touched something in this step.
     pub bump: Option<bool>,

@@ -27,9 +27,9 @@
 /// assert_eq!(*cart.sensing(), 1.5);
 /// ```
 pub trait Robot {
-    /// What the robot is told in one time step.
+    /// Command for one time step.
     type Command: Standstill;
-    /// What it knows after one.
+    /// Readings after a time step.
     type Sensing;
     /// Reason why a step can fail: a lost connection, a command that is not a number.
     type Error;

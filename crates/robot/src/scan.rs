@@ -10,18 +10,18 @@ use tolman_geom::Heading;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ring {
-    /// How many beams.
+    /// Number of beams.
     pub beams: u32,
     /// Bearing of beam 0, rad.
     pub first_bearing: f64,
     /// Bearing from one beam to the next, rad.
     pub spacing: f64,
-    /// What a beam reads where it meets nothing, m.
+    /// Reading of a beam that meets nothing, m.
     pub max_range: f64,
 }
 
 impl Ring {
-    /// `beams` beams spread evenly over the whole circle, beam 0 ahead.
+    /// Returns `beams` beams spread evenly over the whole circle, beam 0 ahead.
     ///
     /// ```
     /// use tolman_robot::Ring;
@@ -38,8 +38,8 @@ impl Ring {
         }
     }
 
-    /// `beams` beams over a field of view of `field` rad centred ahead, both ends included; a
-    /// single beam looks ahead.
+    /// Returns `beams` beams over a field of view of `field` rad centred ahead, both ends included;
+    /// a single beam looks ahead.
     ///
     /// ```
     /// use core::f64::consts::{FRAC_PI_2, PI};
@@ -75,7 +75,7 @@ impl Ring {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Scan {
-    /// Which way each beam looked.
+    /// Geometry of the beams.
     pub ring: Ring,
     /// Metres along each beam, `ring.max_range` where nothing was met; `ring.beams` of them.
     pub ranges: Vec<f64>,

@@ -2,13 +2,13 @@ use alloc::vec::Vec;
 
 use crate::{LaserSensing, Picture, Sounding, Soundings};
 
-/// What a robot perceives from where it stands, whatever its sensors are.
+/// Perception of a robot at its place, whatever its sensors are.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot {
-    /// What its range sensors read.
+    /// Readings of its range sensors.
     pub soundings: Vec<Sounding>,
-    /// What its camera sees; `None` of a robot without one.
+    /// Picture of its camera; `None` for a robot without one.
     pub picture: Option<Picture>,
 }
 

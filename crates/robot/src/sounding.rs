@@ -7,11 +7,11 @@ use crate::LaserSensing;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sounding {
-    /// Where the sensor sits and which way it looks, in the robot's frame.
+    /// Position and direction of the sensor, in the robot's frame.
     pub mount: Pose,
-    /// How far to either side of that it hears, rad; 0 for a beam.
+    /// Half-width of its cone, rad; 0 for a beam.
     pub half_width: f64,
-    /// How far away the nearest thing within its cone is, m; `max_range` where it met nothing.
+    /// Distance of the nearest thing within its cone, m; `max_range` if it met nothing.
     pub range: f64,
     /// The most it reads, m.
     pub max_range: f64,

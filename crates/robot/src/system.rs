@@ -32,7 +32,7 @@ pub trait System<R: Robot>: Mapper {
     }
 }
 
-/// What a system is asked to do.
+/// Task of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Task {
     /// To learn the world until it knows all of it, or as much as it wants to.
@@ -43,7 +43,7 @@ pub enum Task {
     Localize,
 }
 
-/// Where a system is sent.
+/// Goal of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Goal {
     /// To a landmark, which the robot senses when it is there.
@@ -52,7 +52,7 @@ pub enum Goal {
     Place(u32),
 }
 
-/// How a task stands after an action.
+/// State of a task after an action.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// It goes on.
@@ -61,7 +61,7 @@ pub enum Standing {
     Done,
     /// The system gave up.
     GaveUp {
-        /// Why, in a sentence without a full stop.
+        /// Reason, in a sentence without a full stop.
         why: String,
     },
 }

@@ -19,7 +19,7 @@ pub struct Trajectory {
     poses: Vec<TimedPose>,
 }
 
-/// Where a robot was at a time.
+/// Pose of a robot at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimedPose {
     /// Time, s.

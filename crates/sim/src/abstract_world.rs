@@ -1,8 +1,8 @@
 //! A world without bodies and time: places, and moves that lead from one to the next.
 //!
-//! What a mapper of places sees of a robot, some thousand times faster than the raycast world: each
-//! move ends at the next place, and its odometry is wrong within known bounds. The truth stands
-//! beside what is told, for scoring.
+//! It offers a mapper of places what a robot does, some thousand times faster than the raycast
+//! world. Each move ends at the next place, and its odometry is wrong within known bounds. The
+//! truth is recorded for scoring.
 
 use alloc::sync::Arc;
 
@@ -35,8 +35,8 @@ pub struct AbstractWorld {
 }
 
 impl AbstractWorld {
-    /// Returns one place a cell, `spacing` metres apart, numbered as the grid numbers its cells; a
-    /// move leads to the next cell where no wall stands. All places look alike.
+    /// Returns a world with one place per cell, `spacing` m apart, numbered like the grid's cells.
+    /// A move leads to the next cell if no wall stands between. All places look alike.
     #[must_use]
     pub fn from_maze(maze: &Maze, spacing: f64) -> Self {
         let cells: Vec<_> = maze.grid().cells().collect();
@@ -46,8 +46,8 @@ impl AbstractWorld {
         })
     }
 
-    /// Returns the corridors of a maze whose cells are `spacing` metres apart: a place at every
-    /// bend, junction and dead end, numbered in the order of their cells; a move leads straight on
+    /// Returns the corridors of a maze whose cells are `spacing` m apart. There is a place at every
+    /// bend, junction and dead end, numbered in the order of their cells. A move leads straight on
     /// to the next. All places look alike.
     #[must_use]
     pub fn from_corridors(maze: &Maze, spacing: f64) -> Self {
@@ -86,9 +86,9 @@ impl AbstractWorld {
         }
     }
 
-    /// Any places, m, and where the ways north, east, south and west lead from each, by number.
-    /// None if there is not one entry of ways a place, or a way leads to a place that there is not.
-    /// All places look alike.
+    /// Returns a world of any places, m, with the numbers of the places to the north, east, south
+    /// and west of each. `None` if the numbers of entries differ, or a way leads to a place that
+    /// does not exist. All places look alike.
     #[must_use]
     pub fn of_places(places: Vec<Point>, neighbours: Vec<[Option<u32>; 4]>) -> Option<Self> {
         let known = |place: &u32| (*place as usize) < places.len();
@@ -134,8 +134,9 @@ impl AbstractWorld {
         self
     }
 
-    /// Opens, leads elsewhere or shuts the way from a place in a direction and, if it leads to a
-    /// place, the way back from there: a door. Places that do not exist change nothing.
+    /// Returns the world with another way from a place in a direction: opened, leading elsewhere or
+    /// shut, like a door. If it leads to a place, the way back changes too. Places that do not
+    /// exist change nothing.
     #[must_use]
     pub fn with_way(mut self, place: u32, direction: Direction, to: Option<u32>) -> Self {
         let back = direction.opposite() as usize;
@@ -186,7 +187,7 @@ impl AbstractWorld {
     }
 }
 
-/// How wrong moves are told. All errors are drawn evenly from within their bounds.
+/// Errors of the measured moves, drawn uniformly within their bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MoveNoise {
     /// Bound of the error of each distance, as a share of it, 0 ≤ … < 1.
@@ -196,11 +197,11 @@ pub struct MoveNoise {
     /// Bound of an error of scale, as a share of the distance, that is drawn once and shared by all
     /// moves. It is not in the bounds that are told.
     pub shared_scale: f64,
-    /// How far from the place's point the robot stops at most, m, along each axis.
+    /// Maximum distance from the place's point at which the robot stops, m, along each axis.
     pub stop: f64,
     /// Share of moves whose errors are `outlier_factor` times as large and break the bounds.
     pub outliers: f64,
-    /// How many times.
+    /// Factor of an outlier's error.
     pub outlier_factor: f64,
     /// Bound of the error of what is seen.
     pub look: f64,
@@ -227,7 +228,7 @@ pub struct AbstractRobot {
     chance: Chance,
     scale: f64,
     at: u32,
-    /// Where in the place it stopped.
+    /// Position in the place where it stopped.
     stop: Vector,
     moves: u64,
 }
@@ -241,14 +242,14 @@ pub struct AbstractMove {
     pub direction: Direction,
     /// The place it ended at.
     pub to: u32,
-    /// How the robot really moved, m.
+    /// True displacement of the robot, m.
     pub truth: Vector,
-    /// How its odometry says that it moved, m, along the axes of its compass.
+    /// Displacement by odometry, m, along the axes of its compass.
     pub measured: Vector,
-    /// What follows for how it moved, but for the shared scale and outliers: the displacement along
-    /// the true axes, m, and the heading.
+    /// Bounds of the move by its measurement, without the shared scale and outliers: the
+    /// displacement along the true axes, m, and the heading.
     pub odometry: PoseBox,
-    /// What it sees to each direction, in the order of [`Direction::ALL`].
+    /// What it sees in each direction, in the order of [`Direction::ALL`].
     pub look: [f64; 4],
 }
 
@@ -307,7 +308,7 @@ impl AbstractRobot {
         }
     }
 
-    /// By how much its odometry is too long at every move, as a factor.
+    /// Returns the factor by which its odometry is too long at every move.
     #[must_use]
     pub const fn scale(&self) -> f64 {
         self.scale

@@ -15,7 +15,7 @@ pub enum BodyError {
     /// A polygon has fewer than three corners.
     #[error("the body's outline has {count} corners; give at least three")]
     Corners {
-        /// How many it has.
+        /// Number of corners.
         count: usize,
     },
     /// A polygon turns right (or not at all) at a corner, or a corner is not a number.
@@ -24,7 +24,7 @@ pub enum BodyError {
          convex outline counter-clockwise round the robot's origin"
     )]
     NotConvex {
-        /// Which corner, from 0.
+        /// Number of the corner, from 0.
         index: usize,
         /// Its x, m.
         x: f64,

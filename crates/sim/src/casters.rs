@@ -33,7 +33,7 @@ pub use lattice_walk::LatticeWalk;
 pub use parry::ParryPolyline;
 pub use wall_index::WallIndex;
 
-/// Knows how far it is to the nearest wall in any direction.
+/// Returns distances to the nearest wall in any direction.
 pub trait Caster: fmt::Debug + Send + Sync {
     /// Returns how far a ray goes before it meets a wall, m; `max_range` if it meets none before.
     /// `direction` is a unit vector.
@@ -46,13 +46,13 @@ pub trait Caster: fmt::Debug + Send + Sync {
     }
 }
 
-/// For how many beams at once the casters of this crate compute. The numbers are the same to the
+/// Number of beams that the casters of this crate compute at once. The results are the same bit for
 /// bit: lanes do what scalars do, and nothing is fused.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lanes {
-    /// As many as every processor of the target has lanes for: two on plain x86-64.
+    /// The number that every processor of the target has lanes for: two on plain x86-64.
     Baseline,
-    /// As many as this processor has lanes for, found out at run time.
+    /// The number that this processor has lanes for, found out at run time.
     #[default]
     Widest,
 }

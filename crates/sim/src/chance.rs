@@ -4,9 +4,9 @@ use rand::TryRng;
 
 /// The random numbers of one run, for one robot at one tick.
 ///
-/// Counter-based: what a channel draws is a pure function of (run, robot, tick, channel, how many
-/// it drew before in this tick). Nothing is shared, so a further consumer never shifts another
-/// one's numbers, and a tick can be drawn again without drawing those before it.
+/// Counter-based: a channel's number is a pure function of the run, the robot, the tick, the
+/// channel, and the count of its draws in this tick. Nothing is shared, so a further consumer never
+/// shifts another one's numbers, and a tick can be drawn again without drawing those before it.
 ///
 /// The function is Philox4x32-10 (Salmon, Moraes, Dror, Shaw: *Parallel random numbers: as easy as
 /// 1, 2, 3*, SC 2011), which passes BigCrush and, unlike a repositioned stream cipher, costs
@@ -123,15 +123,15 @@ impl Draws {
         self.block[3 - self.left]
     }
 
-    /// Uniform in [0, 1), in steps of 2⁻⁵³.
+    /// Returns a uniform number in [0, 1), in steps of 2⁻⁵³.
     #[must_use]
     pub fn uniform(&mut self) -> f64 {
         let bits = u64::from(self.word()) << 32 | u64::from(self.word());
         (bits >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
     }
 
-    /// Standard normal: mean 0, standard deviation 1. Marsaglia's polar method with [`libm`]'s
-    /// logarithm, so that every platform draws the same bits.
+    /// Returns a standard normal number: mean 0, standard deviation 1. It uses Marsaglia's polar
+    /// method with [`libm`]'s logarithm, so that every platform draws the same bits.
     #[must_use]
     pub fn gaussian(&mut self) -> f64 {
         if let Some(spare) = self.spare.take() {
@@ -170,7 +170,7 @@ impl TryRng for Draws {
     }
 }
 
-/// Philox4x32 with ten rounds.
+/// Returns the output of Philox4x32 with ten rounds.
 fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     for _ in 0..10 {
         let first = u64::from(counter[0]) * 0xD251_1F53;

@@ -1,7 +1,7 @@
 //! Bodies that move until they touch.
 //!
-//! A step's arc is followed along chords of at most a tenth of a radian, each swept as a whole, so
-//! that nothing is passed through however far a step goes.
+//! A step's arc is followed along chords of at most a tenth of a radian. Each chord is swept as a
+//! whole, so nothing is passed through however long a step is.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -10,13 +10,13 @@ use tolman_geom::{Point, Pose, Vector};
 use crate::scene::{Crowd, Disc, Placed, Scene};
 use crate::{Motion, WallSegment, World};
 
-/// What happens where a body meets something.
+/// Behaviour where a body meets something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Contact {
     /// It stays where it touched. A disc still turns.
     Stop,
-    /// What is left of its path goes along what it touched.
+    /// The rest of its path goes along what it touched.
     Slide,
 }
 
@@ -92,7 +92,7 @@ fn crosses(a: &WallSegment, b: &WallSegment) -> bool {
     in_reach && side(a, b.start) * side(a, b.end) <= 0.0 && side(b, a.start) * side(b, a.end) <= 0.0
 }
 
-/// What is near enough to a body to be met in one step. Kept from step to step for its memory.
+/// Obstacles that a body may meet in one step. Kept between steps for the memory.
 #[derive(Debug, Default)]
 pub(crate) struct Obstacles {
     /// Walls, shut doors and the sides of polygons.
@@ -134,8 +134,8 @@ impl Obstacles {
     }
 }
 
-/// Moves the body of robot `robot` until it has carried out `motion` or met something. Says whether
-/// the motion was cut.
+/// Moves the body of robot `robot` until it has carried out `motion` or met something. Returns
+/// whether the motion was cut.
 pub(crate) fn advance(
     world: &World,
     shut: &[WallSegment],
@@ -167,8 +167,7 @@ pub(crate) fn advance(
     })
 }
 
-/// Moves a body along an arc as far as the obstacles let it; gives how much of the motion was cut,
-/// m.
+/// Moves a body along an arc as far as the obstacles let it. Returns the length that was cut, m.
 fn follow(body: &mut Placed, obstacles: &Obstacles, motion: Motion, contact: Contact) -> f64 {
     let start = body.pose();
     let chords = (motion.turn.abs() / CHORD_TURN)
@@ -207,7 +206,7 @@ struct Touch {
 struct Mover<'a> {
     body: &'a mut Placed,
     obstacles: &'a Obstacles,
-    /// How much of the motion was not carried out, m.
+    /// Length of the motion that was not carried out, m.
     cut: f64,
 }
 
@@ -275,7 +274,7 @@ impl Mover<'_> {
         free
     }
 
-    /// Moves by `displacement` as far as possible; says whether something was met.
+    /// Moves by `displacement` as far as possible, and returns whether something was met.
     fn translate(&mut self, displacement: Vector, contact: Contact) -> bool {
         let mut left = displacement;
         let mut met = false;
@@ -305,7 +304,7 @@ impl Mover<'_> {
         met
     }
 
-    /// Moves the body, unless rounding would let it overlap something. Where it was, it was clear.
+    /// Moves the body, unless rounding would let it overlap something. Its old pose is clear.
     fn advance(&mut self, displacement: Vector) -> bool {
         let before = self.body.pose();
         self.body
@@ -387,7 +386,7 @@ impl Mover<'_> {
     }
 }
 
-/// When a disc on its way first comes within `radius` of a wall.
+/// Returns when a disc on its way first comes within `radius` of a wall.
 fn disc_meets_wall(
     centre: Point,
     radius: f64,
@@ -425,7 +424,7 @@ fn disc_meets_wall(
     ends.chain(side).min_by(|a, b| a.share.total_cmp(&b.share))
 }
 
-/// When a disc on its way first comes within `radius` of a point.
+/// Returns when a disc on its way first comes within `radius` of a point.
 fn disc_meets_point(
     centre: Point,
     radius: f64,

@@ -18,16 +18,16 @@ pub enum DoorState {
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Door {
-    /// What it is called by; no two doors of a world share a name.
+    /// Name; unique in a world.
     pub name: String,
     /// One end, m.
     pub start: Point,
     /// The other end, m.
     pub end: Point,
-    /// What it is made of.
+    /// Material.
     #[serde(default)]
     pub material: Material,
-    /// How it stands when a run begins.
+    /// State when a run begins.
     pub state: DoorState,
     /// When it changes by itself, in order of time.
     #[serde(default)]
@@ -51,6 +51,6 @@ impl Door {
 pub struct DoorEvent {
     /// Microseconds since the run began.
     pub time_us: u64,
-    /// How the door stands from then on.
+    /// State of the door from then on.
     pub state: DoorState,
 }

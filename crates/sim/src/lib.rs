@@ -50,6 +50,14 @@
 //! assert!(destination.contains(solo.truth().pose.position));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # A sensor of your own
+//!
+//! `cargo run --example own_sensor`:
+#![doc = "```"]
+#![doc = include_str!("../examples/own_sensor.rs")]
+#![doc = "```"]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
 

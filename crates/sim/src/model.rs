@@ -3,8 +3,8 @@ use tolman_robot::Body;
 
 use crate::{Chance, Contact, Surroundings};
 
-/// How a robot moves in one time step: a circular arc of `distance` metres of path along which it
-/// turns by `turn` radians.
+/// Motion of a robot in one time step: a circular arc of `distance` m of path along which it turns
+/// by `turn` rad, counter-clockwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Motion {
     /// Path length, m; negative is backward.
@@ -25,12 +25,12 @@ impl tolman_robot::Standstill for Motion {
 /// The simulation calls [`motion`](Self::motion) and then [`sense`](Self::sense) once a step, each
 /// with the [`Chance`] of this robot and tick.
 pub trait Model {
-    /// What it is told in one time step.
+    /// Command for one time step.
     type Command: Clone + core::fmt::Debug + tolman_robot::Standstill;
-    /// What it senses after one.
+    /// Readings after a time step.
     type Sensing: core::fmt::Debug;
 
-    /// Its outline.
+    /// Returns its outline.
     fn body(&self) -> &Body;
 
     /// Returns what happens where the body meets something.
@@ -49,7 +49,7 @@ pub trait Model {
     /// [`check`](Self::check).
     fn motion(&mut self, command: &Self::Command, chance: &Chance) -> Motion;
 
-    /// Returns what it senses before anything was sensed: the buffers that [`sense`](Self::sense)
+    /// Returns the readings before anything was sensed: the buffers that [`sense`](Self::sense)
     /// fills.
     fn silent(&self) -> Self::Sensing;
 
@@ -66,9 +66,9 @@ pub trait Model {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("the command's {part} is {value}; give a finite number")]
 pub struct CommandError {
-    /// Which part of the command.
+    /// Part of the command.
     pub part: &'static str,
-    /// What it says.
+    /// Its value.
     pub value: f64,
 }
 

@@ -29,8 +29,8 @@ pub trait Values: Clone {
     /// Replaces every number by what `change` makes of it.
     fn change(&mut self, change: impl FnMut(f64) -> f64);
 
-    /// Returns whether the value is one that a sensor or a motor can give: all its numbers are
-    /// finite, and as many and as large as its type promises.
+    /// Returns whether a sensor or a motor can give this value: all its numbers are finite, and
+    /// their count and size are as its type promises.
     fn is_sound(&self) -> bool {
         let mut is_sound = true;
         self.clone().change(|number| {
@@ -63,8 +63,8 @@ impl<const N: usize> Values for [f64; N] {
 }
 
 impl Values for Scan {
-    /// Beams that met nothing have no echo to disturb; the others stay within the range of the
-    /// ring.
+    /// Changes the ranges of beams that met something, within the range of the ring. Others have no
+    /// echo to disturb.
     fn change(&mut self, mut change: impl FnMut(f64) -> f64) {
         let max_range = self.ring.max_range;
         for range in self.ranges.iter_mut().filter(|range| **range < max_range) {
@@ -81,14 +81,14 @@ impl Values for Scan {
 }
 
 impl Values for ColumnImage {
-    /// No measurement falls below darkness or rises above full light.
+    /// Changes each measurement, between darkness and full light.
     fn change(&mut self, mut change: impl FnMut(f64) -> f64) {
         for value in self.columns.iter_mut().flatten() {
             *value = change(*value).clamp(0.0, 1.0);
         }
     }
 
-    /// Each measurement from 0 to 1.
+    /// Returns whether each measurement is from 0 to 1.
     fn is_sound(&self) -> bool {
         let mut all = self.columns.iter().flatten();
         all.all(|value| (0.0..=1.0).contains(value))
@@ -96,14 +96,14 @@ impl Values for ColumnImage {
 }
 
 impl Values for Picture {
-    /// Red, green and blue of every pixel, 0 … 255, rounded.
+    /// Changes red, green and blue of every pixel, 0 to 255, rounded.
     fn change(&mut self, mut change: impl FnMut(f64) -> f64) {
         for value in self.pixels.iter_mut().flatten() {
             *value = change(f64::from(*value)).round().clamp(0.0, 255.0) as u8;
         }
     }
 
-    /// As many pixels as its size says.
+    /// Returns whether the number of pixels is as its size says.
     fn is_sound(&self) -> bool {
         self.pixels.len() == self.width as usize * self.height as usize
     }

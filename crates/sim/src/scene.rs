@@ -18,7 +18,7 @@ pub(crate) struct Scene<'a> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Crowd {
     bodies: Vec<Placed>,
-    /// The disc round each: what tells in a line of memory who is out of reach.
+    /// The disc round each, stored together to find bodies out of reach quickly.
     discs: Vec<Disc>,
 }
 
@@ -68,7 +68,7 @@ impl Crowd {
     }
 }
 
-/// How many sides a disc has where it counts as a polygon.
+/// Number of sides of a disc where it counts as a polygon.
 const DISC_SIDES: u32 = 24;
 
 /// A body somewhere.

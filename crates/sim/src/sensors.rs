@@ -43,11 +43,11 @@ pub use sonars::{CrossTalk, Misses, SonarConfig, SonarError, Sonars};
 
 /// Something that reads a value off the surroundings of a robot.
 pub trait Sensor {
-    /// What it reads.
+    /// Type of its readings.
     type Reading;
 
-    /// Takes a reading: `None` where the sensor gives nothing this time. What `reading` held before
-    /// may be written over in place, so that a step need not allocate.
+    /// Takes a reading; `None` if the sensor gives nothing this time. The old contents of `reading`
+    /// may be overwritten in place, so that a step need not allocate.
     fn sense(
         &mut self,
         surroundings: &Surroundings<'_>,

@@ -16,12 +16,12 @@ use crate::{
 #[serde(transparent)]
 pub struct RobotId(pub u32);
 
-/// What really is, for scoring; no robot knows it.
+/// The truth about a robot, for scoring; no robot knows it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Truth {
-    /// Where the robot is.
+    /// Pose of the robot.
     pub pose: Pose,
-    /// How it moved in the last step.
+    /// Motion in the last step.
     pub motion: Motion,
     /// Whether that motion was cut by a contact.
     pub bump: bool,
@@ -253,7 +253,7 @@ impl<M: Model> Simulation<M> {
         &self.robots[robot.0 as usize].sensing
     }
 
-    /// Returns what really is.
+    /// Returns the truth about a robot.
     ///
     /// # Panics
     /// If `robot` is of another simulation.
@@ -282,7 +282,7 @@ impl<M: Model> Simulation<M> {
         &self.world
     }
 
-    /// Steps since the run began.
+    /// Returns the number of steps since the run began.
     #[must_use]
     pub fn tick(&self) -> u64 {
         self.tick
@@ -333,7 +333,7 @@ struct Doors {
 struct Standing {
     wanted: DoorState,
     is_shut: bool,
-    /// How many events of the schedule have passed.
+    /// Number of events of the schedule that have passed.
     passed: usize,
 }
 
@@ -436,7 +436,7 @@ pub enum PlaceError {
         pose: Pose,
         /// The room the robot needs to every side, m.
         radius: f64,
-        /// How far the nearest wall is, m.
+        /// Distance of the nearest wall, m.
         free: f64,
     },
     /// The robot would overlap another one.
@@ -481,9 +481,9 @@ pub enum StepError {
     /// There is not one command per robot.
     #[error("there are {commands} commands for {robots} robots; give one command per robot")]
     Commands {
-        /// How many commands were given.
+        /// Number of commands given.
         commands: usize,
-        /// How many robots there are.
+        /// Number of robots.
         robots: usize,
     },
     /// A command cannot be carried out.

@@ -33,7 +33,7 @@ impl<M: Model> Solo<M> {
         })
     }
 
-    /// Returns what really is.
+    /// Returns the truth about the robot.
     #[must_use]
     pub fn truth(&self) -> &Truth {
         self.simulation.truth(self.robot)

@@ -4,36 +4,35 @@ use crate::casters::BeamSweep;
 use crate::scene::Scene;
 use crate::{Material, Truth, WallSegment, World};
 
-/// What a sensor can be sensitive to: the true state of things round one robot at the end of a
-/// step.
+/// Input of sensors: the true state of things round one robot at the end of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
     pub(crate) scene: Scene<'a>,
     pub(crate) robot: usize,
-    /// Where the robot is, how it moved in this step, and when that is.
+    /// Pose of the robot, its motion in this step, and the time.
     pub truth: &'a Truth,
 }
 
 /// A half-line in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it begins, m.
+    /// Origin, m.
     pub origin: Point,
-    /// Where it goes: a unit vector.
+    /// Direction: a unit vector.
     pub direction: Vector,
 }
 
 /// What a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Echo {
-    /// How far away, m; the ray's whole length if nothing.
+    /// Distance, m; the ray's whole length if it meets nothing.
     pub range: f64,
-    /// What it is made of; robots are of the default material.
+    /// Material; robots are of the default material.
     pub material: Material,
 }
 
 impl Echo {
-    /// Something stands at `range`: it counts if it is nearer than what was met so far.
+    /// Takes in something at `range`, which counts if it is nearer than what was met so far.
     fn shorten(&mut self, range: f64, material: Material) {
         if range < self.range {
             *self = Self { range, material };
@@ -93,9 +92,9 @@ impl<'a> Surroundings<'a> {
         echoes
     }
 
-    /// Collects in `found`, which is emptied first, what comes within `reach` m of a point, and
-    /// some of what does not: walls, shut doors and the outlines of other robots. A disc counts as
-    /// the regular polygon of 24 sides round it, which is less than 1 % of its radius larger.
+    /// Collects in `found`, which is emptied first, all walls, shut doors and outlines of other
+    /// robots that come within `reach` m of a point, and some more. A disc counts as the regular
+    /// polygon of 24 sides round it, which is larger by less than 1 % of its radius.
     pub fn standing_near(&self, centre: Point, reach: f64, found: &mut Vec<WallSegment>) {
         found.clear();
         self.world()

@@ -60,7 +60,7 @@ pub trait Recordable:
     /// Reason why one cannot be built.
     type ConfigError: Error + Send + Sync + 'static;
 
-    /// Returns what this one was built to.
+    /// Returns its configuration.
     fn config(&self) -> &Self::Config;
 
     /// Builds one.

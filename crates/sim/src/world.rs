@@ -30,13 +30,13 @@ pub use zone::{Area, Zone};
 pub(crate) use bit_rows::BitRows;
 pub(crate) use lattice::Lattice;
 
-/// How a grid maze is drawn to scale.
+/// Scale of a grid maze.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CorridorSize {
     /// The free width between two walls, m.
     pub corridor_width: f64,
-    /// How thick a wall is, m; 0 for walls that are lines.
+    /// Thickness of a wall, m; 0 for walls that are lines.
     pub wall_thickness: f64,
 }
 
@@ -50,7 +50,7 @@ impl CorridorSize {
         }
     }
 
-    /// From the middle of one cell to that of the next, m.
+    /// Returns the distance from the middle of one cell to that of the next, m.
     #[must_use]
     pub fn pitch(&self) -> f64 {
         self.corridor_width + self.wall_thickness
@@ -72,7 +72,7 @@ pub struct World {
     index: Arc<WallIndex>,
     caster: Arc<dyn Caster>,
     cells: Option<Cells>,
-    /// What all walls are made of, if it is the same.
+    /// Material of all walls, if it is the same.
     common_material: Option<Material>,
 }
 
@@ -123,7 +123,7 @@ impl World {
         Ok(world)
     }
 
-    /// Free walls.
+    /// Returns a world of free walls.
     ///
     /// # Errors
     /// If there is no wall, or a wall has no length, or an end of one is not a number.

@@ -1,6 +1,7 @@
 //! The incomplete beta function.
 
-/// Iₓ(a, b), the cumulative beta distribution, for positive `a` and `b` and `x` from 0 to 1.
+/// Returns Iₓ(a, b), the cumulative beta distribution, for positive `a` and `b` and `x` from 0
+/// to 1.
 ///
 /// The continued fraction of DLMF 8.17.22 by Lentz's algorithm, on the side where it converges
 /// fast.
@@ -20,7 +21,7 @@ pub(super) fn regularized_incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
     libm::exp(ln_front) / (a * continued_fraction(a, b, x))
 }
 
-/// 1 + d₁/(1 + d₂/(1 + …)).
+/// Returns 1 + d₁/(1 + d₂/(1 + …)).
 fn continued_fraction(a: f64, b: f64, x: f64) -> f64 {
     /// In place of a zero denominator.
     const TINY: f64 = 1e-300;

@@ -20,7 +20,7 @@ impl ConfidenceInterval {
         (self.low..=self.high).contains(&value)
     }
 
-    /// Both ends times a factor.
+    /// Returns both ends times a factor.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         Self {

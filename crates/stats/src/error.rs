@@ -7,13 +7,15 @@ pub enum SampleError {
     /// The sample is too small.
     #[error("{count} values are too few; {needed} or more are needed")]
     TooSmall {
-        /// How many there are.
+        /// Number of values given.
         count: usize,
-        /// How many are needed.
+        /// Number of values needed.
         needed: usize,
     },
     /// A value is NaN or infinite.
-    #[error("value {index} is {value}; samples must be finite, so leave it out or mend its source")]
+    #[error(
+        "value {index} is {value}; samples must be finite, so leave it out or repair its source"
+    )]
     NotFinite {
         /// Its place in the sample, from 0.
         index: usize,

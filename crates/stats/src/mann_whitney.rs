@@ -12,7 +12,7 @@ pub struct MannWhitney {
     pub u: f64,
     /// The two-sided p-value.
     pub p: PValue,
-    /// How the p-value was found: exact or asymptotic.
+    /// Method of the p-value: exact or asymptotic.
     pub method: Method,
 }
 
@@ -55,8 +55,8 @@ pub fn mann_whitney(a: &[f64], b: &[f64], method: Method) -> Result<MannWhitney,
     Ok(MannWhitney { u, p, method })
 }
 
-/// U of the first sample, as in [`MannWhitney`], and how much the values of both are tied, as in
-/// `Ranks`.
+/// Returns U of the first sample, as in [`MannWhitney`], and the ties among the values of both, as
+/// in `Ranks`.
 pub(super) fn u_statistic(a: &[f64], b: &[f64]) -> Result<(f64, f64), SampleError> {
     check(a, 1)?;
     check(b, 1)?;

@@ -1,8 +1,8 @@
-//! How a p-value is found.
+//! Methods of computing a p-value.
 
 use super::SampleError;
 
-/// How a rank test finds its p-value.
+/// Method by which a rank test computes its p-value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// Exact for small samples without ties, else asymptotic.

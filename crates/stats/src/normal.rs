@@ -2,12 +2,13 @@
 
 use core::f64::consts::{FRAC_1_SQRT_2, LN_2, PI};
 
-/// Φ(z), the probability of a value below `z`.
+/// Returns Φ(z), the probability of a value below `z`.
 pub(super) fn cumulative(z: f64) -> f64 {
     0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
 }
 
-/// ln(1 − Φ(z)), finite for every finite `z`, also where 1 − Φ(z) itself underflows (z > 38).
+/// Returns ln(1 − Φ(z)), finite for every finite `z`, also where 1 − Φ(z) itself underflows (z >
+/// 38).
 pub(super) fn ln_upper_tail(z: f64) -> f64 {
     // From here on six terms of the asymptotic series (Abramowitz and Stegun 26.2.12) are exact to
     // the last bits, and erfc is still far from underflow.

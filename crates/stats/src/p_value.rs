@@ -30,12 +30,12 @@ impl PValue {
         libm::exp(self.ln)
     }
 
-    /// Its natural logarithm.
+    /// Returns its natural logarithm.
     pub const fn ln(self) -> f64 {
         self.ln
     }
 
-    /// This p-value times `comparisons`, at most 1.
+    /// Returns this p-value times `comparisons`, at most 1.
     fn times(self, comparisons: f64) -> Self {
         Self::from_ln(self.ln + libm::log(comparisons))
     }
@@ -61,7 +61,7 @@ impl fmt::Display for PValue {
     }
 }
 
-/// Bonferroni's correction: every p-value times the number of them. O(n).
+/// Returns every p-value times the number of them: Bonferroni's correction. O(n).
 ///
 /// ```
 /// use tolman_stats::{PValue, bonferroni};
@@ -76,8 +76,8 @@ pub fn bonferroni(p_values: &[PValue]) -> Vec<PValue> {
         .collect()
 }
 
-/// Holm's step-down correction ("A simple sequentially rejective multiple test procedure", 1979),
-/// in the order of the input. O(n log n).
+/// Returns the p-values by Holm's step-down correction ("A simple sequentially rejective multiple
+/// test procedure", 1979), in the order of the input. O(n log n).
 pub fn holm(p_values: &[PValue]) -> Vec<PValue> {
     let mut order: Vec<usize> = (0..p_values.len()).collect();
     order.sort_by(|&a, &b| p_values[a].ln.total_cmp(&p_values[b].ln));

@@ -23,7 +23,7 @@ pub struct Actor<B> {
     before: Before,
 }
 
-/// What came before the next action.
+/// State before the next action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Before {
     /// The robot was put down.
@@ -43,7 +43,7 @@ pub enum ActorError<R, B> {
     Brain(#[source] B),
     /// The layers cannot read the robot's scans.
     #[error(
-        "the robot scans by {} beams up to {} m, its layers read {} up to {} m: make the layers for the robot's ring",
+        "the robot's ring has {} beams up to {} m, but its layers expect {} up to {} m: make the layers for the robot's ring",
         robot.beams, robot.max_range, layers.beams, layers.max_range
     )]
     Ring {

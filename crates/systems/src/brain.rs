@@ -8,14 +8,14 @@ use tolman_robot::{Goal, Mapper, Standing, Task};
 /// knows no robot: an [`Actor`](crate::Actor) lets it drive one that senses what it
 /// [observes](crate::OfStep).
 pub trait Brain: Mapper + Debug {
-    /// Returns the next action. It is asked whenever an action has ended or the robot was put down,
-    /// once it has observed that.
+    /// Returns the next action. It is called after an action has ended or the robot was put down,
+    /// once the brain has observed that.
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction;
 
-    /// Returns how `task` stands, as far as the brain can tell: a goal is reached when the robot
-    /// senses its landmark, which is not for the brain to say.
+    /// Returns the state of `task`, as far as the brain can tell. The caller decides whether a goal
+    /// is reached: the robot then senses its landmark.
     ///
-    /// A brain without a map can be sent to a landmark and to nothing else.
+    /// A brain without a map can be sent to landmarks only.
     fn standing(&self, task: Task) -> Standing {
         match task {
             Task::Reach(Goal::Landmark(_)) => Standing::UnderWay,

@@ -7,8 +7,8 @@
 //! chooses compass directions, and an [`Actor`] lets it drive a robot through the layers of
 //! `tolman-control`.
 //!
-//! With `tolman-robot` this crate suffices for a system on a robot: what its signatures need of
-//! other crates is re-exported.
+//! With `tolman-robot` this crate suffices for a system on a robot: it re-exports all that its
+//! signatures need of other crates.
 //!
 //! ```
 //! use tolman_systems::control::{RingError, Stack};

@@ -27,12 +27,12 @@ pub struct MapFiles {
     pub system: &'static str,
 }
 
-/// Where a map was learned, by which robot and from which seed.
+/// Origin of a map: the maze, the robot and the seed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Origin {
     /// Name of the maze.
     pub world: String,
-    /// What tells the drawing of the maze from others of its name; `None` if nobody drew it.
+    /// Fingerprint that tells the maze's drawing from others of its name; `None` without a drawing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drawing: Option<String>,
     /// Name of the robot, such as "e-puck".
@@ -68,14 +68,16 @@ pub enum FileError {
         system: &'static str,
     },
     /// The file was written by a later tolman.
-    #[error("its version is {found}, and {VERSION} is the latest known here: update tolman")]
+    #[error(
+        "its version is {found}, but this program reads no later one than {VERSION}: update tolman"
+    )]
     LaterVersion {
         /// Version that the file names.
         found: u32,
     },
     /// The version is one that is no longer read, or that never was.
     #[error(
-        "its version is {found}, and only {VERSION} is read here: make a new map with `tolman learn`"
+        "its version is {found}, but this program reads only {VERSION}: make a new map with `tolman learn`"
     )]
     FormerVersion {
         /// Version that the file names.
@@ -91,7 +93,7 @@ pub enum FileError {
         /// System that the caller asked for.
         expected: &'static str,
     },
-    /// The header is sound, but what follows is not. The source has line and column.
+    /// The header is sound, but the rest is not. The source has line and column.
     #[error("this map of {system} cannot be read: make one with `tolman learn --system {system}`")]
     Body {
         /// System that the file names.
@@ -100,7 +102,7 @@ pub enum FileError {
         source: serde_json::Error,
     },
     /// The map has no JSON form.
-    #[error("this map of {system} has no JSON form")]
+    #[error("this map of {system} cannot be written as JSON")]
     Unwritable {
         /// System of the map.
         system: &'static str,
@@ -120,14 +122,14 @@ struct File<'a, B> {
     body: &'a B,
 }
 
-/// What a file of any format and version begins with.
+/// Beginning of a file of any format and version.
 #[derive(Deserialize)]
 struct Tag {
     format: String,
     version: u32,
 }
 
-/// What a file of this version begins with.
+/// Beginning of a file of this version.
 #[derive(Deserialize)]
 struct Header {
     system: String,

@@ -18,16 +18,16 @@ pub struct TimeStep {
     pub heading: Option<Heading>,
     /// The landmark the robot stands at.
     pub landmark: Option<Landmark>,
-    /// What the robot was doing.
+    /// Activity of the robot.
     pub doing: Doing,
 }
 
 /// A [`TimeStep`] of a robot with wheel encoders and a bumper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RolledStep {
-    /// What it sensed, and what it was doing.
+    /// The time step: what it sensed and did.
     pub step: TimeStep,
-    /// What its wheels rolled in the step; `None` for a drop-out.
+    /// Odometry of the step; `None` for a drop-out.
     pub odometry: Option<Odometry>,
     /// Whether the body touched something in the step; `None` if nothing tells.
     pub bump: Option<bool>,
@@ -35,7 +35,7 @@ pub struct RolledStep {
 
 /// What a brain can observe of a robot at the end of a time step.
 pub trait OfStep<R>: Sized {
-    /// Returns what `robot` senses while it is `doing` that.
+    /// Returns the observation of `robot` while it is `doing` that.
     fn of_step(robot: &R, doing: Doing) -> Self;
 }
 
@@ -63,7 +63,7 @@ where
     }
 }
 
-/// What a robot was doing in a time step.
+/// Activity of a robot in a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doing {
     /// Nothing: it has been put down, before the first action or again.
@@ -75,7 +75,7 @@ pub enum Doing {
 }
 
 impl Doing {
-    /// Returns what the robot did in a time step that was just driven.
+    /// Returns the activity in a time step that was just driven.
     pub const fn of<R>(step: &Driven<'_, R>) -> Self {
         match step.ends {
             Some(outcome) => Self::Ended(step.action, outcome),

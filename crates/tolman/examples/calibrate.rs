@@ -18,14 +18,14 @@ type BoxError = Box<dyn core::error::Error + Send + Sync>;
 
 /// The mazes with the paper's limits, time steps.
 const MAZES: [(&str, &str, u32); 2] = [
-    ("J", include_str!("../../../mazes/j-long.maze"), 200),
-    ("Large", include_str!("../../../mazes/large-hard.maze"), 500),
+    ("J", include_str!("../mazes/j-long.maze"), 200),
+    ("Large", include_str!("../mazes/large-hard.maze"), 500),
 ];
 
 /// One figure of the robot, changed.
 type Change = fn(&mut LaserPioneerConfig, f64);
 
-/// What is swept: a name, the values, and how a value changes the frozen robot.
+/// The sweeps: each has a name, its values, and the change that a value makes to the frozen robot.
 const SWEEP: [(&str, &[f64], Change); 5] = [
     (
         "turn of a full command, degrees",

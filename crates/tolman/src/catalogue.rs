@@ -4,11 +4,11 @@ use crate::Family;
 use crate::system::SystemEntry;
 use crate::systems::{CpmEntry, DiktiometryEntry, GngSlamEntry, MslstBetterEntry, MslstEntry};
 
-/// What the command knows by name.
+/// The systems, families of worlds and experiments that the command knows by name.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Catalogue {
-    /// What the program is called, which reports and replays say they were made by.
+    /// Name of the program, which reports and replays give as their maker.
     pub program: &'static str,
     /// The systems that learn maps.
     pub systems: Vec<&'static dyn SystemEntry>,
@@ -19,7 +19,7 @@ pub struct Catalogue {
 }
 
 impl Catalogue {
-    /// Returns what is known here.
+    /// Returns the catalogue of the command `tolman`: all its systems, families and experiments.
     #[must_use]
     pub fn tolman() -> Self {
         Self {
@@ -36,7 +36,7 @@ impl Catalogue {
         }
     }
 
-    /// Returns it with another name of the program.
+    /// Returns the catalogue with another name of the program.
     #[must_use]
     pub fn program(self, program: &'static str) -> Self {
         Self { program, ..self }

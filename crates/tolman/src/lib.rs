@@ -13,6 +13,7 @@
 //!     tolman::run(&catalogue, &Build::current("unknown", "unknown"))
 //! }
 //! ```
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
 

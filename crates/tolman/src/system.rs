@@ -28,19 +28,17 @@ pub trait SystemEntry: Sync {
     /// Returns its name, as in `--system NAME` and in the files of its maps.
     fn name(&self) -> &'static str;
 
-    /// Returns what it is, in one line.
+    /// Returns a description in one line.
     fn about(&self) -> &'static str {
         "A system of one's own"
     }
 
-    /// Returns the names of its presets, the first of which is taken where nothing is said, each
-    /// with a description.
+    /// Returns the names of its presets with their descriptions; the first is the default.
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
         &[]
     }
 
-    /// Returns the names of the robots that it can drive, the first of which is taken where nothing
-    /// is said.
+    /// Returns the names of the robots that it can drive; the first is the default.
     fn robots(&self) -> &'static [&'static str] {
         &[]
     }
@@ -51,20 +49,19 @@ pub trait SystemEntry: Sync {
     /// If maze, start or settings do not serve.
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error>;
 
-    /// Makes it ready to go to the goal by a map, or by whichever of several maps is that of the
-    /// maze. If nothing is said, it cannot.
+    /// Returns the system ready to go to the goal by a map, or by the one of several maps that is
+    /// of the maze. By default it cannot.
     ///
     /// # Errors
-    /// If maps, maze, start or settings do not serve.
+    /// If maps, maze, start or settings do not fit.
     fn driver(&self, _maps: &[MapText], _setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
         Err(anyhow!("{} does not drive by a map", self.name()))
     }
 
-    /// Reads a map. If nothing is said, it is one of which no more is known than where it was
-    /// learned.
+    /// Reads a map and returns it. By default only its origin is known.
     ///
     /// # Errors
-    /// If it is not sound.
+    /// If it is invalid.
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
         Ok(Box::new(map.clone()))
     }
@@ -73,11 +70,11 @@ pub trait SystemEntry: Sync {
 /// A file that holds a learned map.
 #[derive(Clone, Debug)]
 pub struct MapText {
-    /// What messages call it.
+    /// Name in messages.
     pub name: String,
     /// The name of its system.
     pub system: String,
-    /// Where the map was learned.
+    /// Maze, robot and seed of the map's origin.
     pub origin: Origin,
     /// All of it.
     pub text: String,
@@ -91,31 +88,32 @@ pub trait LearnedMap {
     /// Returns the same as JSON.
     fn json(&self) -> Value;
 
-    /// Draws it over the maze or the world it was learned in, for a robot as that which learned it.
+    /// Returns a drawing over the maze or the world in which it was learned, for a robot like the
+    /// one that learned it.
     ///
     /// # Errors
-    /// If that does not serve, or there is no picture of such a map.
+    /// If that does not fit, or such maps cannot be drawn.
     fn drawing(&self, _terrain: &Terrain) -> Result<Drawing, Error> {
         Err(anyhow!(
             "there is no picture of such a map: leave --svg out"
         ))
     }
 
-    /// Returns the way from one place to another, a line a step: from where it believes to be or
-    /// where the maze begins, if nothing is said, to the goal. `None` if it knows no way.
+    /// Returns the way from one place to another, one line per step. The defaults are the believed
+    /// place, or the maze's start, and the goal. `None` if no way is known.
     ///
     /// # Errors
     /// If there is no such place.
     fn plan(&self, _from: Option<u32>, _to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
-        Err(anyhow!("nobody plans on such a map"))
+        Err(anyhow!("no way can be planned on such a map"))
     }
 
     /// Returns why it is wrong or unfinished as a map of this maze or world; `None` if it is right.
     ///
     /// # Errors
-    /// If that does not serve, or nobody can tell.
+    /// If that does not fit, or it cannot be told.
     fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, Error> {
-        Err(anyhow!("nobody can tell whether such a map is right"))
+        Err(anyhow!("such a map cannot be checked"))
     }
 }
 
@@ -135,7 +133,7 @@ impl LearnedMap for MapText {
     }
 }
 
-/// What a robot is sent out with.
+/// Everything with which a robot is sent out.
 #[derive(Clone, Debug)]
 pub struct Setup<'a> {
     /// The name of the maze or world.
@@ -144,15 +142,15 @@ pub struct Setup<'a> {
     pub terrain: &'a Terrain,
     /// Seed of all random numbers: the same seed gives the same result.
     pub seed: u64,
-    /// Where the robot starts; `None` for what the system has for it.
+    /// Where the robot starts; `None` for the system's default.
     pub start: Option<Start>,
-    /// Time steps after which it has failed; `None` for what the system has for it.
+    /// Time steps after which it has failed; `None` for the system's default.
     pub steps: Option<u32>,
-    /// Which of the system's robots; `None` for the first.
+    /// Name of one of the system's robots; `None` for the first.
     pub robot: Option<&'a str>,
     /// The map that it goes on with when it learns.
     pub from: Option<&'a MapText>,
-    /// How the system is set.
+    /// Settings of the system.
     pub settings: Settings<'a>,
 }
 
@@ -201,7 +199,7 @@ impl Setup<'_> {
     pub fn anew(&self, system: &str) -> Result<(), Error> {
         match self.from {
             Some(map) => Err(anyhow!(
-                "{system} learns a maze in one go and cannot go on with {}: leave --from out",
+                "{system} learns a maze in one go and cannot continue {}: leave --from out",
                 map.name
             )),
             None => Ok(()),
@@ -209,12 +207,12 @@ impl Setup<'_> {
     }
 }
 
-/// How a system is set: a preset, and what is changed of it.
+/// Settings of a system: a preset, and changes to it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settings<'a> {
     /// The preset; `None` for the first.
     pub preset: Option<&'a str>,
-    /// Fields by their path, with what they are set to, as TOML has it.
+    /// Fields by their path with their values, as TOML.
     pub set: &'a [(String, String)],
 }
 
@@ -315,7 +313,7 @@ pub(crate) fn pioneer_at(course: &Course, start: Pose, seed: u64) -> Result<Cour
     Ok(course.robot_at(start, LaserPioneer::new(calibrated())?, seed)?)
 }
 
-/// Returns where a robot of this body starts on `course`: what was said, else anywhere.
+/// Returns where a robot of this body starts on `course`: the given start, or else a random one.
 ///
 /// # Errors
 /// As [`Setup::start`].

@@ -67,6 +67,9 @@ fn run(page: &str, lines: &[String]) -> Vec<String> {
     let mut wrong = Vec::new();
     for line in lines {
         let (command, code) = expected(line);
+        if command.contains("python3") && Command::new("python3").arg("-V").output().is_err() {
+            continue;
+        }
         let output = sh(&folder, &command);
         if output.status.code() != Some(code) {
             let err = String::from_utf8_lossy(&output.stderr);

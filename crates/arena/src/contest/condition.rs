@@ -8,7 +8,7 @@ use tolman_systems::stream;
 
 use crate::diktiometry::SurveyorConfig;
 
-/// What is otherwise than as robots and worlds are made.
+/// Deviation of robot and world from how they are made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Condition {
     /// Nothing.
@@ -18,13 +18,13 @@ pub enum Condition {
     Wheels(u8),
     /// A compass that is off by a constant.
     CompassOffset,
-    /// What the wheels roll errs by a constant share.
+    /// Odometry errs by a constant share.
     ConstantOdometry,
-    /// What the wheels roll errs by a share that is drawn again in each time step.
+    /// Odometry errs by a share that is drawn again in each time step.
     FreshOdometry,
     /// A door that stands open while the robot learns, and is shut afterwards.
     Doors,
-    /// The robot is lifted amid learning and put down elsewhere, and nobody tells it.
+    /// The robot is lifted during learning and put down elsewhere, without being told.
     Kidnapping,
     /// Readings of all sensors that do not come.
     DropOuts,
@@ -39,7 +39,7 @@ const COMPASS: f64 = 5.0 * core::f64::consts::PI / 180.0;
 /// The largest error of what wheels roll, as a share.
 const ODOMETRY: f64 = 0.1;
 
-/// How likely a reading does not come.
+/// Probability that a reading is missing.
 const MISSING: f64 = 0.02;
 
 const WHEEL_STREAM: u64 = 32;
@@ -76,7 +76,7 @@ impl Condition {
         }
     }
 
-    /// Returns the one of a name, as it stands in tables or is typed: `compass-offset` is compass
+    /// Returns the condition of a name, as in tables or as typed: `compass-offset` is compass
     /// offset.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
@@ -189,8 +189,8 @@ impl Condition {
         }
     }
 
-    /// Returns the opening, as a cell and the way out of it, that is a door: one whose loss cuts
-    /// nothing off, by chance. `None` where there is none, and where doors do not change.
+    /// Returns the opening that is a door, as a cell and the way out of it: a random one whose loss
+    /// cuts nothing off. `None` if there is none, or if doors do not change.
     pub(super) fn door(self, maze: &Maze, seed: u64) -> Option<(Cell, Direction)> {
         if self != Self::Doors {
             return None;

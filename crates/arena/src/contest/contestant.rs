@@ -4,6 +4,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::diktiometry::{JournalLength, Use};
+use tolman_maps::wall_belief::{PoseFilterConfig, RangeModel};
 use tolman_maze::{Maze, MazeFile};
 use tolman_robot::Ring;
 use tolman_sim::robots::{Epuck, LaserPioneer, LaserPioneerConfig, Pioneer2dx, Pioneer2dxConfig};
@@ -14,6 +15,7 @@ use tolman_systems::cpm::{
 use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
 use tolman_systems::gngslam::{OfflineSlam, OfflineSlamConfig, OnlineSlam, OnlineSlamConfig};
 use tolman_systems::micromouse::SIDE;
+use tolman_systems::micromouse::noisy::{MotionSource, NoisyMouse, NoisyMouseConfig, PoseSource};
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 use tolman_systems::mslst::{BetterMslst, Mslst, MslstConfig};
 
@@ -56,6 +58,9 @@ pub enum Contestant {
     GngSlamBetter,
     /// [`MazeMouse`], which is told the grid, its start and the goal.
     Micromouse,
+    /// [`NoisyMouse`], which is told as much, has no compass, and knows where it is by a particle
+    /// filter over the walls it believes in: what many would pick instead.
+    WallBelief,
     /// A baseline, which learns no map.
     Baseline(Agent),
 }
@@ -107,12 +112,15 @@ const WIDE: f64 = 1.5;
 const SCANS_A_CELL: u32 = 10;
 const ACTIONS_A_CELL: u32 = 6;
 
+/// Beams of the laser that the wall belief's filter weighs.
+const BEAMS: u32 = 8;
+
 /// Records that GNG-SLAM takes per cell, which use most of the distance that it may drive.
 const RECORDS_A_CELL: usize = 5;
 
 impl Contestant {
     /// All of them, systems first.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Mslst,
         Self::MslstBetter,
         Self::Cpm,
@@ -122,6 +130,7 @@ impl Contestant {
         Self::GngSlam,
         Self::GngSlamBetter,
         Self::Micromouse,
+        Self::WallBelief,
         Self::Baseline(Agent::Random),
         Self::Baseline(Agent::Avoid),
         Self::Baseline(Agent::WallFollow),
@@ -142,6 +151,7 @@ impl Contestant {
             Self::GngSlam => "GNG-SLAM",
             Self::GngSlamBetter => "GNG-SLAM Better",
             Self::Micromouse => "Micromouse",
+            Self::WallBelief => "Wall belief",
             Self::Baseline(agent) => agent.name(),
         }
     }
@@ -237,6 +247,7 @@ impl Contestant {
                 | Self::Diktiometry
                 | Self::DiktiometryBetter
                 | Self::Micromouse
+                | Self::WallBelief
         )
     }
 
@@ -254,7 +265,9 @@ impl Contestant {
             (Self::GngSlam, ContestRobot::Pioneer, _) => Some(
                 "it tells places by what a camera sees, and the laser Pioneer has none".to_owned(),
             ),
-            (Self::Micromouse, ..) if grid.width().max(grid.height()) as usize > SIDE => {
+            (Self::Micromouse | Self::WallBelief, ..)
+                if grid.width().max(grid.height()) as usize > SIDE =>
+            {
                 Some(format!("it knows mazes of at most {SIDE} × {SIDE} cells"))
             }
             _ => None,
@@ -334,6 +347,18 @@ impl Contestant {
                 };
                 let mouse = MazeMouse::whole_maze(brief(maze)?, config)?;
                 let body = laser_pioneer(&course, condition, seed)?;
+                Ok(sent(course, body, mouse))
+            }
+            (Self::WallBelief, _) => {
+                let course = contest.with_door(pioneer_course(name, maze)?)?;
+                let robot = LaserPioneerConfig {
+                    ring: Ring::full(BEAMS, calibrated().ring.max_range),
+                    ..calibrated()
+                };
+                let config = believing(&robot, course.corridor_width);
+                let mouse = NoisyMouse::new(brief(maze)?, config, seed)?;
+                let robot = LaserPioneer::new(condition.laser_pioneer(robot, seed))?;
+                let body = course.robot_at(course.start()?, robot, seed)?;
                 Ok(sent(course, body, mouse))
             }
             (Self::GngSlam, _) => {
@@ -497,6 +522,30 @@ where
 pub(super) fn pioneer_course(name: &str, maze: &Maze) -> Result<Course, BoxError> {
     let file = MazeFile::from(maze.clone());
     Ok(Course::for_body(name, &file, &body())?)
+}
+
+/// Returns what the noisy mouse is told of a Pioneer among thin walls: encoders and ranges that err
+/// by a few percent.
+const fn believing(robot: &LaserPioneerConfig, pitch: f64) -> NoisyMouseConfig {
+    NoisyMouseConfig {
+        localization: PoseSource::ParticleFilter,
+        motion: MotionSource::Encoders,
+        filter: PoseFilterConfig {
+            particles: 200,
+            slip: 0.05,
+            drift: 0.05,
+            spread: 0.01 * pitch,
+            sensor: RangeModel {
+                absolute: 0.05 * pitch,
+                relative: 0.03,
+                outliers: 0.1,
+            },
+        },
+        pitch,
+        wall_thickness: 0.0,
+        turn_per_step: robot.turn_per_step,
+        translate_per_step: robot.translate_per_step,
+    }
 }
 
 fn laser_pioneer(

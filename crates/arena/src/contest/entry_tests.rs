@@ -1,4 +1,4 @@
-//! What is drawn here, the systems that are here can be sent into.
+//! Checks that the systems can be sent into all that is drawn here.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

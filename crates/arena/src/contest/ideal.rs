@@ -9,24 +9,24 @@ use super::paint::Paint;
 use super::whereabouts::Squares;
 use crate::cpm::landmark_at;
 
-/// An observer that has the drawing and mistakes nothing of what it sees: the ceiling of who
-/// watches the same drive.
+/// An observer that has the drawing and recognizes all it sees without error: the ceiling for
+/// anyone who watches the same drive.
 ///
 /// In each cell it sees the walls and the landmark, and through each opening the walls of several
-/// cells straight on: more than any robot. Where the robot sees colours, it sees those of all walls
+/// cells straight on, more than any robot. If the robot sees colours, it sees those of all walls
 /// around.
 #[derive(Clone, Debug)]
 pub(super) struct IdealObserver<'a> {
     pub(super) maze: Cow<'a, Maze>,
     /// Whether it knows which way is north.
     pub(super) has_compass: bool,
-    /// How many cells it sees through an opening.
+    /// Number of cells it sees through an opening.
     pub(super) reach: u32,
-    /// What colours it sees.
+    /// Colours that it sees.
     pub(super) paint: Paint,
 }
 
-/// What is seen in a cell, from a direction on, clockwise.
+/// View in a cell, clockwise from a direction.
 #[derive(Debug, PartialEq)]
 struct CellView {
     landmark: Option<Landmark>,
@@ -34,7 +34,7 @@ struct CellView {
     colours: Vec<[u8; 3]>,
 }
 
-/// Where the robot may have been put down, and where it then is.
+/// A possible start of the robot, and where it is now if that is right.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     /// Quarters of a turn, clockwise, from what is so to what would be.
@@ -52,9 +52,9 @@ impl IdealObserver<'_> {
         self.chance(start.1, &cells)
     }
 
-    /// Returns how likely its best guess of the last of these cells is right, 0 … 1, after a drive
-    /// over all of them that began looking along `way`. It holds all cells but goals, and all ways
-    /// out of them, for equally likely starts. O(starts · cells).
+    /// Returns the probability that its best guess of the last of these cells is right, 0 to 1. The
+    /// drive goes over all of them and begins looking along `way`. All cells but goals, and all
+    /// ways out of them, are equally likely starts. O(starts · cells).
     pub(super) fn chance(&self, way: Direction, cells: &[Cell]) -> f64 {
         let (Some(first), Some(last)) = (cells.first(), cells.last()) else {
             return 0.0;

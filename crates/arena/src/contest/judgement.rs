@@ -7,14 +7,14 @@ use tolman_robot::{MapPlace, MapView};
 use super::true_graph::TrueGraph;
 use super::whereabouts::{PlaceVisit, Squares, offset};
 
-/// How good a learned map is, by the truth. Shares are from 0 to 1.
+/// Quality of a learned map, by the truth. Shares are from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapJudgement {
     /// Whether it is the map of what was visited, and at least [`ENOUGH`](Self::ENOUGH) of all
     /// places and ways are on it.
     pub is_right: bool,
-    /// Whether each of its places is another true one and each of its links another true way, and
-    /// all ways that were gone are on it.
+    /// Whether the map is right as far as the robot has been: its places are different true places,
+    /// its links different true ways, and all ways that were driven are on it.
     pub is_right_of_visited: bool,
     /// Share of the visits that were to the cell which their place was most often; `None` if there
     /// were no visits.
@@ -33,14 +33,14 @@ impl MapJudgement {
     pub const ENOUGH: f64 = 0.95;
 }
 
-/// Judges a map. `visits` are where the robot truly was when it took itself to be at places; `gone`
-/// are the numbers of the ways that it has truly gone; `pitch` is from the middle of a cell of the
-/// drawing to the next, m.
+/// Judges a map and returns the judgement. `visits` are the robot's true positions when it believed
+/// to be at places. `gone` are the numbers of the ways that it truly drove. `squares` are the
+/// drawing's grid and its pitch, from the middle of a cell to the next, m.
 ///
-/// A place of the map stands for the cell where the robot most often was when it took itself to be
-/// there; one that was never visited for the cell where the map has it, if it says so. Places that
-/// stand for cells amid a way, as bends are, belong to the link between the places at its ends.
-/// O(visits + links · ways).
+/// A place of the map stands for the cell where the robot most often was when it believed to be
+/// there. A place that was never visited stands for the cell at its position on the map, if it has
+/// one. Places that stand for cells inside a way, such as bends, belong to the link between the
+/// places at its ends. O(visits + links · ways).
 #[must_use]
 pub fn judge(
     map: &MapView,
@@ -133,7 +133,7 @@ pub(super) fn stands_for(
     (stands_for, (all > 0).then(|| share(pure, all)))
 }
 
-/// What became of a chain of links.
+/// Result for a chain of links.
 enum Matched {
     /// It is this true way.
     Way(usize),

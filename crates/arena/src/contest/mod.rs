@@ -1,8 +1,8 @@
 //! Every system in every kind of world, judged by one truth.
 //!
-//! A [`Contest`] sends one [`Contestant`] into one drawing: it learns, is put down somewhere and
-//! finds out where, is put down somewhere else and goes to the goal. What it learned is judged by
-//! the drawing's [`TrueGraph`]; it never sees it.
+//! A [`Contest`] sends one [`Contestant`] into one drawing. It learns, is put down somewhere and
+//! finds out where, is put down somewhere else and goes to the goal. Its map is judged by the
+//! drawing's [`TrueGraph`], which it never sees.
 
 mod condition;
 mod contestant;

@@ -7,7 +7,7 @@ use tolman_sim::World;
 
 use crate::course::Course;
 
-/// What colours the walls around the middle of each cell have.
+/// Colours of the walls around the middle of each cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Paint(BTreeMap<Cell, Vec<[u8; 3]>>);
 
@@ -23,7 +23,7 @@ impl Paint {
     }
 
     /// Returns the colours around a cell, clockwise starting `quarters` quarter turns clockwise
-    /// from north; none if nobody sees them.
+    /// from north; empty if colours are not recorded.
     pub(super) fn seen(&self, cell: Cell, quarters: usize) -> impl Iterator<Item = [u8; 3]> + '_ {
         let colours = self.0.get(&cell).map_or(&[][..], Vec::as_slice);
         let turned = colours.iter().cycle().skip(quarters * A_QUARTER);

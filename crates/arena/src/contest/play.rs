@@ -887,6 +887,7 @@ mod tests {
             Contestant::CpmBetter,
             Contestant::DiktiometryBetter,
             Contestant::Micromouse,
+            Contestant::WallBelief,
         ] {
             let record = play(contestant, "star", ContestRobot::Own);
             let found = &record.found[0];

@@ -8,27 +8,27 @@ use super::contestant::Schooling;
 use super::play::{Bout, Contest, ContestError, LearnRecord, LocateOutcome, Measured, Moment};
 use crate::{BoxError, Outing};
 
-/// What came of a [show](Contest::show).
+/// Result of a [show](Contest::show).
 #[derive(Clone, Debug)]
 pub struct ShowRecord {
-    /// What it learned.
+    /// Result of learning.
     pub learned: LearnRecord,
     /// Metres driven until then.
     pub explored: f64,
-    /// How it found out where it was put down.
+    /// Result of localizing where it was put down.
     pub found: FoundOut,
     /// Metres driven from there until it was at the goal; `None` if it did not arrive.
     pub home: Option<f64>,
     /// Metres of the shortest way to the goal from the cell where it then was.
     pub shortest: f64,
-    /// Why it gave up on the way to the goal; empty if it did not.
+    /// Reason why it gave up on the way to the goal; empty if it did not.
     pub gave_up: String,
 }
 
 /// How a robot found out where it was put down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundOut {
-    /// What it said.
+    /// Its answer.
     pub outcome: LocateOutcome,
     /// Whether it was left where it was put down: who follows its robot alone is put back.
     pub was_put_down: bool,
@@ -41,13 +41,13 @@ pub struct FoundOut {
 }
 
 impl Contest<'_> {
-    /// Lets the contestant learn the drawing, puts it down at the first of its
-    /// [places](Contest::put_downs), lets it find out where that is, and sends it to the goal from
-    /// wherever it then is. Who cannot be put down elsewhere is put back and goes to the goal from
-    /// there. `watch` is shown it at every [`Moment`].
+    /// Shows all that a contestant does and returns the result. It learns the drawing and is put
+    /// down at the first of its [places](Contest::put_downs). It finds out where that is, and
+    /// drives to the goal from there. A contestant that cannot be put down elsewhere is put back
+    /// instead. Calls `watch` at every [`Moment`].
     ///
     /// # Errors
-    /// [`ContestError`], also where the contestant [abstains](super::Contestant::abstains).
+    /// [`ContestError`], also if the contestant [abstains](super::Contestant::abstains).
     pub fn show(
         &self,
         schooling: &Schooling,
@@ -80,7 +80,7 @@ impl Contest<'_> {
     }
 }
 
-/// How a robot that was not lifted went to the goal.
+/// The way to the goal of a robot that was not lifted.
 struct WentHome {
     metres: Option<f64>,
     shortest: f64,

@@ -3,7 +3,7 @@ use alloc::collections::BTreeSet;
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Landmark;
 
-/// Which cells of a drawing are places, as a system has it that can know no others.
+/// Rule for which cells of a drawing are places, by what a system can distinguish.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceRule {
     /// Junctions, dead ends, the start and the goals; a bend is a part of a way.
@@ -27,14 +27,14 @@ pub struct TrueGraph {
 /// A way between two places.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TrueWay {
-    /// The places at its ends, which may be one.
+    /// The places at its ends, which may be the same.
     pub ends: [Cell; 2],
     /// The cells between them, from the first to the second.
     pub between: Vec<Cell>,
 }
 
 impl TrueWay {
-    /// Returns whether it joins two places, whichever of them comes first.
+    /// Returns whether it joins two places, in either order.
     #[must_use]
     pub fn joins(&self, one: Cell, other: Cell) -> bool {
         self.ends == [one, other] || self.ends == [other, one]
@@ -131,7 +131,7 @@ fn is_straight(maze: &Maze, cell: Cell) -> bool {
     ways == [true, false, true, false] || ways == [false, true, false, true]
 }
 
-/// Who turns back is where he was before.
+/// Appends a cell, or removes the last one if the way turns back.
 fn turn_back_or_on(between: &mut Vec<Cell>, cell: Cell) {
     match between[..] {
         [.., last] if last == cell => {}

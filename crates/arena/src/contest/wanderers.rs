@@ -12,11 +12,11 @@ use crate::episode::{self, Episode, Trial};
 use crate::mind::Mind;
 use crate::pioneer::calibrated;
 
-/// Time steps of a run at most for each metre that may be driven: whoever turns in place drives
+/// Maximum number of time steps of a run for each metre that may be driven: turning in place drives
 /// nowhere.
 const STEPS_A_METRE: f64 = 20.0;
 
-/// It knows where it is when so much of its belief lies about one cell.
+/// Share of its belief about one cell from which it knows where it is.
 const SURE: f64 = 0.95;
 
 /// A baseline that is sent from where a system is put down, on the laser Pioneer.
@@ -82,8 +82,8 @@ impl<'a> Sender<'a> {
         })
     }
 
-    /// Lets the one that has the true map, and no idea where it is, find that out on its way to the
-    /// goal; the others do not say.
+    /// Lets the unlocalized oracle, which has the true map, find out where it is on its way to the
+    /// goal. The others give no answer.
     ///
     /// It is as sure as the systems have to be: when it has most of its belief about one cell.
     pub(super) fn found(&self) -> Result<Vec<Located>, BoxError> {

@@ -2,7 +2,7 @@ use tolman_geom::{Point, Vector};
 use tolman_maze::{Cell, Grid};
 use tolman_robot::{Guess, MapPlace, MapView, Position};
 
-/// Where a robot truly was when it took itself to be at a place of its map.
+/// True position of a robot when it believed to be at a place of its map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlaceVisit {
     /// The place, by id.
@@ -53,8 +53,8 @@ fn nearest(map: &MapView, point: Point) -> Option<u32> {
     nearest.map(|(id, _)| id)
 }
 
-/// Returns how far the frame of a map lies from that of the world, m, by the places that were
-/// visited; `None` if none of them knows where it lies. The axes are taken to be the same.
+/// Returns the offset of a map's frame from the world's, m, by the visited places; `None` if none
+/// of them has a position. The axes are taken to be the same.
 pub(super) fn offset<'a>(
     places: impl Iterator<Item = (&'a MapPlace, Cell)>,
     squares: Squares,

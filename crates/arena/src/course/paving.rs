@@ -7,8 +7,8 @@ use tolman_sim::{Area, Material, WallSegment, World, Zone};
 
 use super::CourseError;
 
-/// Where the squares lie of which a free world is paved: as cells of a maze whose walls stand where
-/// the body cannot pass from the middle of one to that of the next.
+/// Squares that pave a free world: cells of a maze whose walls stand where the body cannot pass
+/// from the middle of one to that of the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Paving {
     /// The south-west corner of cell (0, 0), m.
@@ -16,12 +16,12 @@ pub(super) struct Paving {
     /// From one middle to the next, m.
     pub(super) pitch: f64,
     grid: Grid,
-    /// How near the body's centre comes to a wall, m.
+    /// Minimum distance of the body's centre from a wall, m.
     radius: f64,
 }
 
-/// Of a radius: so a passage that is wider than the body by half a radius has squares in it,
-/// wherever it stands.
+/// Side of a square, in radii of the body: a passage that is wider than the body by half a radius
+/// has squares in it, wherever it is.
 const PITCH: f64 = 0.5;
 
 /// More would take a gigabyte and a minute.
@@ -75,7 +75,7 @@ impl Paving {
         maze
     }
 
-    /// Walls off what the body cannot do for one wall of the world.
+    /// Adds to the maze what one wall of the world prevents.
     fn put_up(&self, maze: &mut Maze, wall: &WallSegment) {
         for cell in self.near(wall) {
             let centre = self.centre(cell);
@@ -156,8 +156,8 @@ impl Paving {
         steps.filter_map(move |step| self.cell_at(point + self.pitch * step))
     }
 
-    /// Returns how much of a corridor's length a square stands for, m: the body's centre has but
-    /// the width that the body leaves.
+    /// Returns the length of corridor that a square stands for, m: the body's centre only has the
+    /// width that the body leaves.
     pub(super) fn metres_per_cell(&self, corridor_width: f64) -> f64 {
         let left = (corridor_width - 2.0 * self.radius).max(self.pitch);
         self.pitch * self.pitch / left

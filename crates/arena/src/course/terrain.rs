@@ -5,7 +5,7 @@ use tolman_sim::World;
 use super::{Course, CourseError};
 use crate::pioneer::CORRIDOR_WIDTH;
 
-/// What robots can be sent into: a maze, or a world whose walls stand anywhere.
+/// Worlds that robots can be sent into: a maze, or free walls.
 #[derive(Clone, Debug)]
 pub enum Terrain {
     /// A maze of cells.
@@ -19,16 +19,17 @@ pub enum Terrain {
 pub struct FreeWorld {
     /// Its walls and doors, with the zones `destination` and, maybe, `start`.
     pub world: World,
-    /// How wide control layers and detectors take its corridors to be, m; `None` for what the
-    /// robot's mazes have.
+    /// Width of its corridors for control layers and detectors, m; `None` for that of the robot's
+    /// mazes.
     pub corridor_width: Option<f64>,
 }
 
 impl Terrain {
-    /// Returns the maze, for what works in mazes alone; `what` is that, as in "the oracle".
+    /// Returns the maze, for requests that work in mazes only; `what` names the request, as in "the
+    /// oracle".
     ///
     /// # Errors
-    /// [`CourseError::NoMaze`] of a free world.
+    /// [`CourseError::NoMaze`] for a free world.
     pub fn maze(&self, what: &'static str) -> Result<&MazeFile, CourseError> {
         match self {
             Self::Maze(file) => Ok(file),
@@ -36,8 +37,8 @@ impl Terrain {
         }
     }
 
-    /// Returns it as a course to its destination for a robot of this `body`, in corridors as wide
-    /// as it says, or else MSLST's 1.9 robot units. See [`Course::for_body`] and
+    /// Returns it as a course to its destination for a robot of this `body`. Corridors have its
+    /// width, or else MSLST's 1.9 robot units. See [`Course::for_body`] and
     /// [`Course::in_free_world`].
     ///
     /// # Errors

@@ -1,5 +1,5 @@
-//! What becomes of the robot where a world or its own sensors are not what it was made for: an
-//! error that says what is wrong, or an end without the goal that says so, and always an end.
+//! CPM in worlds, and with sensors, for which it was not made. It must always end: with an error
+//! that says what is wrong, or without the goal, and then it must say so.
 
 use alloc::sync::Arc;
 use core::f64::consts::{PI, TAU};
@@ -73,7 +73,7 @@ impl SensesLandmarks for OneSensor {
     }
 }
 
-/// The first episode, and whether the robot truly stands at the goal at its end.
+/// Returns the result of the first episode, and whether the robot truly is at the goal at its end.
 fn search<B: CpmRobot>(
     body: B,
     width: f64,
@@ -133,8 +133,8 @@ fn one_sensor_that_fails_ends_in_an_error_or_as_it_is_said() {
     assert!(stuck_told >= 3, "{stuck_told} told");
 }
 
-/// Returns a world of `branches` corridors that meet in its middle, each 0.8 m long; the robot is
-/// put into the end of the first, the goal is at the end of the one across.
+/// Returns a world of `branches` corridors that meet in its middle, each 0.8 m long. The robot
+/// starts at the end of the first; the goal is at the end of the one across.
 fn star(branches: u32, width: f64) -> (World, Pose) {
     let (length, half) = (0.8, width / 2.0);
     let spacing = TAU / f64::from(branches);

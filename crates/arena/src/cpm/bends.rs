@@ -2,10 +2,10 @@ use tolman_maze::Maze;
 
 use super::fragments::{Quarters, TrueFragments, along, bends, headings};
 
-/// How many fragments of a maze look like others, by how they bend.
+/// Number of fragments of a maze that look like others by how they bend.
 ///
-/// Along a corridor of one width there is nothing to observe but its bends: two fragments that bend
-/// alike, cell by cell, are not *distinctive*, and one that bends the same from both ends is not
+/// Along a corridor of constant width only its bends can be observed. Two fragments with the same
+/// bends, cell by cell, are not *distinctive*. One with the same bends from both ends is not
 /// *asymmetrical* (section 4.3).
 ///
 /// ```

@@ -8,8 +8,8 @@ use crate::course::{Course, CourseError, Terrain};
 /// From wall to wall where nothing else is said, m.
 pub const CORRIDOR_WIDTH: f64 = 0.25;
 
-/// The narrowest and the widest corridors, m, in which Mazes 1 to 3 are learned rightly: in others
-/// the robot takes bends for junctions and overlooks others.
+/// Minimum and maximum width of corridors, m, at which Mazes 1 to 3 are learned correctly. In
+/// others the robot takes bends for junctions and overlooks junctions.
 const WIDTHS: (f64, f64) = (0.20, 0.30);
 
 /// Returns a maze file as a course from its start for the e-puck; `name` is for one that has none.
@@ -23,8 +23,8 @@ pub fn epuck_course(name: &str, file: MazeFile) -> Result<Course, CourseError> {
     Ok(course)
 }
 
-/// Returns a maze or a free world as a course from its start for the e-puck; `name` is for one that
-/// has none.
+/// Returns a maze or a free world as a course from its start for the e-puck; `name` is used if it
+/// has no name of its own.
 ///
 /// # Errors
 /// As [`epuck_course`], and as [`Course::in_free_world`].
@@ -42,7 +42,7 @@ pub fn epuck_course_on(name: &str, terrain: &Terrain) -> Result<Course, CourseEr
     }
 }
 
-/// Returns the width of the corridors, if the e-puck sees what such corridors are.
+/// Returns the width of the corridors, if the e-puck can recognize such corridors.
 fn seen(width: Option<f64>) -> Result<f64, CourseError> {
     let width = width.unwrap_or(CORRIDOR_WIDTH);
     let (least, most) = WIDTHS;

@@ -7,14 +7,13 @@ use super::survey::survey;
 use super::trial::CpmTrialError;
 use crate::course::Course;
 
-/// Whether the fragments of a maze can be told apart by what the robot observes along them: the
-/// constraints of section 4.3, "every path-fragment in the environment is *distinctive*" and
-/// *asymmetrical*, measured by f_S.
+/// Whether observations tell the fragments of a maze apart: the constraints of section 4.3, "every
+/// path-fragment in the environment is *distinctive*" and *asymmetrical*, measured by f_S.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distinctness {
-    /// The two walks that are most alike of those that must not be: along different fragments, in
-    /// both directions, and along one fragment from both its ends, as if it were symmetrical. None
-    /// where there is but one walk.
+    /// The most similar pair of walks among those that must differ: along different fragments, in
+    /// both directions, and along one fragment from both its ends. `None` if there is only one
+    /// walk.
     pub most_alike: Option<WalkPair>,
     /// The two walks along one fragment that are least alike.
     pub least_alike: Option<WalkPair>,

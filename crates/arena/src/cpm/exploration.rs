@@ -23,8 +23,8 @@ pub struct Exploration {
     pub traversals: u32,
     /// Fragments of the maze that can be reached.
     pub fragments: u32,
-    /// Fragments of the shortest walk from the start through all of them, for who knows the maze,
-    /// or `None` where that takes too long to find.
+    /// Number of fragments of the shortest walk from the start through all of them, with full
+    /// knowledge of the maze; `None` if it takes too long to find.
     pub best: Option<u32>,
     /// When the last fragment was walked, s, or `None` if one was not.
     pub seconds: Option<f64>,
@@ -37,8 +37,8 @@ pub struct Exploration {
 }
 
 impl CpmTrial<'_> {
-    /// Explores the maze from the start until nothing is left to be walked. What goes wrong on the
-    /// way is a result.
+    /// Explores the maze from the start until all is walked, and returns the result. Failures on
+    /// the way are part of the result.
     ///
     /// # Errors
     /// [`CpmTrialError`] if it cannot be begun.

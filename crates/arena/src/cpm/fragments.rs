@@ -19,9 +19,9 @@ pub struct WayOut {
     pub fragment: u32,
     /// Whether one enters it at its first end.
     pub is_forward: bool,
-    /// Where it leads.
+    /// Cell at its end.
     pub to: Cell,
-    /// How many cells on.
+    /// Length in cells.
     pub cells: u32,
 }
 
@@ -38,8 +38,8 @@ fn ends_fragments(maze: &Maze, cell: Cell) -> bool {
     maze.degree(cell) != 2 || landmark_at(maze, cell).is_some()
 }
 
-/// Returns the cells of a way that leads `out` of a place to `next` and on to the next place, and
-/// the direction in which one comes there.
+/// Returns the cells of the way `out` of a place to `next` and on to the next place, and the
+/// direction of arrival there.
 fn follow(
     maze: &Maze,
     out: Direction,
@@ -58,8 +58,8 @@ fn follow(
     (cells, came)
 }
 
-/// Returns the cells of the fragment that leads `out` of a place, that one first, and the direction
-/// in which one comes to its end, or `None` if a wall stands there.
+/// Returns the cells of the fragment `out` of a place, the place first, and the direction of
+/// arrival at its end; `None` if a wall stands there.
 pub(super) fn along(maze: &Maze, from: Cell, out: Direction) -> Option<(Vec<Cell>, Direction)> {
     let (_, next) = maze.neighbours(from).find(|(way, _)| *way == out)?;
     let (mut cells, came) = follow(maze, out, next, |cell| ends_fragments(maze, cell));
@@ -138,7 +138,7 @@ impl TrueFragments {
         Self { ways }
     }
 
-    /// Returns the way by which one leaves a place that looks in this heading.
+    /// Returns the way out of a place in this heading.
     #[must_use]
     pub fn way(&self, from: Cell, heading: Heading) -> Option<WayOut> {
         let nearest = libm::round(heading.radians() / FRAC_PI_2).rem_euclid(4.0) as u32;
@@ -154,9 +154,9 @@ impl TrueFragments {
         self.ways.values().find(is_back).copied()
     }
 
-    /// Returns the ways that a drive over these cells was along, one after another, or `None` where
-    /// it left a place by no way. A drive that turns back amid a fragment was along it. One that
-    /// looks into the next cell and comes back was not.
+    /// Returns the ways of a drive over these cells, in order; `None` if it left a place where
+    /// there is no way. A drive that turns back within a fragment was along it. One that only looks
+    /// into the next cell and comes back was not.
     pub(super) fn driven(&self, cells: impl IntoIterator<Item = Cell>) -> Option<Vec<WayOut>> {
         let mut cells = cells.into_iter();
         let (Some(mut at), mut driven) = (cells.next(), Vec::new()) else {
@@ -214,7 +214,7 @@ impl TrueFragments {
             .min()
     }
 
-    /// Returns how many there are.
+    /// Returns the number of fragments.
     pub fn count(&self) -> u32 {
         let forward = self.ways.values().filter(|way| way.is_forward);
         forward.count() as u32

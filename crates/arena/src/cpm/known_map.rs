@@ -5,16 +5,15 @@ use tolman_planners::{Arcs, costs_from};
 
 use super::fragments::{WayOut, landmark_at};
 
-/// What a perfect reasoner of the paper's kind would know of where a robot has walked: the baseline
-/// of a trial.
+/// The map of a perfect reasoner of the paper's kind after the same walk: the baseline of a trial.
 ///
 /// Nothing that the paper's robot perceives tells one junction from another. Two visits are known
-/// to be of one place only because a fragment was walked twice, either way, which makes both its
-/// ends one ("junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", section 4.3), or because start or
-/// goal were seen there. A junction that was met by different fragments alone stays several.
-/// Fragments are told by ground truth, so that this map depends on no mapper.
+/// to be of one place for two reasons only. Either a fragment was walked twice, which makes its
+/// ends one ("junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", section 4.3), or start or goal were
+/// seen there. A junction that was met by different fragments only stays several. Fragments are
+/// identified by ground truth, so this map depends on no mapper.
 ///
-/// What follows is closed: where visits of one place were left by one port, that is one fragment
+/// The inferences are complete: visits of one place that were left by one port are one fragment
 /// walked twice.
 #[derive(Clone, Debug)]
 pub(super) struct KnownMap<'a> {
@@ -56,8 +55,8 @@ impl<'a> KnownMap<'a> {
         known
     }
 
-    /// The robot has walked a true fragment, or `None` if it was lost, and come to a cell. `length`
-    /// is that of the walk, in any unit.
+    /// Takes in a walk to cell `to` along the true fragment `way`, or `None` if the robot was lost.
+    /// `length` is that of the walk, in any unit.
     pub(super) fn walk(&mut self, way: Option<WayOut>, to: Cell, length: u32) {
         let from = self.visits.len().saturating_sub(1) as u32;
         let to = self.visit(to);

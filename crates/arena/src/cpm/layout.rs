@@ -6,8 +6,8 @@ use tolman_robot::Landmark;
 
 use super::fragments::{DIRECTIONS, along};
 
-/// Where the parts of a map lie in the maze, for pictures; the map itself knows no coordinates.
-/// Both are walked together from the start, port by port, as far as they agree.
+/// Positions of a map's parts in the maze, for pictures; the map itself has no coordinates. Both
+/// are walked together from the start, port by port, as far as they agree.
 ///
 /// ```
 /// use tolman_arena::cpm::{epuck, epuck_course, learn, CpmTrial, Layout};
@@ -45,7 +45,7 @@ pub struct OpenPort {
     pub next: Cell,
 }
 
-/// Where a fragment lies.
+/// Position of a fragment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lie {
     /// From − to +, with the places at both ends.

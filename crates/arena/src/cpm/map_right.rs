@@ -6,11 +6,14 @@ use tolman_maze::{Cell, Maze};
 use super::fragments::{TrueFragments, landmark_at};
 use super::layout::{Fit, Layout};
 
-/// Returns whether a map is that of a maze, as far as the robot has been. Laid over the maze from
-/// the start on, port by port, each of its places has to be another true place, of as many ways and
-/// with the same landmark, and each of its fragments another true one that joins the same ports;
-/// and together they have to be the fragments that were walked. So nothing is on it twice, nothing
-/// was taken for another, and nothing hangs in the air.
+/// Returns whether a map is that of a maze, as far as the robot has been. The map is laid over the
+/// maze from the start on, port by port:
+///
+/// - each of its places has to be another true place, with as many ways and the same landmark;
+/// - each of its fragments has to be another true one that joins the same ports;
+/// - together they have to be the fragments that were walked.
+///
+/// So nothing is on the map twice, nothing was taken for another, and nothing is unconnected.
 ///
 /// O(fragments · cells).
 pub(super) fn is_map_right(
@@ -34,8 +37,8 @@ pub(super) fn is_map_right(
     are_places && are_fragments && laid == *walked
 }
 
-/// Returns whether a map is that of the whole maze: each place and fragment that can be reached
-/// from the start is on it once, and all are joined as they truly are. O(fragments · cells).
+/// Returns whether a map is that of the whole maze. Each place and fragment that can be reached
+/// from the start is on it once, joined as in truth. O(fragments · cells).
 #[must_use]
 pub fn is_whole_map_right(map: &CpMap, maze: &Maze) -> bool {
     let fragments = TrueFragments::of(maze);
@@ -114,7 +117,7 @@ mod tests {
         is_map_right(map, &maze, &fragments, &walked.collect())
     }
 
-    /// Returns the number of the true fragment by which one leaves a cell.
+    /// Returns the number of the true fragment out of a cell in a heading.
     fn leaving(x: u16, y: u16, degrees: f64) -> u32 {
         let maze = tolman_maze::read(THREE_WAYS).unwrap().maze;
         let heading = tolman_geom::Heading::from_degrees(degrees);

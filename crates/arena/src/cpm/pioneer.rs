@@ -22,7 +22,7 @@ use crate::run::{Ended, Limited, TaskEnd, run};
 /// Explorations take 30 000.
 const STEP_LIMIT: u32 = 100_000;
 
-/// A loop with two forks, from each of which a way leads to a dead end; the goal is in one of them.
+/// A loop with two forks, each with a way to a dead end; one of these is the goal.
 const FORKS: &str = include_str!("../../mazes/forks.maze");
 
 /// Returns a maze with corridors for a Pioneer.
@@ -57,7 +57,8 @@ fn pursue(cpm: &mut Cpm, epuck: &mut Epuck, task: Task) -> Ended {
     ended
 }
 
-/// Explores, is carried back to the start, finds out that it is there, and goes to the goal.
+/// Lets a robot explore, carries it back to the start, lets it find out where it is, and go to the
+/// goal.
 fn play(mut cpm: Cpm, mut epuck: Epuck, maze: &Maze) {
     let start = truth(&epuck).pose;
     let explored = pursue(&mut cpm, &mut epuck, Task::Explore);

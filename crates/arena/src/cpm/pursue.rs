@@ -23,7 +23,7 @@ impl<B: CpmRobot> InRun for Walker<B> {
     }
 }
 
-/// Lets a robot walk until the aim is reached: the first episode, or the way back. `see` is told of
+/// Lets a robot walk until the aim is reached: the first episode, or the way back. Calls `see` with
 /// every fragment.
 ///
 /// # Errors
@@ -52,8 +52,8 @@ pub fn pursue<B: CpmRobot>(
     Ok(begun.ended(done, walker))
 }
 
-/// Lets a robot that was put down anywhere search until it knows where it is, or has come to as
-/// many places as it may. `see` is told of every place it comes to.
+/// Lets a robot that was put down anywhere search until it knows where it is, or has come to the
+/// maximum number of places. Calls `see` with every place it comes to.
 ///
 /// # Errors
 /// If the robot fails, or the search refuses what it met.

@@ -13,22 +13,22 @@ use super::trial::{CpmTrialError, TrialRecord};
 use crate::course::Course;
 
 /// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to
-/// find out which and where.
+/// find out where it is.
 ///
-/// [`play`](Self::play) puts the robot into `here` by its seed, at the middle of a cell between the
-/// places at the ends of a fragment that the map has, looking along it.
+/// [`play`](Self::play) puts the robot into maze `here` by its seed. It stands in the middle of a
+/// cell inside a fragment that the map has, and looks along it.
 #[derive(Clone, Debug)]
 pub struct PutDown<'a> {
     /// The mazes that the robot knows, all with one width of corridors and learned with the same
     /// patterns.
     pub known: &'a [KnownMaze<'a>],
-    /// Which of them it is put into.
+    /// Number of the maze it is put into.
     pub here: usize,
-    /// What the robot learned before.
+    /// Patterns that the robot learned before.
     pub patterns: &'a CommonPatterns,
     /// The robot.
     pub robot: EpuckConfig,
-    /// How it goes to the first place.
+    /// Its way to the first place.
     pub approach: Approach,
     /// Number of places, from the one ahead on, after which the robot has to know where it is; at
     /// least 1.
@@ -46,16 +46,16 @@ pub struct KnownMaze<'a> {
     pub learned: &'a TrialRecord,
 }
 
-/// What came of it.
+/// Result of a put-down.
 #[derive(Clone, Debug)]
 pub struct PutDownRecord {
-    /// What the robot believed.
+    /// Belief of the robot.
     pub whereabouts: Whereabouts,
-    /// How likely an ideal observer would have known maze, fragment and direction before it entered
-    /// the first place, by how the corridor bends: 0 to 1.
+    /// Probability that an ideal observer would know maze, fragment and direction before the first
+    /// place, by the corridor's bends, 0 to 1.
     pub knowable_by_bends: f64,
-    /// The same if it also saw what the place ahead is, and the ways to the sides of the place
-    /// behind where it stands beside that; no robot knows more on average.
+    /// The same if the observer also saw the place ahead, and the ways to the sides of the place
+    /// behind if it stands beside that. No robot knows more on average.
     pub knowable_by_places: f64,
     /// Whether the robot knew them then; who has observed nothing did not.
     pub is_right_under_way: bool,
@@ -69,14 +69,14 @@ pub struct PutDownRecord {
     /// Whether SOINN-AM recalled the right maze of the first fragment walked whole, or `None` if
     /// the robot knew before where it was.
     pub is_recalled: Option<bool>,
-    /// How long it took, s.
+    /// Duration, s.
     pub seconds: f64,
-    /// Where the robot was after every step.
+    /// Pose of the robot after every step.
     pub path: Vec<Pose>,
 }
 
 impl KnownMaze<'_> {
-    /// Returns where a robot may be put that has this map.
+    /// Returns where a robot with this map may be put.
     fn spots(&self) -> Vec<Spot> {
         Spot::all(&self.course.maze, |way| {
             let mut known = self.learned.truth.values();

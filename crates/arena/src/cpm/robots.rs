@@ -41,11 +41,11 @@ pub fn slow_epuck() -> EpuckConfig {
     }
 }
 
-/// Returns how the paper's robot drives and observes in corridors of this width, m: a sample of a
-/// sweep a time step, so that the time step says how fast it sweeps.
+/// Returns how the paper's robot drives and observes in corridors of this width, m. It takes one
+/// sample of a sweep per time step, so the time step sets the speed of a sweep.
 ///
 /// # Errors
-/// If the response curve cannot be turned round.
+/// If the response curve cannot be inverted.
 pub fn walker_config(robot: &EpuckConfig, width: f64) -> Result<WalkerConfig, RangeCurveError> {
     let measures = EpuckMeasures {
         curve: curve(&robot.response)?,
@@ -63,10 +63,10 @@ fn curve(response: &ResponseCurve) -> Result<RangeCurve, RangeCurveError> {
     RangeCurve::new(points.collect())
 }
 
-/// Returns what CPM has to know of a laser Pioneer in corridors of this width, m, to take it for
-/// the paper's e-puck.
+/// Returns the measures by which CPM takes a laser Pioneer in corridors of this width, m, for the
+/// paper's e-puck.
 ///
-/// A turn can be ended to twice what the motors miss by whenever they turn.
+/// The tolerance of turns is twice the error of the motors.
 #[must_use]
 pub fn ring_measures(robot: &LaserPioneerConfig, width: f64) -> RingMeasures {
     RingMeasures {

@@ -11,12 +11,12 @@ use super::pursue::pursue;
 use super::robots::SimulatedEpuck;
 use super::trial::CpmTrialError;
 
-/// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11):
-/// "on the way back, the robot tries a new path-fragment" as long as it may be shorter than the
+/// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11).
+/// "On the way back, the robot tries a new path-fragment" as long as it may be shorter than the
 /// known way.
 ///
-/// The paper's robot made 20 observations to the goal, 13 on the way back and 4 on its second way;
-/// those are the `observations` of the three episodes.
+/// The paper's robot made 20 observations to the goal, 13 on the way back and 4 on its second way.
+/// These are the `observations` of the three episodes.
 #[derive(Clone, Debug)]
 pub struct RoundTrip {
     /// From the start until the goal was found.
@@ -25,7 +25,7 @@ pub struct RoundTrip {
     pub back: Option<EpisodeSummary>,
     /// Along the shortest way that is known then, or `None` if the robot did not come back.
     pub again: Option<EpisodeSummary>,
-    /// How many unknown fragments it entered on the way back.
+    /// Number of unknown fragments it entered on the way back.
     pub tried: u32,
     /// In how many of them it turned round, as they "will never be shorter".
     pub given_up: u32,
@@ -35,7 +35,7 @@ pub struct RoundTrip {
     pub length_after: u32,
     /// The map at the end.
     pub map: CpMap,
-    /// Where the robot was after every step.
+    /// Pose of the robot after every step.
     pub path: Vec<Pose>,
     /// When the way back began, steps.
     pub back_from: usize,
@@ -44,8 +44,8 @@ pub struct RoundTrip {
 }
 
 impl RoundTrip {
-    /// Plays the way to the goal, back and there again, from where the robot stands. `see` is told
-    /// of every fragment of the first two.
+    /// Plays the way to the goal, back and there again, from where the robot stands. Calls `see`
+    /// with every fragment of the first two.
     ///
     /// # Errors
     /// [`CpmTrialError`].

@@ -15,18 +15,18 @@ use super::robots::SimulatedEpuck;
 /// place that was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Closures {
-    /// A duplicate was told, and it was that fragment, or a loop, and it was that place; on
-    /// arrival, or by what was met later.
+    /// Number of duplicates claimed that were that fragment, and of loops that were that place: on
+    /// arrival, or later.
     pub right: u32,
-    /// Arrivals by which a duplicate or a loop was told that was another one or none: on arrival,
-    /// or by a map that became the likeliest later. Each counts once, however much of the map is
-    /// wrong by it, and though it be mended later.
+    /// Number of arrivals at which a duplicate or a loop was claimed that was another one, or none:
+    /// at once, or by a map that became the likeliest later. Each counts once, however much of the
+    /// map is wrong by it, and even if it is corrected later.
     pub wrong: u32,
     /// A fragment was walked again, and still is on the map at the end as another one.
     pub missed: u32,
 }
 
-/// What really happened, for scoring.
+/// Truth of a trial, for scoring.
 pub(super) struct Score<'a> {
     fragments: TrueFragments,
     /// Loops closed rightly, and those that were not, on arrival.
@@ -34,7 +34,7 @@ pub(super) struct Score<'a> {
     missed: u32,
     /// The numbers of the walks that closed a loop wrongly.
     wrong: BTreeSet<usize>,
-    /// Where walks are retraced from, or `None` if nobody knows where that was.
+    /// Starting point from which walks are retraced, or `None` if it is unknown.
     base: Option<Base>,
     /// All walks.
     walked: Vec<Walked>,
@@ -47,8 +47,8 @@ pub(super) struct Score<'a> {
     pub(super) known: KnownMap<'a>,
 }
 
-/// What all maps have in common that became the likeliest since: how things stood at the start, or
-/// when nothing explained what was met and the mapper began again.
+/// Common beginning of all maps that became the likeliest since: the start, or the point where no
+/// hypothesis explained a walk and the mapper began again.
 struct Base {
     /// The port behind the robot.
     at: Port,
@@ -163,7 +163,7 @@ impl<'a> Score<'a> {
         }
     }
 
-    /// A map begins at a port, in a cell; what is known of its fragments and places stays known.
+    /// Starts a map at a port, in a cell; its known fragments and places stay known.
     fn begin_at(&mut self, at: Port, cell: Option<Cell>) {
         self.base = cell.map(|cell| {
             self.places.insert(at.junction, cell);
@@ -176,10 +176,10 @@ impl<'a> Score<'a> {
         });
     }
 
-    /// Another map has its own names of fragments and places: what they are follows from the same
-    /// walks on it. An arrival has closed a loop wrongly that is the first to show a fragment of
-    /// the map to be two true ones, or a place; but for those of a robot that was taken to be
-    /// elsewhere before, as they follow from that.
+    /// Retraces the walks on a new map, which has its own names of fragments and places. An arrival
+    /// has closed a loop wrongly if it is the first to show that a fragment or a place of the map
+    /// is two true ones. Walks of a robot that was lost before do not count, as their errors follow
+    /// from that.
     fn retrace(&mut self, map: &CpMap) {
         let Some(base) = &self.base else {
             return;
@@ -221,9 +221,9 @@ impl<'a> Score<'a> {
         }
     }
 
-    /// Loops count as closed too that were closed after the arrival, by another fragment or another
-    /// map, and as missed those that are open on the map at the end, where a fragment is on it more
-    /// than once.
+    /// Returns the closures at the end. Loops closed after the arrival, by another fragment or
+    /// another map, count as closed. Fragments that the final map has more than once count as
+    /// missed.
     pub(super) fn closures_at_the_end(&self, map: &CpMap) -> Closures {
         let known = map.fragments().filter_map(|(id, _)| self.truth.get(&id));
         let mut fragments: Vec<u32> = known.map(|way| way.fragment).collect();
@@ -251,8 +251,8 @@ impl<'a> Score<'a> {
         self.fragments.shortest(maze, length)
     }
 
-    /// Returns the length of a drive, in observations of the fragments it was along, or `None` if
-    /// one of them was not walked before.
+    /// Returns the length of a drive, in observations of its fragments, or `None` if one of them
+    /// was never walked.
     pub(super) fn length_of(&self, world: &World, path: &[Pose]) -> Option<u32> {
         let cells = path.iter().filter_map(|pose| world.cell_at(pose.position));
         let driven = self.fragments.driven(cells)?;

@@ -10,8 +10,8 @@ use super::fragments::{
 use crate::course::Course;
 use tolman_systems::cpm::Approach;
 
-/// Where a robot may be put down: in the middle of a cell between the places at the ends of a
-/// fragment, looking along it.
+/// Possible pose of a robot that is put down: in the middle of a cell inside a fragment, looking
+/// along it.
 #[derive(Clone, Debug)]
 pub(super) struct Spot {
     cell: Cell,
@@ -22,7 +22,7 @@ pub(super) struct Spot {
     behind: PlaceAtEnd,
     /// The bend of every cell between the places.
     bends: Vec<Quarters>,
-    /// How many of those cells lie behind it.
+    /// Number of those cells behind it.
     passed: usize,
     /// The place ahead.
     ahead: PlaceAtEnd,
@@ -31,21 +31,21 @@ pub(super) struct Spot {
 /// A place at an end of a fragment, for one who goes along it.
 #[derive(Clone, Debug, PartialEq)]
 struct PlaceAtEnd {
-    /// The ways out of it, from the direction in which it is left or entered.
+    /// Ways out of each, relative to the direction in which it is left or entered.
     open: Vec<Quarters>,
     landmark: Option<Landmark>,
 }
 
-/// What an ideal observer looks at on its way along a fragment.
+/// Observations of an ideal observer along a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Looks {
-    /// How the corridor bends, and where it begins.
+    /// The corridor's bends, and where it begins.
     AtBends,
-    /// Also what the place ahead is, and whether the one behind has ways to its sides.
+    /// Also the place ahead, and whether the one behind has ways to its sides.
     AtPlaces,
 }
 
-/// What it sees from a spot on until the end of the fragment is in sight.
+/// View from a spot to where the end of the fragment comes into sight.
 #[derive(Clone, Debug, PartialEq)]
 struct View<'a> {
     /// The place behind, if it is seen.
@@ -137,13 +137,13 @@ impl Spot {
     }
 }
 
-/// Returns how likely the best guess of an ideal observer is right about maze, fragment and
-/// direction, for a robot at a spot of the maze `here`: 0 to 1.
+/// Returns the probability that an ideal observer guesses maze, fragment and direction correctly,
+/// for a robot at a spot of the maze `here`, 0 to 1.
 ///
-/// It knows the mazes as they are, and how robots are put down: into each maze as often, and at
-/// each of its spots. It mistakes nothing of what it looks at, from the cell behind on. Of that
-/// cell and of the places the robot sees a part, so that on average no robot knows more than one
-/// that looks at both.
+/// It knows the true mazes, and that each maze, and each spot of it, is equally likely. It
+/// recognizes all it looks at without error, from the cell behind on. The robot sees only a part of
+/// that cell and of the places. So on average no robot knows more than an observer that looks at
+/// both.
 pub(super) fn knowable(
     mazes: &[Vec<Spot>],
     here: usize,
@@ -248,7 +248,7 @@ o---o---o---o---o---o
         assert!(mazes[0].iter().all(|spot| known(spot) > 0.99));
     }
 
-    /// Whoever looks at places too is right as often at least, over all spots of each maze.
+    /// Checks that looking at places too does not reduce the hits, over all spots of each maze.
     #[test]
     fn places_tell_no_less_than_bends() {
         let texts = [

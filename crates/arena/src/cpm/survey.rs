@@ -16,15 +16,15 @@ pub struct SurveyedWalk {
     pub way: WayOut,
     /// The place it truly led to, or `None` outside the maze.
     pub to: Option<Cell>,
-    /// What was seen on the way.
+    /// Observations on the way.
     pub observations: Vec<Observation>,
     /// The place it led to.
     pub sighting: Sighting,
 }
 
 /// Walks every fragment of a maze both ways, each from a fresh start in the middle of the place at
-/// its end: how far two walks along one fragment differ, and how far those along two, is what all
-/// reasoning on the map stands on.
+/// its end, and returns the walks. All reasoning on the map rests on two differences: between walks
+/// along one fragment, and between walks along two.
 ///
 /// # Errors
 /// [`CpmTrialError`] if the robot cannot stand at a place, or a walk comes to no end.
@@ -112,8 +112,8 @@ mod tests {
         }
     }
 
-    /// Consecutive sightings of a junction are one, none is passed unseen, and each has as many
-    /// branches as there are.
+    /// Consecutive sightings of a junction are one, none is passed unseen, and the number of
+    /// branches is right.
     #[test]
     fn every_walk_leads_to_the_next_place() {
         for text in [
@@ -131,8 +131,8 @@ mod tests {
         }
     }
 
-    /// Branches are counted from the one that it came by, also where a bend lets it stand askew in
-    /// a junction.
+    /// Branches are counted from the one that it came by, also if a bend leaves it askew in a
+    /// junction.
     #[test]
     fn the_first_branch_leads_back() {
         let text = "start = 0 0 north\n\n\

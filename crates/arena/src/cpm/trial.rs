@@ -22,40 +22,40 @@ use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::score::{Closures, Score};
 use crate::course::{Course, CourseError};
 
-/// Both episodes of the paper in one maze: the first from the start until the goal is found, the
-/// second from the start again, along the shortest known way.
+/// Both episodes of the paper in one maze. The first leads from the start to the goal; the second
+/// leads from the start again, along the shortest known way.
 #[derive(Clone, Debug)]
 pub struct CpmTrial<'a> {
     /// The maze, with a start and a goal.
     pub course: &'a Course,
-    /// What the robot learned before, if its mode has that.
+    /// Patterns that the robot learned before, if its mode uses them.
     pub patterns: &'a CommonPatterns,
     /// The robot.
     pub robot: EpuckConfig,
-    /// How it maps.
+    /// Mode of mapping.
     pub mode: Mode,
     /// The seed of all random numbers.
     pub seed: u64,
 }
 
-/// What came of a trial.
+/// Result of a trial.
 #[derive(Clone, Debug, Default)]
 pub struct TrialRecord {
     /// The first episode, if it came to an end.
     pub first: Option<EpisodeSummary>,
     /// The second.
     pub second: Option<EpisodeSummary>,
-    /// Whether the second episode's way was as short as any that could be known: the junctions at
-    /// the ends of a fragment that was walked twice are known to be the same, and start and goal
-    /// are; others are not.
+    /// Whether the second episode's way was the shortest that could be known. The ends of a
+    /// fragment that was walked twice are known to be the same places, and start and goal are
+    /// known.
     pub is_shortest_known: bool,
     /// Whether it was as short as any over the fragments that were walked as they truly lie, which
     /// nothing need tell the robot.
     pub is_shortest_as_it_lies: bool,
-    /// Whether the map by which the second episode is planned is right: each place and fragment
-    /// where the robot has been is on it once, and all are joined as they truly are.
+    /// Whether the map from which the second episode is planned is right: each place and fragment
+    /// where the robot has been is on it once, joined as in truth.
     pub is_map_right: bool,
-    /// How well loops were closed.
+    /// Counts of loops closed correctly and wrongly.
     pub closures: Closures,
     /// Fragments walked in the first episode, each as often as it was.
     pub traversals: u32,
@@ -65,11 +65,11 @@ pub struct TrialRecord {
     pub patterns: u32,
     /// Fragments that were truly walked.
     pub true_fragments: u32,
-    /// How often the map was not what the robot found.
+    /// Number of times that the map differed from what the robot found.
     pub contradictions: u32,
     /// Time steps in which the body touched a wall.
     pub bumps: u32,
-    /// What the robot did, step by step.
+    /// Path of the robot, step by step.
     pub path: Vec<Pose>,
     /// When the second episode began, steps.
     pub second_from: usize,
@@ -91,7 +91,7 @@ impl TrialRecord {
         reached(self.first) && reached(self.second) && self.is_shortest_known
     }
 
-    /// By how much the second episode was shorter, in percent of the time of the first.
+    /// Returns the reduction of time from the first to the second episode, in percent of the first.
     #[must_use]
     pub fn reduction_percent(&self) -> Option<f64> {
         let (first, second) = (self.first?, self.second?);
@@ -149,8 +149,8 @@ impl CpmTrial<'_> {
         Ok(Walker::new(body, config))
     }
 
-    /// The robot looks where it is and begins its map there, as its mode has it but for the
-    /// configuration.
+    /// Lets the robot look where it is, and returns layer 3 with a map that begins there. It
+    /// follows the mode, except for `config`.
     pub(super) fn begin(
         &self,
         walker: &mut Walker<SimulatedEpuck>,
@@ -164,7 +164,7 @@ impl CpmTrial<'_> {
         Layer3::begin(walker, patterns, novelty, config)
     }
 
-    /// Plays both episodes. What goes wrong on the way is a result.
+    /// Plays both episodes and returns the result. Failures on the way are part of it.
     ///
     /// # Errors
     /// [`CpmTrialError`] if it cannot be begun.
@@ -172,7 +172,7 @@ impl CpmTrial<'_> {
         self.watch(|_, _, _| {})
     }
 
-    /// [Plays](Self::play) both episodes. `see` is told of every fragment of the first.
+    /// [Plays](Self::play) both episodes. Calls `see` with every fragment of the first.
     ///
     /// # Errors
     /// [`CpmTrialError`] if it cannot be begun.
@@ -257,7 +257,7 @@ pub enum CpmTrialError {
     /// Who watched a robot learn broke off.
     #[error("broken off after {walks} fragments")]
     BrokenOff {
-        /// How many were walked.
+        /// Number of walks.
         walks: u32,
     },
     /// The robot cannot be built.
@@ -265,7 +265,7 @@ pub enum CpmTrialError {
     Epuck(#[from] EpuckError),
     /// A fragment was not walked from end to end.
     #[error(
-        "nothing was seen on the way from {} to {}, or the robot came elsewhere: make it longer than a cell",
+        "the robot saw nothing on the way from {} to {}, or came elsewhere: make the way longer than a cell",
         ends.0, ends.1
     )]
     Unwalked {
@@ -333,12 +333,12 @@ pub(super) mod tests {
         Course::new("", tolman_maze::read(text).unwrap().maze, WIDTH).unwrap()
     }
 
-    /// Maze 1 of the paper, for all tests of CPM.
+    /// Returns Maze 1 of the paper, for all tests of CPM.
     pub(crate) fn maze_1() -> Course {
         read(include_str!("../../mazes/cpm-1.maze"))
     }
 
-    /// What a robot learns in the learning maze, for all tests of CPM.
+    /// Patterns learned in the learning maze, for all tests of CPM.
     pub(in crate::cpm) static PATTERNS: LazyLock<CommonPatterns> =
         LazyLock::new(|| learn(&read(include_str!("../../mazes/cpm-learning.maze")), 1).unwrap());
 

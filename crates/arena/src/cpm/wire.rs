@@ -26,7 +26,7 @@ use super::trial::tests::{PATTERNS, maze_1};
 
 const WIDTH: f64 = 0.25;
 
-/// What runs on the robot: it reads lines, answers, and turns the wheels by whole steps of the
+/// Firmware of the robot: it reads lines, answers, and turns the wheels by whole steps of the
 /// motors.
 struct Firmware {
     body: SimulatedEpuck,
@@ -36,7 +36,7 @@ struct Firmware {
     turned: [f64; 2],
     heard: Vec<u8>,
     answers: VecDeque<u8>,
-    /// Of the bytes that come, how many until one is lost.
+    /// Number of incoming bytes until one is lost.
     lost: Option<usize>,
 }
 
@@ -94,7 +94,7 @@ impl Firmware {
         }
     }
 
-    /// A time step goes by.
+    /// Simulates a time step.
     fn pass(&mut self) {
         let [left, right] = self.speeds.map(|speed| f64::from(speed) * ENCODER_STEP);
         self.body.step(&WheelSpeeds { left, right }).unwrap();

@@ -1,11 +1,11 @@
-//! Mazes of corridors and junctions without a robot: what layer 3 is shown of a maze, true or
-//! noisy, in microseconds.
+//! Mazes of corridors and junctions without a robot: layer 3's view of a maze, true or noisy, in
+//! microseconds.
 //!
-//! A [`PlaneMaze`] is a plane graph: places with a position, whose ports are in the order of the
-//! corridors' bearings, and corridors that look from each end as a sequence of common patterns. A
-//! [`PlaneWalker`] walks it and tells what an e-puck's lower layers would, with [`WalkerNoise`].
-//! The world can tell whether a map is [right](PlaneMaze::check), and what the
-//! [shortest walk](PlaneMaze::shortest_covering_walk) through all corridors would have been.
+//! A [`PlaneMaze`] is a plane graph. Its places have positions, and ports in the order of the
+//! corridors' bearings. Its corridors look from each end like a sequence of common patterns. A
+//! [`PlaneWalker`] walks it and reports what an e-puck's lower layers would, with [`WalkerNoise`].
+//! The world tells whether a map is [right](PlaneMaze::check), and the length of the
+//! [shortest walk](PlaneMaze::shortest_covering_walk) through all corridors.
 
 mod check;
 mod generate;
@@ -37,9 +37,9 @@ pub struct PlaneMaze {
 /// A junction, a dead end or a landmark in a corridor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MazePlace {
-    /// Where it is, m.
+    /// Position, m.
     pub position: Point,
-    /// What stands there.
+    /// The landmark that stands there.
     pub landmark: Option<Landmark>,
     /// The corridors' ends at it, counter-clockwise.
     pub ports: Vec<CorridorEnd>,
@@ -66,13 +66,13 @@ pub struct WorldPort {
 /// A path fragment as it truly is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MazeCorridor {
-    /// What is observed from − to +.
+    /// Patterns observed from − to +.
     pub patterns: Vec<PatternId>,
     /// Its middle line, from − to +, both places included, m.
     pub line: Vec<Point>,
-    /// Where it begins.
+    /// Port at its beginning.
     pub minus: WorldPort,
-    /// Where it ends.
+    /// Port at its end.
     pub plus: WorldPort,
 }
 
@@ -149,11 +149,11 @@ pub struct WorldBuilder {
 #[non_exhaustive]
 pub enum PlaneMazeError {
     /// A place is not there.
-    #[error("place {place} of {count}: draw it first")]
+    #[error("place {place} does not exist, there are {count}: add it first")]
     NoSuchPlace {
         /// Its number.
         place: u32,
-        /// How many there are.
+        /// Number of them.
         count: u32,
     },
     /// No corridor leads to a place.
@@ -194,12 +194,12 @@ impl WorldBuilder {
         self.places.len() as u32 - 1
     }
 
-    /// Adds a corridor from a place to another, or back to the same, over some points between, that
-    /// is observed as these patterns; and returns its number.
+    /// Adds a corridor from a place to another, or back to the same, over the points `via`, and
+    /// returns its number. `patterns` are observed along it.
     ///
     /// # Errors
-    /// [`PlaneMazeError`] if a place is not there, a point not finite, or a pattern not in the
-    /// dictionary.
+    /// [`PlaneMazeError`] if a place does not exist, a point is not finite, or a pattern is not in
+    /// the dictionary.
     pub fn corridor(
         &mut self,
         minus: u32,
@@ -306,7 +306,7 @@ impl PlaneMaze {
         self.start
     }
 
-    /// Returns what is seen at a place; a place that is not there looks like a dead end.
+    /// Returns the sighting of a place; a place that does not exist looks like a dead end.
     #[must_use]
     pub fn sighting(&self, place: u32) -> Sighting {
         match self.places.get(place as usize) {

@@ -1,6 +1,6 @@
-//! CPM's e-puck as the robot of a diktiometry: its layers 0 and 1 drive from one junction or dead
-//! end to the next, which are the places; encoders with headings trued up by the walls are its
-//! odometry, a sweep is what a place looks like.
+//! CPM's e-puck as the robot of a diktiometry. Its layers 0 and 1 drive from one junction or dead
+//! end to the next, which are the places. Encoders, with headings corrected by the walls, are its
+//! odometry. A sweep is the look of a place.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -23,25 +23,25 @@ use crate::cpm::{SimulatedEpuck, TrueFragments, epuck, walker_config};
 use tolman_systems::cpm::{HeadingBy, WalkError, Walker};
 use tolman_systems::stream;
 
-/// How an e-puck surveys a maze.
+/// Parameters of an e-puck's survey of a maze.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct EpuckSurveyConfig {
-    /// How many moves are made, each from one place to the next.
+    /// Number of moves, each from one place to the next.
     pub moves: u32,
-    /// How likely a script of the map's advice is begun when one is applicable, 0 … 1; "generally
-    /// 30 % of the time".
+    /// Exploration probability: how often an applicable script of the map's advice is begun, 0 to
+    /// 1; "generally 30 % of the time".
     pub heed: f64,
-    /// How far odometry may be off at the end of a move along either axis, m: where in a place the
+    /// Error bound of odometry at the end of a move along either axis, m: where in a place the
     /// robot stops.
     pub margin: f64,
-    /// And how much farther after one metre, m; it grows as the root of the way, as each tick's
-    /// slip is independent of the others'.
+    /// Additional bound after one metre, m. It grows as the root of the way, as the slips of ticks
+    /// are independent.
     pub margin_per_root_metre: f64,
 }
 
 impl EpuckSurveyConfig {
-    /// Bounds for wheels that slip by 10 %. They were seen to hold: in Mazes 1 to 3, of 3600 moves
-    /// with seeds 1 to 3, for all. As slips are independent of each other, this is no strict bound.
+    /// Returns bounds for wheels that slip by 10 %. They held for all of 3600 moves in Mazes 1 to 3
+    /// with seeds 1 to 3. As slips are independent, they are not strict bounds.
     #[must_use]
     pub const fn usual(moves: u32) -> Self {
         Self {
@@ -75,14 +75,14 @@ impl EpuckSurveyConfig {
 /// Columns of what a place looks like.
 const COLUMNS: usize = 20;
 
-/// Raw values above this are those of walls in any corridor: what is told apart is a wall from
-/// none.
+/// Raw value above which a sensor sees a wall, in any corridor: only a wall and no wall are told
+/// apart.
 const WALL: f64 = 60.0;
 
-/// What came of a survey.
+/// Result of a survey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EpuckSurvey {
-    /// How good the map is.
+    /// Quality of the map.
     pub score: MapScore,
     /// Moves that were made.
     pub moves: u32,
@@ -131,11 +131,11 @@ pub enum EpuckRoverError {
     Interval(#[from] IntervalError),
 }
 
-/// Walks through a maze and maps its places.
+/// Walks through a maze, maps its places, and returns the result.
 ///
 /// # Errors
-/// [`EpuckSurveyError`] if it cannot be begun, or the observer refuses what it is told. That the
-/// robot gets stuck is a result.
+/// [`EpuckSurveyError`] if it cannot be begun, or the observer refuses an observation. A robot that
+/// gets stuck is a result.
 pub fn survey_maze(
     maze: &Maze,
     corridor_width: f64,
@@ -186,7 +186,7 @@ pub fn survey_maze(
 struct EpuckRover {
     walker: Walker<SimulatedEpuck>,
     config: EpuckSurveyConfig,
-    /// Which way it looked at the start.
+    /// Heading at the start.
     ahead: Heading,
     /// The branch that leads each way, by [`Direction::index`].
     ways: [Option<usize>; 4],
@@ -234,7 +234,7 @@ impl EpuckRover {
         self.walker.pose().heading.turned(self.ahead.radians())
     }
 
-    /// Which way each branch leads.
+    /// Assigns each branch to the direction in which it leads.
     fn orient(&mut self) {
         self.ways = [None; 4];
         for (number, branch) in self.walker.branches().iter().enumerate() {
@@ -243,7 +243,7 @@ impl EpuckRover {
         }
     }
 
-    /// Returns what there is at the place it came to.
+    /// Returns the arrival at the place it came to.
     fn arrival(
         &mut self,
         outcome: MoveOutcome,

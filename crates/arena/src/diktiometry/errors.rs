@@ -45,15 +45,15 @@ impl MoveError {
     }
 }
 
-/// What a run's errors come to. See `docs/diktiometry.md` for the definitions.
+/// Summary of a run's errors. See `docs/diktiometry.md` for the definitions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorSummary {
     /// The mean error per move by the map over the last [`TAIL`] of all moves, m².
     pub asymptote: f64,
     /// The mean error per move by odometry over all moves, m².
     pub odometry: f64,
-    /// Moves after which the mean over a [`WINDOW`] of moves is, and in every later window stays,
-    /// [`NEAR`] the run's own asymptote; all moves if it never is.
+    /// Number of moves after which the mean over a [`WINDOW`] of moves is [`NEAR`] the run's own
+    /// asymptote, and stays so. All moves if it never is.
     pub moves_to_own: usize,
     /// The mean error by the map over each successive [`WINDOW`] of moves, m².
     pub curve: Vec<f64>,
@@ -67,7 +67,7 @@ pub struct ErrorSummary {
 pub const WINDOW: usize = 25;
 /// Moves are at their asymptote in this last share of a run.
 pub const TAIL: f64 = 0.25;
-/// What counts as near the asymptote: this share of the odometry's error above it.
+/// Margin above the asymptote that counts as near, as a share of the odometry's error.
 pub const NEAR: f64 = 0.2;
 
 impl ErrorSummary {

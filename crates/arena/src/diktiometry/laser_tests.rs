@@ -70,7 +70,7 @@ fn the_laser_pioneer_learns_the_j_and_goes_to_its_goal() {
     }
 }
 
-/// A run that is out of time stops amid a corridor; the next goes on from there.
+/// A run that is out of time stops in mid-corridor; the next one continues from there.
 #[test]
 fn a_run_that_broke_off_goes_on() {
     let office = j();

@@ -1,5 +1,5 @@
-//! What a mapper can know that confuses no two places and remembers how each way last was: the
-//! measure of a map whose world changes.
+//! Memory of how each way last was, without confusing two places: the baseline of a map whose world
+//! changes.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 
@@ -8,19 +8,19 @@ use tolman_planners::{Graph, path_to};
 
 use super::{Places, leads, share};
 
-/// Where a way led.
+/// End of a way.
 #[derive(Clone, Copy, Debug)]
 struct End {
     site: u32,
-    /// How far from the beginning of the way, m.
+    /// Distance from the beginning of the way, m.
     distance: f64,
 }
 
-/// The true ways as they were when the robot last saw them. Nothing is inferred of ways that it did
-/// not see: where a place has appeared on a way, the way back is what it was until it is gone.
+/// The true ways at the time when the robot last saw them. Nothing is inferred about ways that it
+/// did not see. If a place has appeared on a way, the way back stays as it was until it is driven.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Memory {
-    /// Where a way led when it was last gone, by site and direction.
+    /// End of each way when it was last driven, by site and direction.
     led: BTreeMap<(u32, Direction), End>,
     /// Ways that were shut when they were last seen.
     shut: BTreeSet<(u32, Direction)>,
@@ -29,7 +29,7 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// The robot is at a site and sees which ways lead on.
+    /// Takes in which ways lead on from a site.
     pub(super) fn see(&mut self, site: u32, exits: &[bool; 4]) {
         self.missed.remove(&site);
         for direction in Direction::ALL {
@@ -42,8 +42,8 @@ impl Memory {
         }
     }
 
-    /// A way led to a site, at a distance in metres. Ways do not turn: where it led before is
-    /// missed if that is nearer, and behind the new end if it is not.
+    /// Takes in that a way led to a site, at a distance in metres. Ways do not turn. Its former end
+    /// is missed if that is nearer, and lies behind the new end if not.
     pub(super) fn go(&mut self, from: u32, direction: Direction, to: u32, distance: f64) {
         let end = End { site: to, distance };
         if let Some(before) = self.led.insert((from, direction), end)

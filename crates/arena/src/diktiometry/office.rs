@@ -15,8 +15,8 @@ use tolman_sim::{CorridorSize, Door, DoorState, Material, WallSegment, World, Wo
 
 use crate::course::Course;
 
-/// How deep the narrow part of a doorway is, in the middle of the wall, as a share of the
-/// corridor's width.
+/// Depth of the narrow part of a doorway, in the middle of the wall, as a share of the corridor's
+/// width.
 const DOORWAY_DEPTH: f64 = 0.5;
 /// From jamb to jamb of a doorway, as a share of the corridor's width.
 const DOORWAY_WIDTH: f64 = 2.0 / 3.0;
@@ -24,22 +24,21 @@ const DOORWAY_WIDTH: f64 = 2.0 / 3.0;
 /// More colours than a camera tells apart, and few enough for a palette of them.
 const MOST_COLOURS: u32 = 1 << 16;
 
-/// How an office is furnished.
+/// Furnishing of an office.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OfficeConfig {
-    /// From wall to wall of a corridor, m. Openings beside a way are told apart only if the walls
-    /// between them are thick.
+    /// Width of a corridor from wall to wall, m. Adjacent openings are only distinguished if the
+    /// walls between them are thick.
     pub corridor_width: f64,
-    /// What lies between two corridors side by side, m; 0 for walls that are lines.
+    /// Thickness of walls between two parallel corridors, m; 0 for walls that are lines.
     pub wall_thickness: f64,
-    /// Which share of the passages between two cells are doorways, 0 … 1; which ones, `seed`
-    /// decides.
+    /// Share of the passages between two cells that are doorways, 0 to 1; `seed` selects them.
     pub doorway_share: f64,
-    /// How many colours the walls have, each piece as long as a cell its own: 1 makes all places
-    /// look the same. At most 65536.
+    /// Number of colours of the walls, at most 65536. Each piece as long as a cell has its own;
+    /// with 1 all places look the same.
     pub colours: u32,
-    /// Of the doorways and the colours.
+    /// Seed of the doorways and the colours.
     pub seed: u64,
 }
 
@@ -56,25 +55,23 @@ impl OfficeConfig {
         }
     }
 
-    /// From the middle of one cell to that of the next, m.
+    /// Returns the distance from the middle of one cell to that of the next, m.
     #[must_use]
     pub const fn pitch(&self) -> f64 {
         self.corridor_width + self.wall_thickness
     }
 
-    /// From jamb to jamb of a doorway, m.
+    /// Returns the distance from jamb to jamb of a doorway, m.
     #[must_use]
     pub const fn doorway_width(&self) -> f64 {
         DOORWAY_WIDTH * self.corridor_width
     }
 }
 
-/// A maze as a world with doorways and painted walls, and what is truly there: the places and the
-/// ways between them.
+/// A maze as a world with doorways and painted walls, with its true places and ways.
 ///
-/// Where four cells make a square without walls, a pillar stands between them: all floor is
-/// corridor. Only what a way leads to a goal of the maze from belongs to it, if the maze has a
-/// goal.
+/// Four cells without walls between them have a pillar in their middle: all floor is corridor. If
+/// the maze has a goal, only cells from which a way leads to a goal belong to the office.
 #[derive(Clone, Debug)]
 pub struct Office {
     /// Its corridors. Doorway n has two leaves, `n a` and `n b`; shut, they make a wall of the
@@ -106,7 +103,7 @@ pub enum OfficeError {
         colours: u32,
     },
     /// The world cannot be built.
-    #[error("the maze makes no world")]
+    #[error("no world can be built from the maze")]
     World(#[from] WorldError),
 }
 
@@ -216,8 +213,8 @@ impl Office {
                 .any(|way| along(way) > 0.0 && along(way.left()).abs() < half)
     }
 
-    /// Returns a random pose from which a run may begin: anywhere in the corridors outside the
-    /// destination and outside doorways, where `body` stands clear of the walls; any heading.
+    /// Returns a random pose for the start of a run: in the corridors, outside the destination and
+    /// outside doorways, where `body` stands clear of the walls; any heading.
     #[must_use]
     pub fn random_start(&self, body: &Body, rng: &mut impl Rng) -> Pose {
         let goals = self.course.maze.goals();
@@ -247,8 +244,8 @@ impl Office {
         Pose::new(self.config.middle(cell) + along + aside, heading)
     }
 
-    /// Any two places are so far apart along one axis at least, whatever doorways are shut, m:
-    /// δ_sep.
+    /// Returns δ_sep, m: any two places are at least this far apart along one axis, whatever
+    /// doorways are shut.
     #[must_use]
     pub fn separation(&self) -> f64 {
         match self.doorways.is_empty() {
@@ -257,7 +254,7 @@ impl Office {
         }
     }
 
-    /// Returns how many doorways there are.
+    /// Returns the number of doorways.
     #[must_use]
     pub const fn doorways(&self) -> usize {
         self.doorways.len()
@@ -273,11 +270,11 @@ impl Office {
         self.config.between(cell, direction)
     }
 
-    /// Returns what is truly there while some doorways are shut, by site: a place at every bend,
-    /// junction and dead end of the corridors and in every open doorway, and from each the ways to
-    /// the next in the four directions.
+    /// Returns the true places while doorways `shut` are shut, by site. There is a place at every
+    /// bend, junction and dead end of the corridors and in every open doorway. Each has the ways to
+    /// the next places in the four directions.
     ///
-    /// A site is the index of a cell in its grid, or behind all cells the number of a doorway.
+    /// A site is the index of a cell in its grid, or, after all cells, the number of a doorway.
     /// O(cells · length of the longest corridor).
     #[must_use]
     pub fn places(&self, shut: &[usize]) -> BTreeMap<u32, TruePlace> {
@@ -320,8 +317,8 @@ impl Office {
     }
 }
 
-/// Corridors between blocks: a square grid in which a share of the inner walls stands, drawn by
-/// chance but for those that would cut a cell off.
+/// Returns corridors between blocks: a square grid with a random share of the inner walls, except
+/// those that would cut a cell off.
 pub fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
     let grid = Grid::new(side, side);
     let mut maze = Maze::open(grid);
@@ -349,7 +346,7 @@ pub(super) type Places = BTreeMap<u32, TruePlace>;
 pub struct TruePlace {
     /// Its number, the same whatever doorways are shut.
     pub site: u32,
-    /// Where it is, m.
+    /// Position, m.
     pub position: Point,
     /// The site that the way north, east, south and west leads to, or `None` where a wall is.
     pub ways: [Option<u32>; 4],
@@ -400,7 +397,7 @@ impl Chart<'_> {
         !straight.contains(&ways) && ways.contains(&true)
     }
 
-    /// From a cell on in one direction, to the site of the next place.
+    /// Returns the site of the next place from a cell in one direction.
     fn onward(&self, mut cell: Cell, direction: Direction) -> Option<u32> {
         while self.is_open(cell, direction) {
             if let Some(number) = self.doorway(cell, direction) {
@@ -414,7 +411,7 @@ impl Chart<'_> {
         None
     }
 
-    /// From a doorway on in one direction.
+    /// Returns the site of the next place from a doorway in one direction.
     fn behind(&self, number: usize, direction: Direction) -> Option<u32> {
         let (cell, along) = self.office.doorways[number];
         let beyond = match direction {
@@ -429,7 +426,7 @@ impl Chart<'_> {
     }
 }
 
-/// Where an office's parts are.
+/// Positions of an office's parts.
 impl OfficeConfig {
     /// Returns the middle of a cell.
     fn middle(&self, cell: Cell) -> Point {
@@ -477,8 +474,8 @@ impl OfficeConfig {
         })
     }
 
-    /// Returns the two leaves of a doorway's door, one at each face of the wall, so that shut it
-    /// looks like a wall from both sides.
+    /// Returns the two leaves of a doorway's door, one at each face of the wall. Shut, it looks
+    /// like a wall from both sides.
     fn leaves(&self, number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
         let across = unit_of(direction.left()) * (0.5 * self.corridor_width);
         let depth = unit_of(direction) * (0.5 * self.wall_thickness);

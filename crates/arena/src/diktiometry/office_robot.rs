@@ -15,7 +15,7 @@ pub type OfficeSurveyor = Surveyor<OfficeRobot, PlaceCue>;
 /// Opens or shuts both leaves of doorway `number` where `robot` is.
 ///
 /// # Errors
-/// If there is none of that number.
+/// If there is no doorway of that number.
 pub(super) fn set_doorway(
     robot: &mut OfficeRobot,
     number: usize,
@@ -158,8 +158,8 @@ mod tests {
         );
     }
 
-    /// The abstract world in which mappers are tried by the million offers them the same as the
-    /// robot does.
+    /// Checks that the abstract world, in which mappers are tried by the million, has the
+    /// statistics of the robot.
     #[test]
     fn the_abstract_world_offers_the_same_statistics() {
         let office = office(8, 0.2);

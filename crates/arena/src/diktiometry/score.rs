@@ -1,4 +1,4 @@
-//! A learned map held against the truth.
+//! A learned map compared with the truth.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use core::cmp::Reverse;
@@ -8,7 +8,7 @@ use tolman_maze::Direction;
 
 use super::{Places, leads};
 
-/// Where the robot truly was while the map had it at a place.
+/// True position of the robot while the map had it at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Visit {
     /// The site of the true place.
@@ -17,17 +17,17 @@ pub struct Visit {
     pub place: PlaceId,
 }
 
-/// How good a map is. Every share is from 0 to 1, and 1 where there is nothing to share in.
+/// Quality of a map. Every share is from 0 to 1, and 1 if there is nothing to share in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapScore {
     /// Places on the map.
     pub places: usize,
     /// True places that were visited.
     pub visited: usize,
-    /// Share of the visits that were to the true place which their place on the map stands for: the
-    /// one it was most often taken for. Below 1 there is polytopy, one node for several places.
+    /// Share of visits to the true place that the map's place stands for: the one it was most often
+    /// taken for. Below 1 there is polytopy, one node for several places.
     pub purity: f64,
-    /// Share of the visited true places that exactly one place on the map stands for; others suffer
+    /// Share of visited true places for which exactly one place on the map stands. Others suffer
     /// monotopy, several nodes for one, or are not on the map.
     pub share_once: f64,
     /// Share of the links on the map that lead where their action truly leads.

@@ -30,10 +30,10 @@ pub struct SurveyConfig {
     pub robot: SurveyorConfig,
     /// The mapper.
     pub mapper: Config,
-    /// How likely a script is begun when one is applicable, 0 … 1. Paper: "generally 30% of the
-    /// time".
+    /// Exploration probability: how often an applicable script is begun, 0 to 1. Paper: "generally
+    /// 30% of the time".
     pub heed: f64,
-    /// How many moves are made.
+    /// Number of moves.
     pub moves: u32,
     /// Number of moves after which one random doorway of the office is shut or opened; 0 for never.
     pub door_period: u32,
@@ -86,12 +86,12 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     config
 }
 
-/// What truly was in a run so far.
+/// Truth of a run so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Past {
-    /// Where the robot began, m.
+    /// True start of the robot, m.
     pub start: Point,
-    /// Where it is, m.
+    /// True position of the robot, m.
     pub at: Point,
     /// The true places it was at and what the map took them for, from the start on.
     pub visits: Vec<Visit>,
@@ -111,7 +111,7 @@ pub struct Survey {
     doors: ChaCha8Rng,
     plans: ChaCha8Rng,
     shut: Vec<usize>,
-    /// What is truly there now.
+    /// True places and ways now.
     truth: Places,
     site: u32,
     past: Past,
@@ -126,11 +126,11 @@ pub struct PlaceMark {
     pub id: u32,
     /// The box that holds it as seen from the start, m.
     pub bounds: Bounds,
-    /// What is known of it, in words.
+    /// Label in words.
     pub label: String,
 }
 
-/// What became of a plan to a place of the map.
+/// Result of a plan to a place of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlanTrial {
     /// The place is not there now (a doorway that is shut, a junction whose branch is): no plan
@@ -145,14 +145,14 @@ pub enum PlanTrial {
     },
 }
 
-/// What happened in one move.
+/// Result of one move.
 #[derive(Debug)]
 pub struct SurveyedMove {
-    /// What the planner wanted.
+    /// Decision of the planner.
     pub decision: PlannedMove,
-    /// What the robot measured.
+    /// Measurements of the robot.
     pub arrival: Arrival,
-    /// What the observer made of it.
+    /// The observer's report.
     pub report: StepReport,
 }
 
@@ -178,21 +178,21 @@ pub enum RunError {
     /// Robot or observer cannot go on.
     #[error("the survey broke off at ({}, {}) m", at.x, at.y)]
     BrokeOff {
-        /// Where the robot stands.
+        /// Position of the robot.
         at: Point,
         /// Reason.
         source: MapError<RoutineError<StepError>>,
     },
     /// The robot is at no place.
-    #[error("the robot stands at ({}, {}) m, where no place is; lower the noise", at.x, at.y)]
+    #[error("the robot is at ({}, {}) m, which is not a place; lower the noise", at.x, at.y)]
     OffPlace {
-        /// Where it stands.
+        /// Position of the robot.
         at: Point,
     },
     /// There is no way on.
     #[error("no way leads on from ({}, {}) m", at.x, at.y)]
     NoWay {
-        /// Where the robot stands.
+        /// Position of the robot.
         at: Point,
     },
 }
@@ -368,7 +368,7 @@ impl Survey {
         &self.config
     }
 
-    /// Returns what truly was so far.
+    /// Returns the truth so far.
     #[must_use]
     pub fn past(&self) -> Past {
         Past {
@@ -407,10 +407,9 @@ impl Survey {
         &self.errors
     }
 
-    /// Returns whether a plan from here to a place of the map that is drawn by chance would lead
-    /// there: its actions are followed on the true ways, without moving the robot. A place that
-    /// cannot be planned to counts as one not reached, or `None` if the map has no other place, or
-    /// the robot was never where the one drawn is.
+    /// Returns whether a plan from here to a random place of the map would lead there. Its actions
+    /// are followed on the true ways, without moving the robot. A place without a plan counts as
+    /// not reached. `None` if the map has no other place, or the robot was never at the drawn one.
     pub fn try_plan(&mut self) -> Option<PlanTrial> {
         let paths = &self.mapping.observer().map().paths;
         let here = self.observer().place();
@@ -442,10 +441,9 @@ impl Survey {
         })
     }
 
-    /// Returns the share of ways that lead where they did when the robot last saw them, of those it
-    /// would then take to be there: what a map of this run is measured against that does not guess
-    /// what has changed since. A run that was resumed remembers what it saw since then alone: the
-    /// ways of before are no part of its [`Past`].
+    /// Returns the share of remembered ways that still lead where they did when the robot last saw
+    /// them. It is the baseline for a map of this run, which does not guess changes since then. A
+    /// resumed run only remembers what it saw since: earlier ways are not part of its [`Past`].
     #[must_use]
     pub fn remembered_precision(&self) -> f64 {
         self.memory.precision(&self.truth)
@@ -524,7 +522,7 @@ mod tests {
         }
     }
 
-    /// Without what is known of them the walk ends with many places for each true one.
+    /// Without this knowledge the walk ends with many places for each true one.
     #[test]
     fn straight_corridors_and_walls_that_stay_fold_a_map_in_which_all_places_look_alike() {
         let maze = blocks(5, 0.25, &mut stream(1002, 20));

@@ -15,17 +15,17 @@ const FILES: MapFiles = MapFiles {
     system: "diktiometry",
 };
 
-/// A survey as it lies in a file: JSON, read back to the bit. It holds the world and where the
-/// robot is in it, so that the survey can go on; the map is the journal of all moves.
+/// Contents of a survey's file: JSON, read back bit for bit. It holds the world and the robot's
+/// place in it, so that the survey can continue; the map is the journal of all moves.
 #[derive(Clone, Debug)]
 pub struct SurveyFile {
-    /// Where it began, with which robot and from which seed. Going on has seeds of its own.
+    /// World, robot and seed of its origin. A continuation has seeds of its own.
     pub origin: Origin,
     /// The world.
     pub office: Arc<Office>,
     /// The robot and how it walks. Its mapper is that of the map.
     pub config: SurveyConfig,
-    /// What truly was, for going on and for scoring.
+    /// The truth, for continuing and for scoring.
     pub past: Past,
     /// The map.
     pub observer: Observer,
@@ -39,31 +39,31 @@ pub enum SurveyFileError {
     /// form.
     #[error(transparent)]
     File(#[from] FileError),
-    /// How likely a script is begun is no probability.
-    #[error("its heed is {found}: give a number from 0 to 1")]
+    /// The exploration probability is outside 0 to 1.
+    #[error("its `heed`, the exploration probability, is {found}: give a number from 0 to 1")]
     Heed {
-        /// What it says.
+        /// The value found.
         found: f64,
     },
     /// The maze is invalid.
     #[error("its maze is invalid")]
     Maze(#[from] MazeError),
     /// The maze makes no world.
-    #[error("its maze makes no world")]
+    #[error("no world can be built from its maze")]
     Office(#[from] OfficeError),
-    /// The map is invalid, or no journal of it was kept.
+    /// The map is invalid, or its journal was not kept.
     #[error("its map is invalid")]
     Map(#[from] MapFileError),
 }
 
 #[derive(Serialize, Deserialize)]
 struct Body {
-    /// As it is drawn in maze files.
+    /// The maze as in maze files.
     maze: String,
     office: OfficeConfig,
     surveyor: SurveyorConfig,
     heed: f64,
-    /// Where the robot truly began and is, m.
+    /// True start and true position of the robot, m.
     start: [f64; 2],
     at: [f64; 2],
     /// The true site of every visit and the place on the map it was taken for, from the start on.

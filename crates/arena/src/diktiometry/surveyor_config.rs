@@ -6,24 +6,24 @@ use tolman_systems::diktiometry::{CameraEye, Eye, LaserEye, NoEye, RoutineConfig
 
 use crate::pioneer::{CAMERA_PIONEER, LASER_PIONEER, calibrated};
 
-/// A simulated Pioneer and the bounds of its errors. Where the paper names no number, ours stand in
-/// [`SurveyorConfig::paper`].
+/// A simulated Pioneer and the bounds of its errors. [`SurveyorConfig::paper`] has our values for
+/// those that the paper does not name.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SurveyorConfig {
     /// Body, laser and motors. Errors of compass and odometry are added to its own.
     pub pioneer: LaserPioneerConfig,
-    /// What it tells places apart by.
+    /// Cue by which it tells places apart.
     pub sight: PlaceCue,
     /// Largest error of odometry as a share of the distance, 0 … 0.5. Paper: "about 10% of distance
     /// travelled".
     pub odometry_share: f64,
-    /// Largest error of scale that all odometry of a run shares beside that, as a share of the
-    /// distance, 0 … 0.5: a calibration that is wrong, and told to be.
+    /// Largest additional error of scale that all odometry of a run shares, as a share of the
+    /// distance, 0 to 0.5: a wrong calibration, of which the mapper knows the bound.
     #[serde(default, skip_serializing_if = "is_none")]
     pub shared_share: f64,
-    /// How likely odometry is wrong by four times its bound, 0 … 1, drawn as often as other errors.
-    /// The mapper is told none of it.
+    /// Probability that odometry is wrong by four times its bound, 0 to 1, drawn as often as other
+    /// errors. The mapper does not know of it.
     #[serde(default, skip_serializing_if = "is_none")]
     pub outliers: f64,
     /// Largest error of the compass, rad.
@@ -36,7 +36,7 @@ pub struct SurveyorConfig {
     pub place_radius: f64,
 }
 
-/// How many times its bound an outlier of odometry is wrong.
+/// Error of an outlier of odometry, in bounds.
 const OUTLYING: f64 = 4.0;
 
 /// Returns whether there is no such error; files then leave it out.
@@ -45,7 +45,7 @@ fn is_none(error: &f64) -> bool {
     *error <= 0.0
 }
 
-/// What a robot tells places apart by.
+/// Cue by which a robot tells places apart.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum PlaceCue {
@@ -56,7 +56,7 @@ pub enum PlaceCue {
         /// Standard deviation of each of its measurements, as a share of full light.
         colour_sd: f64,
     },
-    /// Which ways lead on, where walls tell nothing.
+    /// The ways that lead on; walls look the same.
     Exits,
     /// The ranges of its laser, as shares of its reach.
     Laser {

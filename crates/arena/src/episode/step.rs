@@ -13,9 +13,9 @@ pub struct Step<'a> {
     pub action: Direction,
     /// Who chose it.
     pub brain: Chooser<'a>,
-    /// What the motors were told.
+    /// Command of the motors.
     pub command: TurnTranslate,
-    /// How the action ended with this step; `None` while it goes on.
+    /// Outcome of the action if it ended with this step; `None` while it goes on.
     pub ends: Option<Outcome>,
     /// The robot as it is now.
     pub robot: &'a CoursePioneer,

@@ -17,9 +17,15 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// Runs `words[0]` with the other words as arguments until it ends, until the process `parent`
 /// ends, or until a signal asks for the end (TERM, INT, HUP). Then kills all that is left of it.
 ///
-/// Returns the exit code, as shells count: the program's own, 128 and the signal that ended it, 127
-/// if there is no such program, 126 if it does not start. Belongs into a process of its own, whose
-/// parent is `parent`: it leaves its session and inherits the program's orphans.
+/// Returns the exit code by the shells' convention:
+///
+/// - the program's own code;
+/// - 128 plus the number of the signal that ended it;
+/// - 127 if there is no such program;
+/// - 126 if it does not start.
+///
+/// Call it in a process of its own, whose parent is `parent`: it leaves its session and inherits
+/// the program's orphans.
 ///
 /// # Errors
 /// If the system refuses it a session, a signal or a descriptor. Nothing was started then.
@@ -49,14 +55,17 @@ pub fn keep(parent: u32, words: &[String]) -> io::Result<u8> {
     };
     let waited = release_pipes().and_then(|()| wait(&mut child, &[&host, &asked.into()]));
     end_descendants();
-    Ok(code(waited?.unwrap_or(ExitStatus::from_raw(SIGTERM))))
+    Ok(match waited? {
+        Some(status) => code(status),
+        None => 128 + SIGTERM as u8,
+    })
 }
 
 fn pid(raw: u32) -> Option<Pid> {
     i32::try_from(raw).ok().and_then(Pid::from_raw)
 }
 
-/// A stream that can be read once a signal asks for the end.
+/// Returns a stream that can be read once a signal asks for the end.
 fn signals() -> io::Result<UnixStream> {
     let (asked, told) = UnixStream::pair()?;
     for signal in [SIGHUP, SIGINT, SIGTERM] {
@@ -97,9 +106,8 @@ fn wait(child: &mut Child, others: &[&std::os::fd::OwnedFd]) -> io::Result<Optio
         if let Some(status) = child.try_wait()? {
             return Ok(Some(status));
         }
-        if events
+        if events[..others.len()]
             .iter()
-            .take(others.len())
             .any(|event| !event.revents().is_empty())
         {
             return Ok(None);

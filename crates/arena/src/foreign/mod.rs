@@ -1,19 +1,21 @@
-//! Programs of others, run under supervision: a mouse, a brain in another language.
+//! Foreign programs, run under supervision: a mouse, a brain in another language.
 //!
-//! A [`ForeignProgram`] is spoken with in lines, within a [`Budget`] of time, bytes and lines. When
-//! it is dropped, nothing of it is left: neither the program nor any process that it started,
-//! whichever group or session they moved to.
+//! A [`ForeignBrain`] drives a robot, in JSON lines. A [`ForeignProgram`] exchanges lines, within a [`Budget`] of time, bytes and lines. When it is
+//! dropped, the program and all processes that it started are killed, whatever group or session
+//! they moved to.
 //!
-//! On Linux that holds even when we are killed. A process of its own, the keeper, stands between
-//! us and the program; it sees us end, and it inherits what the program leaves behind. It is this
-//! executable again, which then calls [`keep`]; [`Launch::keeper`] says how. Elsewhere, and
-//! without a keeper, only the program itself is killed.
+//! On Linux that holds even if this process is killed. A process of its own, the keeper, stands
+//! between it and the program. The keeper notices its end, and inherits what the program leaves
+//! behind. It is the same executable, which then calls [`keep`]; see [`Launch::keeper`]. On other
+//! systems, and without a keeper, only the program itself is killed.
 //!
 //! ```no_run
 //! use core::sync::atomic::AtomicBool;
+//! use std::sync::Arc;
+//!
 //! use tolman_arena::foreign::{Budget, ForeignProgram, Launch, Log};
 //!
-//! let stop = AtomicBool::new(false);
+//! let stop = Arc::new(AtomicBool::new(false));
 //! let words = ["python3".to_owned(), "brain.py".to_owned()];
 //! let launch = Launch { words: &words, keeper: &[], log: Log::Dropped, stop: &stop };
 //! let mut brain = ForeignProgram::start(&launch, Budget::default())?;
@@ -22,10 +24,12 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
+mod brain;
 #[cfg(target_os = "linux")]
 mod keeper;
 mod program;
 
+pub use brain::{BrainError, ForeignBrain, Hello};
 #[cfg(target_os = "linux")]
 pub use keeper::keep;
 pub use program::{Budget, ForeignProgram, Launch, LaunchError, Left, Log, Overrun};

@@ -1,5 +1,6 @@
 //! A foreign program and the lines that go to and fro.
 
+use alloc::sync::Arc;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use std::ffi::OsString;
@@ -11,7 +12,7 @@ use std::time::Instant;
 
 use thiserror::Error;
 
-/// How a foreign program is started.
+/// Parameters of starting a foreign program.
 #[derive(Clone, Copy, Debug)]
 pub struct Launch<'a> {
     /// The program and its arguments.
@@ -19,13 +20,13 @@ pub struct Launch<'a> {
     /// The command that runs [`keep`](super::keep) with our process's id and the words behind it;
     /// empty for no keeper.
     pub keeper: &'a [OsString],
-    /// Where its stderr goes.
+    /// Destination of its stderr.
     pub log: Log,
     /// A flag that ends the program when it is raised.
-    pub stop: &'a AtomicBool,
+    pub stop: &'a Arc<AtomicBool>,
 }
 
-/// Whether what a foreign program writes to stderr is shown.
+/// Whether the stderr of a foreign program is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Log {
     /// On our stderr.
@@ -34,7 +35,7 @@ pub enum Log {
     Dropped,
 }
 
-/// What a foreign program may use up before it is ended.
+/// Resources that a foreign program may use before it is ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// Time from its start.
@@ -48,7 +49,7 @@ pub struct Budget {
 }
 
 impl Default for Budget {
-    /// A minute, 64 MiB, a million lines of 4096 bytes at most.
+    /// Returns a budget of a minute, 64 MiB and a million lines of at most 4096 bytes.
     fn default() -> Self {
         Self {
             time: Duration::from_secs(60),
@@ -59,7 +60,7 @@ impl Default for Budget {
     }
 }
 
-/// Why a foreign program has to be ended.
+/// Reason why a foreign program has to be ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Overrun {
@@ -67,13 +68,13 @@ pub enum Overrun {
     #[error("the program is out of time")]
     Time,
     /// It wrote more bytes than it may.
-    #[error("the program wrote more bytes than it may")]
+    #[error("the program wrote too many bytes")]
     Bytes,
     /// It wrote more lines than it may.
-    #[error("the program wrote more lines than it may")]
+    #[error("the program wrote too many lines")]
     Lines,
-    /// It wrote a line that is longer than it may be.
-    #[error("the program wrote a line that is longer than it may be")]
+    /// It wrote a line that is too long.
+    #[error("the program wrote a line that is too long")]
     LineBytes,
     /// The flag of [`Launch::stop`] was raised.
     #[error("interrupted")]
@@ -89,7 +90,7 @@ pub enum Left {
     Killed,
 }
 
-/// Why a foreign program cannot be run.
+/// Reason why a foreign program cannot be run.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LaunchError {
@@ -101,7 +102,7 @@ pub enum LaunchError {
     Start {
         /// Its name.
         program: String,
-        /// Why.
+        /// The system's reason.
         source: io::Error,
     },
     /// The program cannot be waited for.
@@ -115,8 +116,10 @@ pub enum LaunchError {
 /// must not hold up the clock. They end as soon as its ends of the pipes are closed, or ours of the
 /// channels.
 #[derive(Debug)]
-pub struct ForeignProgram<'a> {
-    launch: Launch<'a>,
+pub struct ForeignProgram {
+    name: String,
+    stop: Arc<AtomicBool>,
+    is_kept: bool,
     child: Child,
     lines: Receiver<Option<String>>,
     replies: Option<SyncSender<String>>,
@@ -135,13 +138,13 @@ const PULSE: Duration = Duration::from_millis(50);
 /// Time in which the keeper is to end the program, before it is killed itself.
 const KEEPER_TIME: Duration = Duration::from_secs(10);
 
-impl<'a> ForeignProgram<'a> {
+impl ForeignProgram {
     /// Starts a program.
     ///
     /// # Errors
     /// [`LaunchError`] if it does not start. Behind a keeper that is seen later, by
     /// [`left`](Self::left).
-    pub fn start(launch: &Launch<'a>, budget: Budget) -> Result<Self, LaunchError> {
+    pub fn start(launch: &Launch<'_>, budget: Budget) -> Result<Self, LaunchError> {
         let (program, arguments) = launch.words.split_first().ok_or(LaunchError::NoProgram)?;
         let mut command = match launch.keeper {
             [] => Command::new(program),
@@ -161,7 +164,7 @@ impl<'a> ForeignProgram<'a> {
                 Log::Dropped => Stdio::null(),
             })
             .spawn()
-            .map_err(|source| does_not_start(launch, source))?;
+            .map_err(|source| does_not_start(program, source))?;
         let (to_us, lines) = mpsc::sync_channel(LINES_AHEAD);
         let (replies, to_program) = mpsc::sync_channel(LINES_AHEAD);
         if let Some(output) = child.stdout.take() {
@@ -171,7 +174,9 @@ impl<'a> ForeignProgram<'a> {
             thread::spawn(move || write(input, &to_program));
         }
         Ok(Self {
-            launch: *launch,
+            name: program.clone(),
+            stop: Arc::clone(launch.stop),
+            is_kept: !launch.keeper.is_empty(),
             child,
             lines,
             replies: Some(replies),
@@ -206,10 +211,10 @@ impl<'a> ForeignProgram<'a> {
         Ok(Some(line))
     }
 
-    /// Hands it a line, without its end. A program that has closed its stdin needs none.
+    /// Sends it a line, without the line's end. A program that has closed its stdin needs none.
     ///
     /// # Errors
-    /// [`Overrun`] if it has to be ended: it does not read, and so much waits for it already.
+    /// [`Overrun`] if it has to be ended, as it does not read and too much is waiting for it.
     pub fn say(&mut self, line: String) -> Result<(), Overrun> {
         let mut waiting = line;
         loop {
@@ -243,16 +248,16 @@ impl<'a> ForeignProgram<'a> {
             _ => None,
         };
         match never_started {
-            Some(kind) if self.heard_lines == 0 && !self.launch.keeper.is_empty() => {
-                Err(does_not_start(&self.launch, kind.into()))
+            Some(kind) if self.heard_lines == 0 && self.is_kept => {
+                Err(does_not_start(&self.name, kind.into()))
             }
             _ => Ok(Left::ByItself(status)),
         }
     }
 
-    /// The time that is left.
+    /// Returns the remaining time.
     fn look_at_clock(&self) -> Result<Duration, Overrun> {
-        if self.launch.stop.load(Ordering::Relaxed) {
+        if self.stop.load(Ordering::Relaxed) {
             return Err(Overrun::Stop);
         }
         let left = self.budget.time.checked_sub(self.started.elapsed());
@@ -260,21 +265,23 @@ impl<'a> ForeignProgram<'a> {
     }
 }
 
-impl Drop for ForeignProgram<'_> {
+impl Drop for ForeignProgram {
     fn drop(&mut self) {
         // What has ended by itself by now is as good, and nobody can be told what fails here.
-        let _ = ask_keeper(&self.launch, &mut self.child);
+        if self.is_kept {
+            let _ = ask_keeper(&mut self.child);
+        }
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// Lets the keeper end the program, if there is one.
+/// Lets the keeper end the program.
 #[cfg(target_os = "linux")]
-fn ask_keeper(launch: &Launch<'_>, child: &mut Child) -> io::Result<()> {
+fn ask_keeper(child: &mut Child) -> io::Result<()> {
     use rustix::process::{Pid, Signal, kill_process};
 
-    if !launch.keeper.is_empty() && child.try_wait()?.is_none() {
+    if child.try_wait()?.is_none() {
         kill_process(Pid::from_child(child), Signal::TERM)?;
         wait(child, KEEPER_TIME)?;
     }
@@ -282,13 +289,13 @@ fn ask_keeper(launch: &Launch<'_>, child: &mut Child) -> io::Result<()> {
 }
 
 #[cfg(not(target_os = "linux"))]
-fn ask_keeper(_: &Launch<'_>, _: &mut Child) -> io::Result<()> {
+fn ask_keeper(_: &mut Child) -> io::Result<()> {
     Ok(())
 }
 
-fn does_not_start(launch: &Launch<'_>, source: io::Error) -> LaunchError {
+fn does_not_start(program: &str, source: io::Error) -> LaunchError {
     LaunchError::Start {
-        program: launch.words.first().cloned().unwrap_or_default(),
+        program: program.to_owned(),
         source,
     }
 }

@@ -2,7 +2,7 @@ use tolman_geom::{Point, Vector};
 use tolman_maze::{Cell, Grid};
 use tolman_sim::Bounds;
 
-/// The 8 × 8 cells by which places are told apart by hand (section 3.2).
+/// The 8 × 8 cells by which a person labels places (section 3.2).
 ///
 /// ```
 /// use tolman_arena::gngslam::CellGrid;
@@ -23,7 +23,7 @@ pub struct CellGrid {
 }
 
 impl CellGrid {
-    /// How many cells there are along either side.
+    /// Number of cells along either side.
     pub const SIDE: u16 = 8;
 
     /// Returns the cells over a rectangle.

@@ -17,16 +17,16 @@ pub struct DataSet {
     pub cells: CellGrid,
     /// The records, in the order in which they were taken.
     pub records: Vec<LabelledRecord>,
-    /// Which of them show the goals.
+    /// Records that show the goals.
     pub goals: GoalRecords,
 }
 
 /// A record, and where it was truly taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelledRecord {
-    /// What the robot knows of it.
+    /// The record, as the robot has it.
     pub record: PlaceRecord,
-    /// Where the robot truly was.
+    /// True pose of the robot.
     pub truth: Pose,
     /// The cell where it truly was.
     pub cell: Cell,
@@ -34,8 +34,8 @@ pub struct LabelledRecord {
     pub label: Cell,
 }
 
-/// Which record best shows each goal, as was indicated by hand (section 3.4, *Score*): taken before
-/// it, looking at it.
+/// The record that best shows each goal, as a person would choose it (section 3.4, *Score*): taken
+/// in front of it, looking at it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GoalRecords {
@@ -45,12 +45,12 @@ pub struct GoalRecords {
     pub yellow: usize,
 }
 
-/// Which share of the labels is wrong. Paper: 10 of 1006.
+/// Share of wrong labels. Paper: 10 of 1006.
 const WRONG_LABELS: f64 = 0.01;
 
 impl GoalRecords {
-    /// Finds the records from where each goal is best seen. Of no records the first, which does
-    /// not exist.
+    /// Returns the record from which each goal is best seen. Without records it is number 0, which
+    /// does not exist.
     pub(super) fn find(pitch: &Pitch, records: &[LabelledRecord]) -> Self {
         let best = |goal| {
             let costs = records.iter().map(|record| cost(pitch, record.truth, goal));
@@ -64,12 +64,12 @@ impl GoalRecords {
     }
 }
 
-/// Returns how badly a goal is seen from a pose: the least where it is straight ahead and fills the
-/// picture, nothing stands before it, and it is not seen aslant.
+/// Returns the cost of seeing a goal from a pose. It is least if the goal is straight ahead, fills
+/// the picture, is not hidden, and is not seen aslant.
 fn cost(pitch: &Pitch, pose: Pose, goal: Pose) -> f64 {
     /// From here a goal fills the picture: where the paper's limits stop the robot, m.
     const BEST: f64 = 1.3;
-    /// What counts alike: m off that distance, rad aside and rad aslant.
+    /// Deviations of equal cost: m off that distance, rad aside and rad aslant.
     const OFF: f64 = 0.5;
     const ASIDE: f64 = 0.1;
     const ASLANT: f64 = 0.4;
@@ -106,7 +106,7 @@ pub(super) fn mislabel(records: &mut [LabelledRecord], rng: &mut ChaCha8Rng) {
     }
 }
 
-/// Any cell but this one.
+/// Returns a random cell other than this one.
 fn another(cell: Cell, rng: &mut ChaCha8Rng) -> Cell {
     let side = u32::from(CellGrid::SIDE);
     let own = u32::from(cell.y) * side + u32::from(cell.x);

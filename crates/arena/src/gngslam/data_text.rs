@@ -27,7 +27,7 @@ const VERSION: u32 = 1;
 /// No picture of ours is larger, pixels.
 const MOST_PIXELS: usize = 1 << 24;
 
-/// What holds for all records.
+/// Contents common to all records.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Header {
@@ -43,7 +43,7 @@ struct Header {
     picture: Option<PictureShape>,
 }
 
-/// What a file of any version begins with.
+/// Beginning of a file of any version.
 #[derive(Deserialize)]
 struct Tag {
     #[serde(default)]
@@ -52,7 +52,7 @@ struct Tag {
     version: u32,
 }
 
-/// What all pictures have in common.
+/// Contents common to all pictures.
 #[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PictureShape {
@@ -83,9 +83,9 @@ pub enum DataTextError {
     /// A line is not JSON, or not what it should hold. The source has the column.
     #[error("line {line} cannot be read; copy the file again, or gather the data again")]
     Line {
-        /// Which line, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// Where in it.
+        /// The parser's error, with its position in the line.
         source: serde_json::Error,
     },
     /// The file is another one.
@@ -93,35 +93,37 @@ pub enum DataTextError {
         "line 1: the format is {found:?}, expected {FORMAT:?}; give a file of gathered records"
     )]
     Format {
-        /// What it says.
+        /// The value found.
         found: String,
     },
     /// The file is of a version this program does not know.
     #[error("line 1: the version is {found}, this program reads {VERSION}; update tolman")]
     Version {
-        /// What it says.
+        /// The version found.
         found: u32,
     },
     /// There are not as many records as the header says.
     #[error("the file has {found} records, its header says {expected}; copy it again")]
     Count {
-        /// How many lines hold one.
+        /// Number of lines with a record.
         found: usize,
-        /// How many there should be.
+        /// Number that the file promises.
         expected: usize,
     },
     /// A record that should show a goal does not exist.
-    #[error("line 1: `goals` names record {index}, and there are {records}; gather the data again")]
+    #[error(
+        "line 1: `goals` names record {index}, but there are only {records} records; gather the data again"
+    )]
     Goal {
-        /// Which record.
+        /// Number of the record.
         index: usize,
-        /// How many there are.
+        /// Number of records.
         records: usize,
     },
     /// Something in a line contradicts the header, or other records.
     #[error("line {line}: {what}; copy the file again, or gather the data again")]
     Record {
-        /// Which line, from 1.
+        /// Number of the line, from 1.
         line: usize,
         /// What is wrong with it.
         what: &'static str,
@@ -239,8 +241,8 @@ impl Header {
         })
     }
 
-    /// Returns what the sensors read whose ranges these are; `None` if they are too many or too
-    /// few.
+    /// Returns the soundings with these ranges; `None` if the number of ranges differs from that of
+    /// the sensors.
     fn heard(&self, ranges: &[f64]) -> Option<Vec<Sounding>> {
         let readings = self.sensors.iter().zip(ranges);
         let readings = readings.map(|(sensor, range)| Sounding {

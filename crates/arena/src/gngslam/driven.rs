@@ -20,11 +20,11 @@ use super::{GatherError, Pitch, PitchError, PutError};
 /// A drive to where a record was taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaceDrive {
-    /// Where the robot truly was at each look, m; the first where it began.
+    /// True position of the robot at each look, m; the first one at its start.
     pub path: Vec<Point>,
-    /// Where the record was truly taken, m.
+    /// True position at which the record was taken, m.
     pub goal: Point,
-    /// How the drive stood at its end.
+    /// State of the drive at its end.
     pub standing: Standing,
 }
 
@@ -51,7 +51,7 @@ impl PlaceDrive {
 pub struct DrivenMap {
     /// The map.
     pub map: PlaceMap,
-    /// Where the origin of its odometry truly lies.
+    /// True pose of its odometry's origin.
     pub world_from_map: Pose,
     /// In order: each begins where the one before ended.
     pub drives: Vec<PlaceDrive>,
@@ -93,9 +93,9 @@ const MOST_PIECES: u32 = 60;
 /// Random stream of a run's seed for the map and the goals.
 const DRIVES: u64 = 4;
 
-/// Gathers `records` records, learns a place map of image and odometry by `config`, and lets the
-/// same robot drive on by it, from where it is, to where `drives` of the records were taken, drawn
-/// at random. `seed` seeds all random numbers.
+/// Gathers `records` records and learns a place map of image and odometry by `config`. Then the
+/// same robot drives on by that map to where `drives` random records were taken. Returns map and
+/// drives. `seed` seeds all random numbers.
 ///
 /// # Errors
 /// [`DrivenMapError`] if the robot fails or the records make no map.

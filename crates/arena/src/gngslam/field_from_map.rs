@@ -4,7 +4,7 @@ use tolman_maze::Cell;
 use super::CellGrid;
 use super::point_score::middle;
 
-/// A rectangle of the field, in cells: what the map is stretched over.
+/// A rectangle of the field, in cells, over which the map is stretched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldExtent {
     /// The corner of the least x and y.
@@ -46,12 +46,12 @@ impl FieldExtent {
     }
 }
 
-/// The field that maps are held against: what is known of it in the world's frame.
+/// The field that maps are compared with, in the world's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldFrame {
     /// The direction from the blue goal to the yellow one; the paper draws it straight up.
     pub yellow_from_blue: Heading,
-    /// What the nodes of a map are stretched over, in cells.
+    /// The rectangle over which the nodes of a map are stretched, in cells.
     pub extent: FieldExtent,
 }
 
@@ -68,9 +68,10 @@ pub struct FieldFromMap {
 }
 
 impl FieldFromMap {
-    /// Turns the map so that the yellow goal is where it has to be seen from the blue one, and
-    /// stretches it so that the least and the greatest x and y of the nodes fall on those of the
-    /// field. `None` if both goals lie at one place or there are no nodes.
+    /// Returns the transform from a map to the field. It turns the map such that the yellow goal
+    /// lies in the right direction from the blue one. Then it stretches the nodes' least and
+    /// greatest x and y to those of the field. `None` if both goals lie at one place or there are
+    /// no nodes.
     #[must_use]
     pub fn of(
         nodes: impl Iterator<Item = Point>,
@@ -132,8 +133,8 @@ mod tests {
         },
     };
 
-    /// Corners of a pitch of 4 × 4.6 m and its goals, seen from a robot that was put down
-    /// somewhere.
+    /// Returns the corners of a pitch of 4 × 4.6 m and its goals, in the frame of a robot that was
+    /// put down somewhere.
     fn pitch(frame: Pose) -> ([Point; 4], [Point; 2]) {
         let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.6), (0.0, 4.6)];
         let goals = [(2.0, 0.0), (2.0, 4.6)];
@@ -159,8 +160,7 @@ mod tests {
         }
     }
 
-    /// The paper's maps had the windows on the left, and nobody found why. A map that is a mirror
-    /// image stays one here.
+    /// A mirror image stays one. The paper's maps had the windows on the left, for unknown reasons.
     #[test]
     fn a_mirror_image_stays_one() {
         let (corners, [blue, yellow]) = pitch(Pose::IDENTITY);

@@ -28,9 +28,9 @@ pub enum GatherError {
 /// wanderer 0.
 const LABELS: u64 = 3;
 
-/// Lets a robot wander in an arena until it has taken `count` records, and writes down the truth
-/// beside each (section 3.2; the paper has 1006). `seed` decides everything random: where it
-/// begins, its noise, its turns and the labels.
+/// Lets a robot wander in an arena until it has taken `count` records, and returns them with the
+/// truth (section 3.2; the paper has 1006). `seed` seeds all random numbers: its start, its noise,
+/// its turns and the labels.
 ///
 /// # Errors
 /// [`GatherError`] if the robot cannot be built or put down, or takes no snapshot.
@@ -53,7 +53,7 @@ pub fn gather(
     gather_with(pitch, robot, WandererConfig::paper(), seed, count)
 }
 
-/// Returns the same with a robot that wanders otherwise.
+/// Gathers like [`gather`], with other parameters of wandering.
 ///
 /// # Errors
 /// As [`gather`].

@@ -4,7 +4,7 @@ use tolman_maps::place_graph::PlaceGraph;
 /// A place graph laid over the world by where the robot truly was when each place was made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaidOver {
-    /// Where the origin of the map lies in the world.
+    /// Pose of the map's origin in the world.
     pub world_from_map: Pose,
     /// Root-mean-square distance of the places from where they truly are, m.
     pub error_m: f64,
@@ -20,7 +20,7 @@ impl LaidOver {
         Self::of_places(places.map(|pose| pose.position), sites)
     }
 
-    /// Does the same with any map's places, by id.
+    /// Does the same with the places of any map, by id.
     #[must_use]
     pub fn of_places(
         places: impl ExactSizeIterator<Item = Point>,

@@ -14,14 +14,14 @@ use super::laid_over::rigid_motion;
 use super::{Pitch, PutError};
 use crate::Simulated;
 
-/// Where a robot was at a look, and where it was believed to be.
+/// True and believed poses of a robot at a look.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookedFrom {
-    /// Where it truly was.
+    /// True pose.
     pub truth: Pose,
-    /// Where the system had it.
+    /// Pose by the system.
     pub corrected: Pose,
-    /// Where its wheels had it, from its true first pose.
+    /// Pose by its wheels, from its true first pose.
     pub reckoned: Pose,
     /// Whether the system knew where it was.
     pub is_localized: bool,
@@ -34,17 +34,17 @@ pub struct LookedFrom {
 pub struct OnlineRun {
     /// Each look, in order.
     pub looks: Vec<LookedFrom>,
-    /// What was learned.
+    /// The learned map.
     pub map: PlaceGraph,
-    /// Where the origin of the map truly lies.
+    /// True pose of the map's origin.
     pub world_from_map: Pose,
     /// Time steps in which the robot touched something.
     pub bumps: u32,
 }
 
 impl OnlineRun {
-    /// Lays the map over the world by the looks of `learned`: the rigid motion under which the
-    /// squared distances are least, as trajectories are compared (Horn 1987). O(looks).
+    /// Aligns the map with the world by the looks of `learned`: the rigid motion with the least
+    /// squared distances, as trajectories are compared (Horn 1987). O(looks).
     pub fn align(&mut self, learned: Range<usize>) {
         let pairs: Vec<(Point, Point)> = (self.looks.get(learned).into_iter().flatten())
             .map(|look| (look.corrected.position, look.truth.position))
@@ -86,8 +86,8 @@ pub fn learn_online(
     run(OnlineSlam::new(config, seed), robot, start, looks)
 }
 
-/// Puts another robot down anywhere in the arena of a run, with the map that was learned there and
-/// without a word of where it is.
+/// Puts another robot down anywhere in the arena of a run, with the map learned there but without
+/// its pose, and returns its run.
 ///
 /// # Errors
 /// As [`learn_online`].

@@ -17,13 +17,13 @@ use super::room::Room;
 /// An arena of the place map: its world, and what is true of it.
 #[derive(Clone, Debug)]
 pub struct Pitch {
-    /// What it is called: see [`named`](Self::named).
+    /// Its name: see [`named`](Self::named).
     pub name: String,
     /// Its walls, goals, windows and furniture.
     pub world: Arc<World>,
-    /// Where its goals stand.
+    /// Poses of its goals.
     pub goals: Goals,
-    /// How it is lit.
+    /// Lighting.
     pub light: Light,
     /// Its floor and ceiling.
     pub backdrop: Backdrop,
@@ -34,9 +34,9 @@ pub struct Pitch {
 /// colours, and the first is called blue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goals {
-    /// Of the blue goal.
+    /// Pose of the blue goal.
     pub blue: Pose,
-    /// Of the yellow goal.
+    /// Pose of the yellow goal.
     pub yellow: Pose,
 }
 
@@ -57,19 +57,19 @@ pub enum PitchError {
         "{tries} random places of arena `{name}` were too narrow to turn the robot in; use a larger arena"
     )]
     NoRoom {
-        /// Which arena.
+        /// Name of the arena.
         name: String,
-        /// How many places were tried.
+        /// Number of positions tried.
         tries: u32,
     },
-    /// How far wheels are out of calibration is no share.
+    /// The error of the wheels' calibration is outside its range.
     #[error("`calibration` is {calibration}; give a share from 0 to 0.5")]
     Calibration {
         /// The offending share.
         calibration: f64,
     },
     /// The world cannot be built.
-    #[error("the arena makes no world")]
+    #[error("no world can be built from the arena")]
     World(#[from] WorldError),
 }
 
@@ -77,11 +77,11 @@ pub enum PitchError {
 const START: u64 = 1;
 const WHEELS: u64 = 2;
 
-/// How far before a goal the middle of its zone lies, and its radius, m.
+/// Distance from a goal to the middle of its zone, and the zone's radius, m.
 const ZONE_BEFORE: f64 = 0.8;
 const ZONE_RADIUS: f64 = 0.5;
 
-/// How many places are tried for a start.
+/// Number of positions tried for a start.
 const TRIES: u32 = 10_000;
 
 impl Pitch {
@@ -89,7 +89,7 @@ impl Pitch {
     /// `random-` with a seed.
     ///
     /// # Errors
-    /// [`PitchError::Unknown`] if there is none.
+    /// [`PitchError::Unknown`] if no arena has this name.
     pub fn named(name: &str) -> Result<Self, PitchError> {
         match name {
             "pitch" => Self::paper(),
@@ -144,10 +144,11 @@ impl Pitch {
         Ok(world.with_zone(before("start", yellow))?)
     }
 
-    /// Returns where a run begins: any place where a Pioneer 2-DX can turn, any heading.
+    /// Returns the start of a run: a random position where a Pioneer 2-DX can turn, with a random
+    /// heading.
     ///
     /// # Errors
-    /// [`PitchError::NoRoom`] if there is none.
+    /// [`PitchError::NoRoom`] if there is no such position.
     pub fn start(&self, seed: u64) -> Result<Pose, PitchError> {
         let mut rng = stream(seed, START);
         let radius = pioneer_2dx::body().radius() + 0.02;
@@ -162,7 +163,7 @@ impl Pitch {
         })
     }
 
-    /// Any place of the rectangle round the floor, any heading.
+    /// Returns a random pose in the bounding rectangle of the floor.
     fn anywhere(&self, rng: &mut impl Rng) -> Pose {
         let bounds = self.bounds();
         let offset = Vector::new(
@@ -185,7 +186,7 @@ impl Pitch {
     }
 }
 
-/// What the Pioneer 2-DX is called, as in the files of maps.
+/// Name of the Pioneer 2-DX, as in the files of maps.
 pub const PIONEER_2DX: &str = "Pioneer 2-DX";
 
 /// Returns the paper's robot. Its wheels count wrongly by a constant share within ± `calibration`,

@@ -18,10 +18,10 @@ const STEEL: [u8; 3] = [110, 110, 120];
 const CEILING: [u8; 3] = [200, 200, 195];
 pub(super) const SKY: [u8; 3] = [200, 225, 255];
 
-/// How high boarding is, m (section 3.1).
+/// Height of the boarding, m (section 3.1).
 pub(super) const BOARDING: f64 = 0.4;
 
-/// How high a goal is, m. The paper does not say.
+/// Height of a goal, m. Not in the paper.
 pub(super) const GOAL: f64 = 0.5;
 
 /// The sill of a window behind boarding, m.
@@ -60,9 +60,9 @@ const fn backdrop(floor: [u8; 3]) -> Backdrop {
 }
 
 impl Pitch {
-    /// Returns the paper's pitch (section 3.1): 4 × 4.6 m of green floor, white boarding 0.4 m
-    /// high, a blue goal in the east and a yellow one in the west, on the short sides. It lies in a
-    /// room with windows in the north, a door and a cupboard in the south.
+    /// Returns the paper's pitch (section 3.1): 4 × 4.6 m of green floor with white boarding 0.4 m
+    /// high. A blue goal stands in the east and a yellow one in the west, on the short sides. It
+    /// lies in a room with windows in the north, and a door and a cupboard in the south.
     ///
     /// # Errors
     /// None.
@@ -90,8 +90,8 @@ impl Pitch {
         Self::with_goals("pitch", room, (blue, BLUE), (yellow, YELLOW), look)
     }
 
-    /// Returns a hall of 8 × 6 m with walls as high as a room, windows in the west, four pieces of
-    /// furniture and goals in the north and in the south. Not in the paper.
+    /// Returns a hall of 8 × 6 m with walls as high as a room. It has windows in the west, four
+    /// pieces of furniture, and goals in the north and in the south. Not in the paper.
     ///
     /// # Errors
     /// None.
@@ -121,8 +121,8 @@ impl Pitch {
         Self::with_goals("hall", room, (blue, BLUE), (yellow, YELLOW), look)
     }
 
-    /// Returns a room of 5 × 5 m without its corner in the north-east, with windows in the south;
-    /// from neither goal is the other one seen. Not in the paper.
+    /// Returns a room of 5 × 5 m without its corner in the north-east, with windows in the south.
+    /// Neither goal can be seen from the other. Not in the paper.
     ///
     /// # Errors
     /// None.
@@ -175,7 +175,7 @@ impl Pitch {
     }
 }
 
-/// What an arena looks like beside its walls.
+/// Appearance of an arena beside its walls.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
     pub(super) light: Light,

@@ -4,8 +4,7 @@ use tolman_maze::Cell;
 
 use super::CellGrid;
 
-/// How well a position, in cells, fits a cell of the field. Cell (0, 0) reaches from (0, 0) to (1,
-/// 1).
+/// Fit of a position, in cells, to a cell of the field. Cell (0, 0) reaches from (0, 0) to (1, 1).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointScore {
     /// Equation 3.2: 1 inside the cell, else 0.5 / distance to its middle, in cells; 0.047 to 1 on

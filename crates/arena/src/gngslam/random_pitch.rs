@@ -11,27 +11,30 @@ use super::pitch::{Pitch, PitchError};
 use super::pitches::{BOARDING, LOW_SILL, Look, SILL, WHITE, window};
 use super::room::{Room, Span};
 
-/// How long a side is, m.
+/// Length of a side, m.
 const SIDE: core::ops::Range<f64> = 3.0..6.5;
 
 /// Between furniture and anything else, m: a lane wide enough for the robot to drive along and turn
 /// in.
 const GAP: f64 = 0.95;
 
-/// How much furniture there is at most.
+/// Maximum number of pieces of furniture.
 const MOST_BOXES: u32 = 4;
 
-/// How often a place is looked for that leaves the lanes free.
+/// Maximum number of tries for a place that leaves the lanes free.
 const TRIES: u32 = 50;
 
-/// Which way each side of a rectangle lies: 0 is the south.
+/// Direction of each side of a rectangle: 0 is the south.
 const SIDES: [Heading; 4] = [Heading::SOUTH, Heading::EAST, Heading::NORTH, Heading::WEST];
 
 impl Pitch {
-    /// Returns the arena of this seed: a rectangle of 3 to 6.5 m a side, half of them with boarding
-    /// in a larger room, half of them with walls as high as a room; goals of two colours on two
-    /// sides, windows on one, and 0 to 4 boxes of furniture that the robot can drive round. Light
-    /// and floor are drawn as well. Not in the paper.
+    /// Returns the arena of this seed. Not in the paper. It has:
+    ///
+    /// - a rectangle of 3 to 6.5 m a side;
+    /// - either boarding in a larger room, or walls as high as a room, each with probability 1/2;
+    /// - goals of two colours on two sides, and windows on one;
+    /// - 0 to 4 boxes of furniture that the robot can drive round;
+    /// - random light and floor.
     ///
     /// # Errors
     /// None.
@@ -58,7 +61,7 @@ impl Pitch {
     }
 }
 
-/// Boarding, and the walls of a room some way behind it with windows, doors and cupboards.
+/// Returns boarding, and behind it the walls of a room with windows, doors and cupboards.
 fn open_floor(corners: &[(f64, f64)], windows: usize, rng: &mut ChaCha8Rng) -> Room {
     let boarding = Material::painted(WHITE).standing(0.0, BOARDING);
     let behind = rng.random_range(0.8..1.6);
@@ -70,7 +73,7 @@ fn open_floor(corners: &[(f64, f64)], windows: usize, rng: &mut ChaCha8Rng) -> R
     room
 }
 
-/// High walls, with the same on them.
+/// Returns high walls with windows, doors and cupboards on them.
 fn closed_room(corners: &[(f64, f64)], windows: usize, rng: &mut ChaCha8Rng) -> Room {
     let mut room = Room::new(corners, Material::painted(pale(rng)));
     for (span, material) in decoration(windows, LOW_SILL, rng) {
@@ -153,8 +156,8 @@ fn free_place(room: &Room, size: Vector, rng: &mut ChaCha8Rng) -> Option<Bounds>
     is_free.then_some(place)
 }
 
-/// Returns how far apart two boxes are along the axis where they are farther apart, m; below 0
-/// where they overlap.
+/// Returns the gap between two boxes along the axis on which it is wider, m; negative if they
+/// overlap.
 fn gap(a: &Bounds, b: &Bounds) -> f64 {
     let x = (a.min.x - b.max.x).max(b.min.x - a.max.x);
     let y = (a.min.y - b.max.y).max(b.min.y - a.max.y);
@@ -167,7 +170,7 @@ fn goal_on(room: &Room, side: usize, rng: &mut ChaCha8Rng) -> Span {
     part_of(side, width, rng)
 }
 
-/// Returns two strong colours that nobody takes for each other.
+/// Returns two strong colours that are easy to tell apart.
 fn two_colours(rng: &mut ChaCha8Rng) -> [[u8; 3]; 2] {
     let first = rng.random_range(0.0..1.0);
     let second = first + rng.random_range(0.25..0.75);
@@ -192,7 +195,8 @@ fn pale(rng: &mut ChaCha8Rng) -> [u8; 3] {
     core::array::from_fn(|_| rng.random_range(160_u32..235) as u8)
 }
 
-/// Daylight through the windows, brighter or darker, of any tint; a dark floor of any colour.
+/// Returns daylight through the windows of random brightness and tint, and a dark floor of random
+/// colour.
 fn look(windows: Heading, rng: &mut ChaCha8Rng) -> Look {
     let mut light = Light::daylight(windows);
     light.brightness = rng.random_range(0.65..0.95);

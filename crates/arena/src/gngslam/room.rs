@@ -1,7 +1,7 @@
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_sim::{Bounds, Material, WallSegment, World, WorldError};
 
-/// What is built of walls: a floor with its outline, what hangs on it, furniture, and the room
+/// Builder of walls: a floor with its outline, things that hang on it, furniture, and the room
 /// round it.
 #[derive(Clone, Debug)]
 pub(super) struct Room {
@@ -19,10 +19,10 @@ pub(super) struct Span {
     pub(super) to: f64,
 }
 
-/// How far before its wall a thing hangs, m.
+/// Distance of a hanging thing from its wall, m.
 const PROUD: f64 = 0.002;
 
-/// How far a goal stands before the wall: before all else that hangs there, m.
+/// Distance of a goal from the wall, in front of all else that hangs there, m.
 const GOAL_PROUD: f64 = 2.0 * PROUD;
 
 impl Room {
@@ -55,7 +55,7 @@ impl Room {
         )
     }
 
-    /// Returns how long a side is, m.
+    /// Returns the length of a side, m.
     pub(super) fn length(&self, side: usize) -> f64 {
         let (start, end) = self.side(side);
         (end - start).norm()

@@ -16,7 +16,7 @@ pub struct GoalNodes {
     pub yellow: UnitId,
 }
 
-/// Scores place maps by what is known of where their records were taken (section 3.4, "Score").
+/// Scores place maps by the true positions of their records (section 3.4, "Score").
 #[derive(Clone, Debug)]
 pub struct PlaceScorer {
     cells: Vec<Cell>,
@@ -24,13 +24,13 @@ pub struct PlaceScorer {
     field: FieldFrame,
 }
 
-/// How good a place map is.
+/// Quality of a place map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaceScore {
     /// The mean over the records that were asked about.
     pub mean: PointScore,
-    /// Whether it is a mirror image of the field, as the paper's maps were: where records were
-    /// taken counter-clockwise around their middle, it has them clockwise.
+    /// Whether it is a mirror image of the field, like the paper's maps: records taken
+    /// counter-clockwise around their middle are clockwise on it.
     pub mirrored: bool,
 }
 
@@ -61,7 +61,7 @@ impl PlaceScorer {
         }
     }
 
-    /// Sets what maps are stretched over.
+    /// Sets the rectangle over which maps are stretched.
     #[must_use]
     pub const fn over(mut self, extent: FieldExtent) -> Self {
         self.field.extent = extent;
@@ -83,7 +83,8 @@ impl PlaceScorer {
         self.score_by(map, table, &a_fifth(self.cells.len(), rng))
     }
 
-    /// Scores a map by some of the records, such as those it did not learn from.
+    /// Scores a map by some of the records, such as those it did not learn from, and returns the
+    /// score.
     ///
     /// # Errors
     /// As [`score`](Self::score).
@@ -120,8 +121,8 @@ impl PlaceScorer {
         })
     }
 
-    /// Returns how the map lies on the field: steps 1 to 3 of the score. `None` if both goals are
-    /// nearest to one node.
+    /// Returns the transform from the map to the field: steps 1 to 3 of the score. `None` if both
+    /// goals are nearest to one node.
     ///
     /// # Errors
     /// As [`score`](Self::score).
@@ -198,7 +199,7 @@ mod tests {
 
     use super::*;
 
-    /// Records anywhere on the pitch, told by a perfect odometry, and the two goals.
+    /// Returns records anywhere on the pitch with perfect odometry, and the two goals.
     fn records(seed: u64, frame: Pose) -> (Vec<PlaceRecord>, Vec<Cell>) {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let record = |x: f64, y: f64| PlaceRecord {

@@ -1,7 +1,6 @@
 use tolman_geom::{Heading, Point, Pose, Vector};
 
-/// How far positions are from others, once they are laid over them as well as a turn and a shift
-/// can.
+/// Distances of positions from those of another trajectory, after the best rigid motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlignedScore {
     /// Pairs of positions.
@@ -10,7 +9,7 @@ pub struct AlignedScore {
     pub rms: f64,
     /// Greatest distance, m.
     pub largest: f64,
-    /// What lays the first over the second.
+    /// The rigid motion from the first to the second.
     pub truth_from_found: Pose,
 }
 

@@ -1,7 +1,7 @@
 use tolman_geom::Pose;
 use tolman_robot::{PoseRelation, Trajectory};
 
-/// How far a trajectory is from relations between its poses.
+/// Errors of a trajectory by known relations between its poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RelationScore {
     /// Relations whose two times lie on the trajectory.

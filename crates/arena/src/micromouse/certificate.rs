@@ -8,18 +8,16 @@ use tolman_systems::micromouse::Certificate;
 #[non_exhaustive]
 pub enum CertificateError {
     /// It is about another maze.
-    #[error("the certificate is of a maze of another size, start or goals")]
+    #[error("the certificate is for a maze with another size, start or goals")]
     OtherMaze,
-    /// It says of a wall what is not so.
-    #[error(
-        "the certificate says that the {direction} side of {cell} is {known:?}, which it is not"
-    )]
+    /// It states something false about a wall.
+    #[error("the certificate says that the {direction} side of {cell} is {known:?}, but it is not")]
     FalseWall {
         /// The cell.
         cell: Cell,
         /// The side of it.
         direction: Direction,
-        /// What it says.
+        /// The state that it claims.
         known: Knowledge,
     },
     /// It has no number for some cell, or tells of a wall the maze does not have.
@@ -36,23 +34,23 @@ pub enum CertificateError {
     /// A step of the run is not known to be possible.
     #[error("step {index} of the run, from {from} to {to}, is not known to be possible")]
     Impossible {
-        /// Which, from 1.
+        /// Number of the step, from 1.
         index: usize,
-        /// Where it begins.
+        /// Cell where it begins.
         from: Cell,
-        /// Where it ends.
+        /// Cell where it ends.
         to: Cell,
     },
     /// The costs do not agree with the run, or with each other.
     #[error(
-        "the costs disagree: the run takes {run} steps, {closed} are claimed, and {open} can be hoped for"
+        "the costs disagree: the run takes {run} steps, the certificate claims {closed}, and its lower bound is {open}"
     )]
     Costs {
         /// Steps of the run.
         run: usize,
-        /// As claimed.
+        /// Length claimed for the run.
         closed: u32,
-        /// As hoped for.
+        /// Lower bound claimed for any run.
         open: u32,
     },
     /// The bound has a hole.
@@ -60,11 +58,11 @@ pub enum CertificateError {
         "the bound does not hold: a step from {from}, at least {at_least} from the goal, leads to {to}"
     )]
     Bound {
-        /// Where the step begins.
+        /// Cell where the step begins.
         from: Cell,
         /// The number there.
         at_least: u32,
-        /// Where the step ends.
+        /// Cell where the step ends.
         to: Cell,
     },
 }
@@ -72,9 +70,9 @@ pub enum CertificateError {
 /// The most cells of a step, written down again: the checker takes nothing from the planners.
 const MOST_CELLS: u32 = 3;
 
-/// Returns whether the certificate holds in this maze: all it says of walls is so, its run is
-/// possible, and no run is shorter in any maze that agrees with it. Uses nothing but the maze
-/// types. O(cells).
+/// Checks that the certificate holds in this maze: its statements about walls are true, its run is
+/// possible, and no run is shorter in any maze that agrees with it. Uses only the maze types.
+/// O(cells).
 ///
 /// # Errors
 /// The first thing that is wrong.
@@ -236,7 +234,7 @@ o---o---o---o---o---o
         mouse.certificate().unwrap().clone()
     }
 
-    /// Returns what the checker says once the certificate is changed.
+    /// Returns the checker's error once the certificate is changed.
     fn refuse(change: impl FnOnce(&mut Certificate)) -> CertificateError {
         let maze = maze();
         let mut certificate = certificate(&maze);

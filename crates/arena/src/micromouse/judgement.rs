@@ -1,4 +1,4 @@
-//! A trial against what could be had.
+//! A trial against the best possible one.
 
 use serde::Serialize;
 use tolman_maze::Maze;
@@ -8,7 +8,7 @@ use tolman_systems::micromouse::{Driver, MouseError, SIDE, Search, Searcher};
 
 use super::{MouseTrial, MouseTrialError, RefereedStep, brief, check};
 
-/// How good a trial was.
+/// Quality of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Judgement {
     /// Steps of the first run, the reset included, or `None` if it did not end.
@@ -54,7 +54,7 @@ impl Judgement {
         })
     }
 
-    /// Returns how far the score lies above the floor, or `None` if the mouse did not finish.
+    /// Returns the difference of the score from the floor, or `None` if the mouse did not finish.
     #[must_use]
     pub fn above_floor(&self) -> Option<f64> {
         Some(self.score? - self.floor)
@@ -81,7 +81,7 @@ pub fn try_on(
     watch(maze, searcher, seed, |_| {})
 }
 
-/// Returns the same; `see` is told of every step as soon as it is made.
+/// Returns the same, and calls `see` with every step as soon as it is made.
 ///
 /// # Errors
 /// If no mouse can run in the maze.

@@ -3,11 +3,9 @@
 //!
 //! A mouse, a [`Driver`](tolman_systems::micromouse::Driver), may give up to 1000 orders. In the
 //! first run it explores; in the second it has to reach the goal. The [`Referee`] moves it and
-//! keeps the score: a thirtieth of the steps of the first run, and those of the second. A
-//! [`MouseTrial`] is both runs of one mouse in one maze, a [`Judgement`] what it was worth, and
-//! [`check`] verifies a mouse's proof that its second run is the best.
-//!
-//! [`noisy`] is a mouse on the continuous simulator, among thick walls.
+//! keeps the score: a thirtieth of the steps of the first run, plus those of the second. A
+//! [`MouseTrial`] is both runs of one mouse in one maze, and a [`Judgement`] its quality. [`check`]
+//! verifies a mouse's proof that its second run is the best.
 //!
 //! ```
 //! use tolman_arena::micromouse::{brief, check, MouseTrial};

@@ -2,7 +2,7 @@
 //! slip, ranges are noisy.
 //!
 //! Rules and score are those of the paper. The mouse is a [`NoisyMouse`]; here are its body, its
-//! maze, and whoever sees where it really is.
+//! maze, and the referee that knows its true pose.
 
 use thiserror::Error;
 use tolman_maps::wall_belief::{PoseFilterConfig, RangeModel};
@@ -12,19 +12,19 @@ use tolman_sim::noise::{Fault, Gaussian};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, MotorNoise, RobotConfigError};
 use tolman_sim::{CorridorSize, PlaceError, Solo, StepError, World, WorldError};
 use tolman_systems::micromouse::noisy::{
-    NoisyMouse, NoisyMouseConfig, NoisyMouseError, NoisyNext, PoseSource,
+    MotionSource, NoisyMouse, NoisyMouseConfig, NoisyMouseError, NoisyNext, PoseSource,
 };
 
 use super::{MAX_STEPS, RefereeError, brief};
 
-/// How much a mouse's wheels and sensors err, and how it copes.
+/// Errors of a mouse's wheels and sensors, and its means against them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoisyConfig {
-    /// How the mouse knows where it is.
+    /// Source of the mouse's pose.
     pub localization: PoseSource,
     /// Wheels slip: distances and turns are off by a share uniform in ± this. ≥ 0.
     pub slip: f64,
-    /// Standard deviation of the turn that nobody asked for, rad per metre. ≥ 0.
+    /// Standard deviation of unwanted turns, rad per metre. ≥ 0.
     pub drift: f64,
     /// Standard deviation of a range, m. ≥ 0.
     pub range: f64,
@@ -33,8 +33,8 @@ pub struct NoisyConfig {
 }
 
 impl NoisyConfig {
-    /// Ordinary noise times `level`: wheels slip by up to a tenth, as those of Webots do, and drift
-    /// by 0.2 rad/m; ranges are off by 3 mm and 2 %.
+    /// Returns ordinary noise times `level`. Wheels slip by up to a tenth, like those of Webots,
+    /// and drift by 0.2 rad/m; ranges err by 3 mm and 2 %.
     #[must_use]
     pub fn ordinary(localization: PoseSource, level: f64) -> Self {
         Self {
@@ -71,10 +71,11 @@ impl NoisyConfig {
         robot
     }
 
-    /// Returns what the mouse is told of its body and its maze.
+    /// Returns what the mouse knows of its body and its maze.
     fn mouse(&self, robot: &LaserPioneerConfig) -> NoisyMouseConfig {
         NoisyMouseConfig {
             localization: self.localization,
+            motion: MotionSource::Commands,
             filter: self.filter(),
             pitch: SIZE.pitch(),
             wall_thickness: SIZE.wall_thickness,
@@ -83,7 +84,7 @@ impl NoisyConfig {
         }
     }
 
-    /// Returns what the filter takes for noise: what there is, and a little for what its model
+    /// Returns the noise model of the filter: the true noise, and a little for what its model
     /// leaves out.
     fn filter(&self) -> PoseFilterConfig {
         PoseFilterConfig {
@@ -107,7 +108,7 @@ const SIZE: CorridorSize = CorridorSize {
     wall_thickness: 0.012,
 };
 
-/// What became of a noisy mouse.
+/// Result of a noisy mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoisyTrial {
     /// How it ended.
@@ -116,7 +117,7 @@ pub struct NoisyTrial {
     pub steps: u32,
     /// Time steps in which it touched a wall.
     pub bumps: u32,
-    /// How far the mouse was from where it thought it was, m: mean over its stops.
+    /// Mean distance between true and believed position at the mouse's stops, m.
     pub mean_error: f64,
 }
 
@@ -242,7 +243,7 @@ impl<'a> Outing<'a> {
         Ok(Some(NoisyEnd::OutOfSteps))
     }
 
-    /// Lets the mouse look, and writes down how far it is from where it believes to be.
+    /// Lets the mouse look, and records its distance from its believed position.
     fn stop(&mut self) -> Result<(), NoisyError> {
         self.mouse.look(&mut self.body)?;
         let off = self.mouse.pose().position - self.body.truth().pose.position;

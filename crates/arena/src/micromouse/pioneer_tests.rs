@@ -30,7 +30,7 @@ o---o---o---o---o
 const START: Task = Task::Reach(Goal::Landmark(Landmark::Start));
 const GOAL: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
 
-/// How one mouse fared: the cells it really crossed, by task, and how each task ended.
+/// Result of one mouse: the cells it really crossed, by task, and how each task ended.
 struct Outing {
     cells: Vec<(Vec<Cell>, TaskEnd)>,
     /// Time steps in which the robot touched a wall.

@@ -52,7 +52,7 @@ enum Stage {
     Over,
 }
 
-/// What became of an order.
+/// Result of an order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ruling {
     /// The mouse was moved, as far as the walls let it.
@@ -68,7 +68,7 @@ pub enum Ruling {
     Over,
 }
 
-/// What the referee has written down.
+/// Records of the referee.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ScoreSheet {
     /// Steps of the first run, the reset included, or `None` before it ends.
@@ -98,7 +98,7 @@ pub enum RefereeError {
     Maze(#[from] tolman_maze::CheckError),
 }
 
-/// Returns what a mouse is told of `maze`: its size, its start and its goals.
+/// Returns what a mouse knows of `maze` beforehand: its size, its start and its goals.
 ///
 /// # Errors
 /// [`RefereeError::NoStart`] if the maze has no start.
@@ -131,8 +131,8 @@ impl<'a> Referee<'a> {
         })
     }
 
-    /// Returns what the sensors see now: how many cells are open to the left, ahead and to the
-    /// right, as far as the next wall.
+    /// Returns the reading of the sensors: the number of open cells to the left, ahead and to the
+    /// right, up to the next wall.
     #[must_use]
     pub fn sight(&self) -> Sight {
         let open = |direction| {
@@ -198,7 +198,7 @@ impl<'a> Referee<'a> {
         Ruling::RunTwo
     }
 
-    /// Only where a movement ends the goal counts.
+    /// Rules on the end of a movement: only there does the goal count.
     fn arrive(&mut self) -> Ruling {
         if !self.maze.goals().contains(&self.cell) {
             return Ruling::Moved;
@@ -246,7 +246,7 @@ mod tests {
     use super::*;
     use tolman_maze::Grid;
 
-    /// 4 × 4 without inner walls; the goal is the middle 2 × 2.
+    /// Returns a maze of 4 × 4 cells without inner walls; the goal is the middle 2 × 2.
     fn plain() -> Maze {
         let mut maze = Maze::open(Grid::new(4, 4));
         maze.set_start(Some((Cell::new(0, 0), Direction::North)));

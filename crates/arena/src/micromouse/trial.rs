@@ -5,12 +5,12 @@ use tolman_systems::micromouse::{Driver, MouseError, Order, OrderError, Search, 
 
 use super::{Referee, RefereeError, Ruling, ScoreSheet};
 
-/// What became of one mouse in one maze.
+/// Result of one mouse in one maze.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MouseTrial {
     /// Every order that counted, in order.
     pub steps: Vec<RefereedStep>,
-    /// What the referee wrote down.
+    /// Records of the referee.
     pub verdict: ScoreSheet,
     /// Reason why the mouse gave up, if it did.
     pub gave_up: Option<MouseError>,
@@ -19,15 +19,15 @@ pub struct MouseTrial {
 /// One step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RefereedStep {
-    /// What the mouse saw before it.
+    /// Reading before the order.
     pub sight: Sight,
-    /// What the mouse wanted.
+    /// Order of the mouse.
     pub order: Order,
-    /// What came of it.
+    /// Ruling on the order.
     pub event: Ruling,
-    /// Where the mouse stood afterwards.
+    /// Cell of the mouse afterwards.
     pub cell: Cell,
-    /// Where it looked afterwards.
+    /// Heading of the mouse afterwards.
     pub heading: Direction,
 }
 
@@ -42,8 +42,8 @@ pub struct SideSeen {
     pub stands: bool,
 }
 
-/// Returns what a mouse sees of the maze from `cell`, looking to `heading`: the cells' sides along
-/// its three lines of sight, up to the first wall.
+/// Returns the sides of cells that a mouse sees from `cell`, with `heading`: those along its three
+/// lines of sight, up to the first wall.
 #[must_use]
 pub fn sides_seen(sight: Sight, cell: Cell, heading: Direction) -> Vec<SideSeen> {
     let lines = [
@@ -89,7 +89,7 @@ impl MouseTrial {
         Self::watch(maze, mouse, |_| {})
     }
 
-    /// Returns the same; `see` is told of every step as soon as it is made.
+    /// Returns the same, and calls `see` with every step as soon as it is made.
     ///
     /// # Errors
     /// If the referee refuses the maze or an order.

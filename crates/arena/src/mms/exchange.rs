@@ -5,16 +5,16 @@ use super::Simulator;
 use super::simulator::eighths_of;
 use crate::micromouse::SideSeen;
 
-/// A line of a mouse, and what came of it.
+/// A line of a mouse, and the reply.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exchange {
-    /// What the mouse said.
+    /// Line of the mouse.
     pub line: String,
-    /// What it was answered; `None` if it needs no answer.
+    /// The reply; `None` if it needs none.
     pub reply: Option<String>,
-    /// Where it is afterwards.
+    /// Position afterwards.
     pub place: LatticePoint,
-    /// Where it looks afterwards.
+    /// Heading afterwards.
     pub heading: LatticeHeading,
     /// Whether it moved, turned, ran against a wall or was put back.
     pub is_movement: bool,
@@ -36,9 +36,9 @@ impl Exchange {
         }
     }
 
-    /// Returns the sides of cells that the mouse was told of in a maze of this size: none but for
-    /// questions for walls. Where a wall stands somewhere within several half-steps, it is the one
-    /// side of which the mouse does not know that it `is_open`.
+    /// Returns the sides of cells that the reply reveals in a maze of this size; empty unless it
+    /// answers a question for walls. If a wall stands within several half-steps, it is the one side
+    /// of which the mouse does not know that it `is_open`.
     #[must_use]
     pub fn sides_seen(
         &self,

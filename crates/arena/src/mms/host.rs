@@ -11,7 +11,7 @@ use crate::foreign::{Budget, ForeignProgram, Launch, LaunchError, Left, Overrun}
 /// When a mouse is stopped.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// After so much time.
+    /// Maximum duration.
     pub time: Duration,
     /// Maximum number of moves, turns and crashes.
     pub movements: u64,
@@ -19,7 +19,7 @@ pub struct Limits {
     pub reset_after: Option<u64>,
 }
 
-/// What became of a mouse.
+/// Result of a mouse.
 #[derive(Clone, Debug, Serialize)]
 pub struct Hosted {
     /// Whether it finished a run.
@@ -32,7 +32,7 @@ pub struct Hosted {
     pub ended: MouseExit,
     /// Moves and turns.
     pub movements: u64,
-    /// How often it ran against a wall.
+    /// Number of collisions with walls.
     pub crashes: u64,
     /// Lines that were no command.
     pub invalid_commands: u64,
@@ -68,11 +68,13 @@ pub enum MouseExit {
 /// Time in which a mouse that has closed its stdout is to end.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// Runs a program as a mouse in a maze, until it ends or a limit is reached; then it is killed,
-/// with all that it started. `watch` is shown every line with its answer.
+/// Runs a program as a mouse in a maze, until it ends or a limit is reached, and returns the
+/// result. Then the program is killed, with all that it started. Calls `watch` with every line and
+/// its answer.
 ///
 /// # Errors
-/// [`LaunchError`] if it does not start. That it fails, or does not solve the maze, is a result.
+/// [`LaunchError`] if it does not start. A program that fails, or does not solve the maze, is a
+/// result.
 pub fn host(
     mouse: &Launch<'_>,
     maze: &Maze,
@@ -114,7 +116,7 @@ pub fn host(
     })
 }
 
-/// Why a conversation is over.
+/// Reason why a conversation is over.
 enum Said {
     /// The mouse closed its stdout.
     AllItWould,
@@ -124,7 +126,7 @@ enum Said {
 
 fn converse(
     simulator: &mut Simulator<'_>,
-    mouse: &mut ForeignProgram<'_>,
+    mouse: &mut ForeignProgram,
     limits: &Limits,
     mut watch: impl FnMut(&Exchange),
 ) -> Result<Said, Overrun> {

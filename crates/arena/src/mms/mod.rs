@@ -1,10 +1,10 @@
 //! A headless host for mice that speak the protocol of the simulator
 //! [mms](https://github.com/mackorone/mms), which most hobbyists use.
 //!
-//! A mouse is a program that writes commands to stdout, a line each, and reads replies from stdin.
-//! The [`Simulator`] answers one command after the other, as mms does; the [`Score`] counts as mms
-//! does; [`host()`] starts the program and puts the two together, with a limit on time and on
-//! movements. [`play`](tolman_systems::micromouse::mms::play) is a mouse of our own.
+//! A mouse is a program that writes commands to stdout, one per line, and reads replies from stdin.
+//! The [`Simulator`] answers the commands as mms does, and the [`Score`] counts as mms does.
+//! [`host()`] starts the program and connects the two, with a limit on time and on movements.
+//! [`play`](tolman_systems::micromouse::mms::play) is a mouse of our own.
 //!
 //! ```
 //! use tolman_arena::mms::Simulator;

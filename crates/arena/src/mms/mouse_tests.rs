@@ -20,7 +20,7 @@ struct Host<'a> {
     replies: VecDeque<u8>,
     /// Replies it gives before it goes away.
     left: usize,
-    /// What it does to the reply of a movement, by its number.
+    /// Change to the reply of a movement, by its number.
     meddle: fn(u64, String) -> String,
 }
 

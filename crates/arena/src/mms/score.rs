@@ -1,13 +1,13 @@
-//! How mms scores a mouse.
+//! Score of a mouse, as in mms.
 
 use serde::Serialize;
 
-/// In what a straight is measured.
+/// Unit in which a straight is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// As the code of mms has it.
+    /// As in the code of mms.
     HalfSteps,
-    /// As the README of mms has it.
+    /// As in the README of mms.
     Cells,
 }
 
@@ -34,24 +34,24 @@ pub struct Score {
     pub best: Option<Figures>,
 }
 
-/// What is counted of movements.
+/// Counts of movements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Figures {
-    /// How far the mouse went.
+    /// Distance that the mouse went.
     pub distance: f32,
     /// The same, with every unit of a straight after the second counted by half.
     pub effective_distance: f32,
-    /// How often it turned.
+    /// Number of turns.
     pub turns: f32,
 }
 
-/// What an unsolved maze scores.
+/// Score of an unsolved maze.
 const UNSOLVED: f32 = 2000.0;
-/// What a reset adds to the next run's effective distance.
+/// Addition of a reset to the next run's effective distance.
 const RESET_PENALTY: f32 = 15.0;
 
 impl Score {
-    /// Before the first movement.
+    /// Returns the score before the first movement.
     #[must_use]
     pub fn new(unit: Unit) -> Self {
         Self {
@@ -65,7 +65,7 @@ impl Score {
         }
     }
 
-    /// A run begins: the mouse moves on from the start cell.
+    /// Starts a run: the mouse moves on from the start cell.
     pub(super) fn start_run(&mut self) {
         self.current = Figures {
             effective_distance: self.penalty,
@@ -76,7 +76,7 @@ impl Score {
         self.running = true;
     }
 
-    /// Moves the mouse straight on by `half_steps` half-steps.
+    /// Counts a straight of `half_steps` half-steps.
     pub(super) fn move_on(&mut self, half_steps: i32) {
         let distance = match self.unit {
             Unit::HalfSteps => half_steps as f32,
@@ -94,7 +94,7 @@ impl Score {
         });
     }
 
-    /// The mouse turns, however far.
+    /// Counts a turn by any angle.
     pub(super) fn turn(&mut self) {
         self.count(Figures {
             turns: 1.0,
@@ -109,7 +109,7 @@ impl Score {
         }
     }
 
-    /// The mouse has come to stand in the goal.
+    /// Ends a run that came to stand in the goal.
     pub(super) fn finish_run(&mut self) {
         self.running = false;
         self.solved = true;
@@ -121,12 +121,12 @@ impl Score {
         }
     }
 
-    /// The mouse is back in the start cell.
+    /// Ends a run as the mouse is back in the start cell.
     pub(super) fn end_run(&mut self) {
         self.running = false;
     }
 
-    /// The mouse was carried back to the start.
+    /// Ends a run as the mouse was carried back to the start.
     pub(super) fn reset(&mut self) {
         self.penalty = RESET_PENALTY;
         self.end_run();

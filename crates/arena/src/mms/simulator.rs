@@ -7,8 +7,8 @@ use super::{Score, Unit};
 
 /// A mouse in a maze, moved by the commands of mms.
 ///
-/// The mouse starts in the south-west cell and looks north, and the goal is the middle of the maze,
-/// whatever else the maze says: mms knows nothing else.
+/// As in mms, the mouse starts in the south-west cell and looks north, and the goal is the middle
+/// of the maze. Marks of the maze are ignored.
 #[derive(Clone, Debug)]
 pub struct Simulator<'a> {
     maze: &'a Maze,
@@ -24,7 +24,7 @@ pub struct Simulator<'a> {
     reset_after: Option<u64>,
 }
 
-/// What is seen from a place, by the command that asks: eighths of a circle, clockwise from ahead.
+/// Directions of the commands that ask for walls: eighths of a circle, clockwise from ahead.
 const WALLS: [(&str, i8); 8] = [
     ("wallFront", 0),
     ("wallFrontRight", 1),
@@ -46,7 +46,7 @@ const TURNS: [(&str, i8); 6] = [
     ("turnLeft45", -1),
 ];
 
-/// What only draws: nobody looks.
+/// Commands that only draw; they are ignored.
 const DRAWING: [&str; 8] = [
     "setWall",
     "clearWall",
@@ -231,7 +231,7 @@ impl<'a> Simulator<'a> {
         &self.cells
     }
 
-    /// Moves and turns made.
+    /// Returns the number of moves and turns made.
     #[must_use]
     pub const fn movements(&self) -> u64 {
         self.movements

@@ -8,11 +8,11 @@ use super::policy::Lattice;
 use super::trier::{Tried, Trier};
 use crate::episode_error::EpisodeError;
 
-/// How often each action is tried at a node.
+/// Number of trials of each action at a node.
 pub(super) const SAMPLES: usize = 8;
 
-/// How far a robot may look past the axis of its node, rad either way: about as far as the layers
-/// leave it.
+/// Maximum angle between a robot's heading and the axis of its node, rad either way: about the
+/// error that the layers leave.
 const ASKEW: f64 = 6.0 * core::f64::consts::PI / 180.0;
 
 /// Costs count as settled when a sweep changes none by more than this, time steps.
@@ -21,13 +21,13 @@ const SETTLED: f64 = 0.01;
 /// Sweeps after which costs are taken as they are.
 const MOST_SWEEPS: u32 = 2000;
 
-/// Where no way is known, time steps: what all costs begin with.
+/// Cost without a known way, time steps: the initial value of all costs.
 const HOPELESS: f64 = 1e5;
 
 /// Expected time steps by action.
 pub(super) type Costs = [f64; 4];
 
-/// What came of each action at each node where the robot can stand, and how often.
+/// Results of each action at each node where the robot can stand, with their frequencies.
 #[derive(Default)]
 pub(super) struct Chances {
     nodes: Vec<NodeChances>,
@@ -41,7 +41,7 @@ struct NodeChances {
 #[derive(Clone, Copy)]
 struct Chance {
     steps: f64,
-    /// Where it ended, or `None` in the destination.
+    /// Node where it ended, or `None` in the destination.
     end: Option<u32>,
     moved: bool,
 }
@@ -102,8 +102,7 @@ impl Chances {
         costs
     }
 
-    /// Leaves out what ended at a node where no sample could stand: it says nothing of what comes
-    /// then.
+    /// Leaves out results at nodes where no sample could stand, as their continuation is unknown.
     fn forget_gaps(&mut self, lattice: &Lattice) {
         let mut known = vec![false; lattice.node_count()];
         for node in &self.nodes {
@@ -137,7 +136,7 @@ impl NodeChances {
     }
 }
 
-/// Returns the least cost of all actions but the one that has just failed.
+/// Returns the least cost of all actions except the one that has just failed.
 fn best_but(costs: &Costs, barred: Option<Direction>) -> f64 {
     let allowed = Direction::ALL
         .into_iter()

@@ -1,8 +1,8 @@
-//! The ceilings: minds that know the maze, and are measured by it.
+//! The ceilings: minds that know the maze.
 //!
-//! An [`Oracle`] is shown the truth and follows a [`Policy`]. An [`UnlocalizedOracle`] lives on
-//! what its robot senses, like every brain, but has a [`PlaceViews`] of what it would see
-//! everywhere. Neither is a competitor: they say what the same body and the same layers allow.
+//! An [`Oracle`] is given the true pose and follows a [`Policy`]. An [`UnlocalizedOracle`] uses its
+//! robot's sensors, like every brain, but has a [`PlaceViews`] with the view from everywhere.
+//! Neither is a competitor: they show what the same body and the same layers allow.
 
 mod chances;
 mod policy;
@@ -45,11 +45,11 @@ fn noisy_robot(
     Ok(Solo::new(course.world.clone(), model, somewhere, 0)?)
 }
 
-/// The ceiling: knows the maze and its true pose and plans again at every action, with the same
-/// body and the same layers as everyone else. Not in the paper.
+/// The ceiling: it knows the maze and its true pose and plans again at every action, with the same
+/// body and the same layers as the others. Not in the paper.
 ///
-/// Its [`Policy`] says what each action is expected to cost in time steps from about where the
-/// robot is. An action that has just failed there is not tried again before the robot has moved.
+/// Its [`Policy`] gives the expected cost of each action, in time steps, near the robot's pose. An
+/// action that has just failed there is not tried again before the robot has moved.
 #[derive(Clone, Debug)]
 pub struct Oracle {
     policy: Arc<Policy>,

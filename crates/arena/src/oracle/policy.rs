@@ -8,15 +8,16 @@ use super::{noisy_robot, perfect_robot};
 use crate::course::Course;
 use crate::episode_error::EpisodeError;
 
-/// What every action costs, in time steps to the destination, from every place of a course.
+/// Expected cost of every action, in time steps to the destination, from every place of a course.
 ///
 /// Places are a lattice of positions, each with the two axes a robot can face along. The robot
-/// itself carries out every action there eight times, with its own layers and its own noise, from
-/// about the position and about the axis; where it ended, how long it took and whether it failed
-/// are the chances that the plan reckons with. Value iteration does the rest (Bellman 1957): the
-/// costs are expected ones, those of the best plan for a robot that may miss, with an action that
-/// has just failed not tried again at once. Exact but for the rounding of where actions end to the
-/// lattice and the number of samples.
+/// itself carries out every action there eight times, from about the position and about the axis,
+/// with its own layers and its own noise. The plan uses where it ended, how long it took and how
+/// often it failed.
+///
+/// Value iteration then gives the costs of the best plan for a robot that errs (Bellman 1957). An
+/// action that has just failed is not tried again at once. The result is exact up to the number of
+/// samples, and the rounding of positions to the lattice.
 #[derive(Clone, Debug)]
 pub struct Policy {
     lattice: Lattice,
@@ -34,7 +35,7 @@ const POSITIONS: f64 = 8.0;
 /// to another one.
 const COARSEST: f64 = 0.125;
 
-/// What fits a few hundred megabytes and a few minutes.
+/// Maximum number of nodes: what fits a few hundred megabytes and a few minutes.
 const MOST_NODES: usize = 2_000_000;
 
 impl Policy {

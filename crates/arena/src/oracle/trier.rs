@@ -21,7 +21,7 @@ pub(super) struct Trier<'a> {
     rng: ChaCha8Rng,
 }
 
-/// How an action ended that was tried.
+/// Result of an action that was tried.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tried {
     pub(super) pose: Pose,

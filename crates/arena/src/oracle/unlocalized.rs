@@ -14,13 +14,13 @@ use super::{Oracle, Policy, perfect_robot};
 use crate::course::Course;
 use crate::episode_error::{EpisodeError, step_failed};
 
-/// The ceiling for those who start they know not where: it has the true map, and finds out where it
-/// is by a Bayes filter over all positions; then it does what the [`Oracle`] would do at the most
-/// likely one. Not in the paper.
+/// The ceiling for robots that do not know where they start. It has the true map, and finds its
+/// place by a Bayes filter over all positions. Then it does what the [`Oracle`] would do at the
+/// most likely one. Not in the paper.
 ///
-/// The filter is exact on the positions of the policy's lattice. Heading is what the compass says.
-/// A completed action moves each position as the policy's noise-free robot moved, spread along the
-/// direction of travel; an action of other outcome than that robot's is held to be unlikely, not
+/// The filter is exact on the positions of the policy's lattice. The heading is the compass's. A
+/// completed action moves each position as the policy's noise-free robot moved, spread along the
+/// direction of travel. If an action ends otherwise than that robot's, that is unlikely, but not
 /// impossible.
 #[derive(Clone, Debug)]
 pub struct UnlocalizedOracle {
@@ -33,7 +33,7 @@ pub struct UnlocalizedOracle {
     last: Option<(Direction, Outcome)>,
 }
 
-/// What the filter knows before it begins: every place of a course, and what is seen there.
+/// Prior knowledge of the filter: every place of a course, and the view from it.
 #[derive(Clone, Debug)]
 pub struct PlaceViews {
     policy: Arc<Policy>,
@@ -41,7 +41,7 @@ pub struct PlaceViews {
     places: Vec<Standpoint>,
     /// The number of the place of each position of the policy's lattice.
     numbers: Vec<Option<u32>>,
-    /// How far a completed action's way scatters, m (standard deviation).
+    /// Standard deviation of a completed action's way, m.
     scatter: f64,
 }
 
@@ -52,11 +52,11 @@ struct Standpoint {
     scan: Vec<f64>,
 }
 
-/// What the probability of an action is worth that ended otherwise than the noise-free robot's.
+/// Factor on the probability of an action that ended otherwise than the noise-free robot's.
 const SURPRISE: f64 = 0.02;
 
-/// By how much a range may differ from what is seen at the nearest place, robot units (standard
-/// deviation): about half a spacing of the lattice across, and half a beam beside.
+/// Standard deviation of a range from that at the nearest place, robot units: about half a spacing
+/// of the lattice across, and half a beam beside.
 const RANGE_SD: f64 = 0.15;
 
 /// A beam more than this many standard deviations off has met another wall; how far off says no
@@ -172,7 +172,7 @@ impl PlaceViews {
 /// About a robot unit, m.
 const ACTION_WAY: f64 = ROBOT_UNIT;
 
-/// How finely, m, and how far, in such steps, the end of an action is spread.
+/// Step by which the end of an action is spread, m, and number of such steps.
 const SPREAD_STEP: f64 = 0.06;
 const SPREAD_STEPS: i32 = 6;
 

@@ -79,8 +79,8 @@ fn spoiled_files_say_what_is_wrong() {
         read.map(&dictionary).unwrap_err().to_string()
     };
     let cases: [(Spoil, &str); 13] = [
-        (|file| cut(file, "fragments"), "fragments are there"),
-        (|file| cut(file, "junctions"), "junctions are there"),
+        (|file| cut(file, "fragments"), "fragments; copy it again"),
+        (|file| cut(file, "junctions"), "junctions; copy it again"),
         (
             |file| file["dictionary"]["patterns"][0]["prototype"][0] = json!(0.125),
             "they were changed",
@@ -95,23 +95,23 @@ fn spoiled_files_say_what_is_wrong() {
         ),
         (
             |file| file["map"]["fragments"][1]["id"] = file["map"]["fragments"][0]["id"].clone(),
-            "there twice",
+            "appears twice",
         ),
         (
             |file| file["map"]["next_fragment"] = json!(0),
-            "never given out",
+            "never assigned",
         ),
         (
             |file| file["map"]["next_junction"] = json!(u32::MAX),
-            "never given out",
+            "never assigned",
         ),
         (
             |file| file["map"]["patterns"] = json!(1_000_000),
-            "patterns are there",
+            "patterns; copy it again",
         ),
         (
             |file| file["map"]["patterns"] = json!(null),
-            "does not say how many patterns",
+            "not the number of patterns",
         ),
         (
             |file| {

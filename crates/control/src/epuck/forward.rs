@@ -30,10 +30,10 @@ enum Side {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ForwardConfig {
-    /// How fast it drives, m/s.
+    /// Speed of driving, m/s.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub speed: f64,
-    /// How fast it turns in a bend, rad/s.
+    /// Speed of turning in a bend, rad/s.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub turn: f64,
     /// Half the width of a corridor, m.
@@ -54,8 +54,8 @@ pub struct ForwardConfig {
 }
 
 impl ForwardConfig {
-    /// For corridors of this width, m: 4.5 cm/s, so that half a second takes the robot on by 2 cm,
-    /// and gains that bring the robot back to the middle without a swing.
+    /// Returns the values for corridors of this width, m: 4.5 cm/s, so that half a second takes the
+    /// robot on by 2 cm, and gains that bring the robot back to the middle without a swing.
     #[must_use]
     pub const fn for_width(width: f64) -> Self {
         Self {
@@ -71,7 +71,7 @@ impl ForwardConfig {
 /// A wall beside the robot.
 #[derive(Clone, Copy, Debug)]
 struct Beside {
-    /// How far it is, m.
+    /// Distance, m.
     distance: f64,
     /// Its direction in the robot's frame, rad, or `None` if only one sensor sees it.
     angle: Option<f64>,
@@ -88,7 +88,7 @@ impl Forward {
         }
     }
 
-    /// The robot has been turned to look along a way.
+    /// Takes in that the robot was turned to look along a way.
     pub const fn look_along(&mut self) {
         self.way = 0.0;
     }

@@ -15,7 +15,7 @@ pub struct KeepOff {
     pub margin: f64,
     /// Between body and wall, m: where all driving ahead ends. Below the margin.
     pub least: f64,
-    /// How fast it turns away where driving ends, rad/s.
+    /// Speed of turning away where driving ends, rad/s.
     pub turn: f64,
 }
 
@@ -57,7 +57,7 @@ impl TryFrom<Unchecked> for KeepOff {
 }
 
 impl KeepOff {
-    /// Ours: slower from 3 cm on, no nearer than 1 cm.
+    /// Returns our values: slower from 3 cm on, no nearer than 1 cm.
     #[must_use]
     pub const fn ours() -> Self {
         Self {

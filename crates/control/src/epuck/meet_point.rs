@@ -4,14 +4,14 @@ use tolman_geom::Point;
 
 use super::{Profile, RangeCurve};
 
-/// Where the middle of a junction is looked for. The paper does not say how a junction is entered.
+/// Search for the middle of a junction. The paper does not say how a junction is entered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Unchecked"))]
 pub struct MeetPointConfig {
-    /// How far from the robot it may be, m.
+    /// Maximum distance of the middle from the robot, m.
     pub reach: f64,
-    /// How fine positions are told apart, m.
+    /// Resolution of positions, m.
     pub resolution: f64,
 }
 
@@ -30,7 +30,8 @@ struct Unchecked {
 impl TryFrom<Unchecked> for MeetPointConfig {
     type Error = alloc::string::String;
 
-    /// The search takes (reach / resolution)² steps, so a file may not ask for any number of them.
+    /// Checks the number of steps of the search, (reach / resolution)², so that a file cannot ask
+    /// for too many.
     fn try_from(unchecked: Unchecked) -> Result<Self, Self::Error> {
         let Unchecked { reach, resolution } = unchecked;
         if reach <= 1000.0 * resolution {
@@ -44,7 +45,7 @@ impl TryFrom<Unchecked> for MeetPointConfig {
 }
 
 impl MeetPointConfig {
-    /// For corridors of this width, m: up to half of it away, to 5 mm.
+    /// Returns the values for corridors of this width, m: up to half of it away, to 5 mm.
     #[must_use]
     pub const fn for_width(width: f64) -> Self {
         Self {

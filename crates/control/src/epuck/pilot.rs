@@ -23,7 +23,7 @@ pub const TURN_STEP: f64 = 2.0 * ENCODER_STEP * WHEEL_RADIUS / TRACK;
 /// before the motors start.
 const PATIENCE: u32 = 10;
 
-/// What a pilot holds to.
+/// Parameters of a pilot.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -40,11 +40,11 @@ pub struct PilotConfig {
         serde(deserialize_with = "crate::read::at_least_one")
     )]
     pub samples: u32,
-    /// How fast the robot turns in a sweep, rad/s. The paper says 2π, the wheels give 4.9; the real
-    /// robot had 3π/5.
+    /// Speed of turning in a sweep, rad/s. The paper says 2π, the wheels give 4.9; the real robot
+    /// had 3π/5.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub sweep_speed: f64,
-    /// How fast the wheels are told to turn at most, rad/s: what they can, 6.28.
+    /// Maximum commanded speed of a wheel, rad/s: what they can do, 6.28.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub most_wheel_speed: f64,
     /// How far a turn may end from where it should, rad: no less than the encoders can tell,
@@ -55,7 +55,7 @@ pub struct PilotConfig {
         serde(deserialize_with = "crate::read::at_least_zero")
     )]
     pub turn_tolerance: f64,
-    /// What the raw values of the proximity sensors mean.
+    /// Conversion of the proximity sensors' raw values to distances.
     pub curve: RangeCurve,
     /// Layer 1.
     pub forward: ForwardConfig,
@@ -266,9 +266,9 @@ pub enum PilotError<E> {
     )]
     Blind,
     /// The wheels do not say how far they turned.
-    #[error("the wheels do not say how far they turned; check the encoders")]
+    #[error("the encoders give no values; check them")]
     NoEncoders,
     /// The wheels were told to turn and did not.
-    #[error("the wheels do not turn though they are told to; check the motors")]
+    #[error("the wheels do not turn although commanded to; check the motors")]
     Stuck,
 }

@@ -26,7 +26,7 @@ pub(super) enum Met {
     Nothing,
 }
 
-/// How the eight vectors of a sweep become one.
+/// Method by which the eight vectors of a sweep become one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -175,15 +175,15 @@ pub enum ProfileError {
     /// A value is invalid.
     #[error("sample {index} of sensor {sensor} is not finite; give finite values")]
     NotFinite {
-        /// Which sensor.
+        /// Number of the sensor.
         sensor: usize,
-        /// Which sample, from 0.
+        /// Number of the sample, from 0.
         index: usize,
     },
     /// No sensor looked there.
     #[error("no sensor gave a value for bearing {index} of the sweep; check the proximity sensors")]
     Blind {
-        /// Which bearing, from 0.
+        /// Number of the bearing, from 0.
         index: usize,
     },
 }

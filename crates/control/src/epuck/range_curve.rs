@@ -141,13 +141,13 @@ pub enum RangeCurveError {
     /// A line needs two points.
     #[error("the curve has {points} points; give at least two")]
     TooFew {
-        /// How many there are.
+        /// Number of points.
         points: usize,
     },
     /// A number is invalid.
     #[error("point {index} of the curve has a number that is not finite; give finite numbers")]
     NotFinite {
-        /// Which point, from 0.
+        /// Number of the point, from 0.
         index: usize,
     },
     /// Ranges must grow and values fall.
@@ -155,7 +155,7 @@ pub enum RangeCurveError {
         "point {index} of the curve is not farther and darker than the one before; sort them by range"
     )]
     Order {
-        /// Which point, from 0.
+        /// Number of the point, from 0.
         index: usize,
     },
 }

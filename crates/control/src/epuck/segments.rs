@@ -37,13 +37,13 @@ pub struct Segments {
 pub struct Segment {
     /// Its mean value.
     pub mean: f64,
-    /// Where its middle is, rad, counter-clockwise from ahead, from -π to π.
+    /// Bearing of its middle, rad, counter-clockwise from ahead, from -π to π.
     pub bearing: f64,
-    /// How many samples it has.
+    /// Number of samples.
     pub samples: u32,
 }
 
-/// How a profile is segmented.
+/// Parameters by which a profile is segmented.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -102,8 +102,8 @@ impl SegmentConfig {
         }
     }
 
-    /// As [`cut`](Self::cut), with ways and walls joined: for features, which then say how much
-    /// wall is on either side of a path, wherever the robot looks.
+    /// Returns the values of [`cut`](Self::cut), with ways and walls joined. They serve features,
+    /// which then say how much wall is on either side of a path, wherever the robot looks.
     #[must_use]
     pub const fn joined() -> Self {
         Self {
@@ -113,7 +113,7 @@ impl SegmentConfig {
     }
 }
 
-/// What a place is by its spaces (section 4.1).
+/// Kind of a place by its spaces (section 4.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceKind {
     /// No space at all.
@@ -237,8 +237,8 @@ fn merge(parts: &mut Vec<Part>, count: usize, way_below: f64) {
     }
 }
 
-/// Start and length of the cyclic runs of values that do not change. The first is the one that
-/// holds `origin`, or else the next.
+/// Returns start and length of the cyclic runs of values that do not change. The first is the one
+/// that holds `origin`, or else the next.
 fn runs(changes: &[bool], origin: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
     let count = changes.len();
     let quiet = move |index: usize| !changes[index % count];
@@ -336,19 +336,19 @@ pub enum SegmentError {
     /// The window cannot be averaged over.
     #[error("the window of {window} samples does not fit a profile of {values}; give 1 to {}", values.saturating_sub(1))]
     Window {
-        /// How long the window is.
+        /// Length of the window.
         window: u32,
-        /// How many values the profile has.
+        /// Number of values of the profile.
         values: usize,
     },
     /// There are more segments than a feature has elements for.
     #[error(
-        "the profile has {segments} segments, a feature holds {most}; junctions may have five ways at most"
+        "the profile has {segments} segments, but a feature holds only {most}; junctions may have at most five ways"
     )]
     TooMany {
-        /// How many there are.
+        /// Number of segments.
         segments: usize,
-        /// How many fit.
+        /// Maximum number.
         most: usize,
     },
 }
@@ -357,7 +357,7 @@ pub enum SegmentError {
 mod tests {
     use super::*;
 
-    /// Sharp walls of 200 at these indices, nothing between.
+    /// Returns a profile with sharp walls of 200 at these indices, nothing between.
     fn profile(walls: &[(usize, usize)]) -> Profile {
         let mut values = alloc::vec![0.0; 100];
         for (start, end) in walls {

@@ -29,12 +29,12 @@ pub use until_near::{TurnByEnd, TurnEnd, UntilNear, UntilNearConfig};
 
 use tolman_robot::TurnTranslate;
 
-/// What the layers so far would do in this time step of a leg.
+/// Proposal of the layers so far for this time step of a leg.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LegStep {
     /// The motor command.
     pub command: TurnTranslate,
-    /// How the leg ends before this step; `None` while it goes on.
+    /// End of the leg before this step; `None` while it goes on.
     pub ends: Option<LegEnd>,
 }
 
@@ -49,7 +49,7 @@ impl LegStep {
     }
 }
 
-/// How a leg ended: a drive straight on.
+/// End of a leg, a drive straight on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LegEnd {
     /// Something is near.

@@ -18,7 +18,7 @@ struct Recent {
     latest: Sounding,
     /// The ranges, m, in a ring.
     ranges: [f64; READINGS],
-    /// How many were ever taken in.
+    /// Number of values ever taken in.
     count: usize,
 }
 

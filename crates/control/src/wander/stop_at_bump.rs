@@ -10,7 +10,7 @@ pub struct StopAtBump {
 }
 
 impl StopAtBump {
-    /// A new leg starts.
+    /// Starts a new leg.
     pub const fn begin(&mut self) {
         self.has_moved = false;
     }

@@ -7,7 +7,7 @@ use super::{LegEnd, LegStep, NearLimits, RunningMean};
 #[derive(Clone, Debug)]
 pub struct StopNear {
     limits: NearLimits,
-    /// What all thresholds are multiplied by, 0 … 1; below 1 to get out of a narrow place.
+    /// Factor of all thresholds, 0 to 1; below 1 to get out of a narrow place.
     give_way: f64,
     mean: RunningMean,
 }

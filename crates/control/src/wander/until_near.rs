@@ -4,15 +4,15 @@ use tolman_robot::{Bumps, Robot, Rolls, Soundings, TurnTranslate};
 
 use super::{GoAhead, LegEnd, LegStep, NearLimits, StopAtBump, StopNear};
 
-/// How a robot drives until something is near.
+/// Parameters of driving until something is near.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct UntilNearConfig {
-    /// How near things may come.
+    /// Minimum distances of things.
     pub limits: NearLimits,
-    /// How much farther than its limit all must be where the way is clear: a factor of at least 1.
+    /// Factor, at least 1, by which all must be farther than its limit for the way to be clear.
     /// Ours: 1.25, so that a leg does not end where it began.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub margin: f64,
@@ -68,7 +68,7 @@ pub struct UntilNear {
     bump: StopAtBump,
 }
 
-/// How a turn ended.
+/// End of a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnEnd {
     /// The way ahead is clear.
@@ -79,7 +79,7 @@ pub enum TurnEnd {
     Wedged,
 }
 
-/// How a turn by an angle ended.
+/// End of a turn by an angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnByEnd {
     /// It has turned as far as it was to, or took as many time steps as it may.
@@ -88,7 +88,7 @@ pub enum TurnByEnd {
     Touched,
 }
 
-/// How often a robot that touches something turns the other way before it counts as wedged.
+/// Number of reversals of a robot that touches something after which it counts as wedged.
 const MOST_REVERSALS: u32 = 4;
 
 impl UntilNear {
@@ -262,7 +262,7 @@ const FIRST_COMMAND: f64 = 0.05;
 /// It is done this near to what was wanted, rad.
 const NEAR_ENOUGH: f64 = 0.02;
 
-/// How many time steps a robot goes away from what it touched while it turned.
+/// Number of time steps in which a robot moves away from what it touched while it turned.
 const STEPS_FREE: u32 = 4;
 
 /// Goes straight ahead, or back, for `steps` time steps.

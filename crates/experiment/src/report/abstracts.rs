@@ -29,7 +29,7 @@ pub(super) fn of(outcome: &ExperimentOutcome) -> String {
     sentences.join(" ")
 }
 
-/// How far a value lies from the paper's, in widths of what is tolerated.
+/// Returns the distance of a value from the paper's, in tolerances.
 fn excess(measured: &Measured) -> Option<f64> {
     let accepted = measured.verdict.as_ref()?.accepted?;
     let far = (measured.value - measured.paper.as_ref()?.value).abs();
@@ -48,7 +48,7 @@ fn differs((table, metric, measured): (&Table, &Metric, &Measured)) -> Option<St
     ))
 }
 
-/// The reason for which most values cannot be judged.
+/// Returns the reason for which most values cannot be judged.
 fn doubt<'a>(values: impl Iterator<Item = &'a Measured>) -> Option<String> {
     let mut doubts: Vec<(&Doubt, usize)> = Vec::new();
     for verdict in values.filter_map(|measured| measured.verdict.as_ref()) {

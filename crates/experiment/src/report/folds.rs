@@ -29,18 +29,18 @@ const ROW: f64 = 40.0;
 /// Height of a figure's caption, px.
 const CAPTION: f64 = 90.0;
 
-/// What is open of a table.
+/// Open parts of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Shown {
     /// Whether it lies open at all.
     pub(super) open: bool,
-    /// How many of its metrics that vary are seen when it is open.
+    /// Number of its varying metrics that are seen when it is open.
     pub(super) metrics: usize,
-    /// How many of its figures are seen when it is open.
+    /// Number of its figures that are seen when it is open.
     pub(super) figures: usize,
 }
 
-/// What may lie open on a page.
+/// Parts that may lie open on a page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Folds {
     /// Height that is left, px.

@@ -7,7 +7,7 @@ use crate::{Contrast, ExperimentOutcome, VerdictTally, duration};
 /// Corrected p-values below this are called a difference.
 pub(super) const SIGNIFICANT: f64 = 0.05;
 
-/// Title, source, provenance, and the command that makes the page again.
+/// Returns title, source, provenance, and the command that makes the page again.
 pub(super) fn header(outcome: &ExperimentOutcome) -> Markup {
     let time = match outcome.played {
         0 => "no run played now".to_owned(),
@@ -124,12 +124,12 @@ fn card(value: &str, label: &str) -> Markup {
     }
 }
 
-/// `rustc 1.95.0 (59807616e 2026-04-14)` without what is in the parentheses.
+/// Returns `rustc 1.95.0 (59807616e 2026-04-14)` without the part in parentheses.
 fn short_compiler(compiler: &str) -> &str {
     compiler.split(" (").next().unwrap_or(compiler)
 }
 
-/// `1 thread`, `2 threads`.
+/// Returns a count with its noun: `1 thread`, `2 threads`.
 pub(super) fn counted(count: usize, noun: &str) -> String {
     match count {
         1 => format!("1 {noun}"),

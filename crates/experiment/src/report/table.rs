@@ -93,7 +93,7 @@ fn titles(metrics: &[&MetricAnalysis]) -> String {
     titles.collect::<Vec<_>>().join(", ")
 }
 
-/// Whether all rows have one value without spread, of which the paper says nothing.
+/// Returns whether all rows have one value without spread, for which the paper has none.
 fn is_constant(metric: &MetricAnalysis) -> bool {
     let Some(first) = metric.rows.first() else {
         return false;
@@ -108,7 +108,7 @@ fn is_constant(metric: &MetricAnalysis) -> bool {
     metric.rows.len() > 1 && metric.rows.iter().all(is_same)
 }
 
-/// The value of a constant metric, in words.
+/// Returns the value of a constant metric, in words.
 fn same(metric: &MetricAnalysis) -> Option<String> {
     let (first, decimals) = (metric.rows.first()?, metric.metric.places());
     Some(format!(
@@ -118,7 +118,7 @@ fn same(metric: &MetricAnalysis) -> Option<String> {
     ))
 }
 
-/// Which columns a table has, beside those that all have.
+/// Columns of a table, beside those that all have.
 struct Columns<'a> {
     /// Whether the paper says anything of the table.
     paper: bool,
@@ -213,7 +213,7 @@ fn row(columns: &Columns<'_>, metric: &Metric, measured: &Measured, place: usize
     }
 }
 
-/// p and effect size.
+/// Returns p and effect size.
 fn contrast(comparison: &Comparison, measured: &Measured) -> Markup {
     let versus = format!("p vs. {}", comparison.reference);
     html! {

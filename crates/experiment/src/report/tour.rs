@@ -43,7 +43,7 @@ pub fn tour_html(outcomes: &[ExperimentOutcome], last: &str) -> String {
     page.into_string()
 }
 
-/// What the page shows of one experiment.
+/// Part of one experiment on the page.
 struct Stop<'a> {
     outcome: &'a ExperimentOutcome,
     /// Its figures, by names of its own: ids are of one experiment, and the page has several.
@@ -63,7 +63,7 @@ impl<'a> Stop<'a> {
         }
     }
 
-    /// Its tables, of which the first is told before all but those of others.
+    /// Returns its tables; the first comes before all others.
     fn parts(&self) -> impl Iterator<Item = Part<'_>> {
         let tables = self.outcome.analysis.tables.iter().enumerate();
         tables.map(|(place, table)| Part::of(table, &self.figures, place == 0))

@@ -8,12 +8,12 @@ use crate::fields::Fields;
 /// A beam of that length or more has hit nothing, m.
 pub(super) const NOTHING_HIT: f64 = 80.0;
 
-/// What PARAM lines say of the front laser.
+/// Parameters of the front laser, from PARAM lines.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Parameters {
-    /// How far the laser sits ahead of the robot's middle, m.
+    /// Distance of the laser ahead of the robot's middle, m.
     offset: Option<f64>,
-    /// How far beams are apart, degrees.
+    /// Angle between two beams, degrees.
     spacing_deg: Option<f64>,
 }
 
@@ -31,8 +31,8 @@ impl Parameters {
         *known = Some(value);
     }
 
-    /// Returns how the beams of a FLASER with this many ranges lie: from −90° on, over half a
-    /// circle as far as whole or half degrees go, so that 180 beams are 1° apart like 181, and 360
+    /// Returns the geometry of the beams of a FLASER with this many ranges. They start at −90° and
+    /// cover half a circle in whole or half degrees. So 180 beams are 1° apart like 181, and 360
     /// half a degree like 361.
     pub(crate) fn ring(&self, beams: u32) -> Ring {
         let even = beams - beams % 2;

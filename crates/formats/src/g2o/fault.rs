@@ -4,7 +4,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("line {line}: {kind}")]
 pub struct G2oFault {
-    /// Which line, from 1.
+    /// Number of the line, from 1.
     pub line: usize,
     /// What is wrong with the line.
     pub kind: G2oFaultKind,
@@ -25,21 +25,21 @@ pub enum G2oFaultKind {
     Count {
         /// The first word.
         word: &'static str,
-        /// How many there are.
+        /// Number found.
         found: usize,
-        /// How many there should be.
+        /// Number expected.
         expected: usize,
     },
     /// A number is invalid, NaN or infinite.
     #[error("`{text}` is not a finite number; measure the line again or remove it")]
     Number {
-        /// What stands there.
+        /// Text found.
         text: String,
     },
     /// An id is no whole number.
     #[error("`{text}` is not the id of a pose; ids are whole numbers from 0")]
     Id {
-        /// What stands there.
+        /// Text found.
         text: String,
     },
     /// A pose stands twice.

@@ -5,7 +5,7 @@ use tolman_geom::{Heading, Point, Pose};
 
 use super::{G2oEdge, G2oFaultKind};
 
-/// What a line says.
+/// Contents of a line.
 pub(super) enum Entry {
     Nothing,
     Pose(u64, Pose),
@@ -98,7 +98,7 @@ fn id(text: &str) -> Result<u64, G2oFaultKind> {
         .map_err(|_| G2oFaultKind::Id { text: shown(text) })
 }
 
-/// As much of a word as fits into a message.
+/// Returns the part of a word that fits into a message.
 fn shown(text: &str) -> String {
     text.chars().take(40).collect()
 }

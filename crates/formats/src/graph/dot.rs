@@ -2,8 +2,8 @@ use core::fmt::Write;
 
 use tolman_robot::{MapPlace, MapView};
 
-/// Returns a map of places in the language of Graphviz, each place pinned where it lies:
-/// `neato -n2` draws it to scale, 72 points a metre.
+/// Returns a map of places in the language of Graphviz, each place pinned at its position.
+/// `neato -n2` draws it to scale, 72 points per metre.
 ///
 /// ```
 /// use tolman_formats::dot;

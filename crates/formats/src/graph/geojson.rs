@@ -3,10 +3,9 @@ use alloc::collections::BTreeMap;
 use tolman_geom::Point;
 use tolman_robot::{MapLink, MapView};
 
-/// Returns a map of places as the GeoJSON that the route server of ROS 2's navigation
-/// (`nav2_route`) reads: a point of each place, a line of each link, in metres of the map's frame.
-/// Places that do not know where they lie are left out, and so are their links. The numbers of
-/// links follow those of the places.
+/// Returns a map of places as GeoJSON for the route server of ROS 2's navigation (`nav2_route`).
+/// Each place is a point, each link a line, in metres of the map's frame. Places without a position
+/// are left out, and so are their links. The numbers of links follow those of the places.
 ///
 /// Source: <https://docs.nav2.org/tutorials/docs/route_server_tools/route_graph_generation.html>.
 #[must_use]

@@ -1,7 +1,8 @@
 use tolman_robot::{MapPlace, MapView};
 
-/// Returns a map of places as node-link JSON, as `networkx.node_link_graph(…, edges="links")` and
-/// d3 read it, with `x` and `y`, m, of each place that knows where it lies.
+/// Returns a map of places as node-link JSON, as read by
+/// `networkx.node_link_graph(…, edges="links")` and d3. Each place with a position has `x` and `y`,
+/// m.
 #[must_use]
 pub fn node_link_json(map: &MapView) -> String {
     let node = |place: &MapPlace| match place.position {

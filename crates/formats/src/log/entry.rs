@@ -4,13 +4,13 @@ use tolman_robot::{Scan, TimedPose, Trajectory};
 /// One thing that a robot noted.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LogEntry {
-    /// Where its wheels had it.
+    /// Pose by its wheels.
     Odometry(LogOdometry),
-    /// What its laser read, and where its wheels had it then.
+    /// Readings of its laser, with the pose by its wheels then.
     Scan(LogScan),
 }
 
-/// Where the wheels of a robot had it.
+/// Pose of a robot by its wheels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogOdometry {
     /// Line of the file, from 1.
@@ -21,7 +21,7 @@ pub struct LogOdometry {
     pub pose: Pose,
 }
 
-/// How fast a robot goes.
+/// Speed of a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogVelocity {
     /// From when on, s.
@@ -65,7 +65,7 @@ impl LogVelocity {
     }
 }
 
-/// What the laser of a robot read.
+/// Readings of a robot's laser.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogScan {
     /// Line of the file, from 1.
@@ -74,10 +74,10 @@ pub struct LogScan {
     pub time: f64,
     /// Dead reckoning, in a frame of its own.
     pub odometry: Pose,
-    /// Pose that the log notes beside the odometry: in a raw log that of the laser by dead
-    /// reckoning, in a log that somebody has corrected that of the map.
+    /// Pose that the log has beside the odometry. In a raw log it is that of the laser by dead
+    /// reckoning, in a corrected log that of the map.
     pub noted: Pose,
-    /// Where the laser sits on the robot.
+    /// Pose of the laser on the robot.
     pub robot_from_laser: Pose,
     /// The ranges; `ring.max_range` where nothing was hit.
     pub scan: Scan,
@@ -90,7 +90,7 @@ pub(crate) struct ReadScan {
 }
 
 impl ReadScan {
-    /// Returns the scan with its ranges, m, of which those too long have hit nothing.
+    /// Returns the scan with its ranges, m; ranges that are too long have hit nothing.
     pub(crate) fn of(mut scan: LogScan, ranges: &[Option<f64>]) -> Self {
         let most = scan.scan.ring.max_range;
         let length = |range: &Option<f64>| range.map_or(most, |range| range.min(most));

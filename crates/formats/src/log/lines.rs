@@ -14,7 +14,7 @@ pub(crate) struct NumberedLines<R> {
     has_ended: bool,
 }
 
-/// What stands in a line.
+/// Contents of a line.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Line<'a> {
     /// Text, without its end.

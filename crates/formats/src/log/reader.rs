@@ -6,8 +6,8 @@ use crate::carmen::{self, Parameters};
 use crate::fields::{Fields, Wrong};
 use crate::wean;
 
-/// Reads a log of one message a line, CARMEN's and Wean Hall's, which no first word has in common.
-/// What cannot be used is left out and told in the [report](Self::report).
+/// Reads a log of one message per line: CARMEN's and Wean Hall's, whose first words all differ.
+/// Unusable lines are left out and listed in the [report](Self::report).
 ///
 /// ```
 /// use tolman_formats::{LogReader, LogEntry, LogTrouble};

@@ -4,7 +4,7 @@ use std::path::Path;
 use super::{Line, LogError, LogReport, LogTrouble, NumberedLines, open};
 use crate::fields::{Fields, Wrong};
 
-/// What a file holds of which each line says one thing, and how it was read.
+/// Records of a file with one record per line, and the report on reading it.
 pub(crate) type Records<T> = (Vec<T>, LogReport);
 
 /// Reads a file, plain or packed by gzip, whose lines `parse` understands; `what` it is to hold.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::LogError;
 
-/// How a log was read: what it holds, what was left out, and where.
+/// Report on reading a log: its contents, what was left out, and where.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LogReport {
     /// Lines, empty ones and comments among them.
@@ -13,34 +13,34 @@ pub struct LogReport {
     pub odometry: u64,
     /// Scans that were used.
     pub scans: u64,
-    /// Scans of which no beam hit anything.
+    /// Number of scans in which no beam hit anything.
     pub empty_scans: u64,
     /// Lines of other kinds, by their first word; of more than fifty kinds the rest stands under
     /// `…`.
     pub other_kinds: BTreeMap<String, KindCount>,
-    /// What was wrong.
+    /// Troubles met.
     pub troubles: BTreeMap<LogTrouble, TroubleCount>,
 }
 
-/// How often a kind of line was met.
+/// Count of a kind of line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KindCount {
-    /// How often.
+    /// Number of lines.
     pub count: u64,
     /// The first line of it, from 1.
     pub first_line: u64,
 }
 
-/// How often something was wrong.
+/// Count of a kind of trouble.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TroubleCount {
-    /// How often.
+    /// Number of lines.
     pub count: u64,
-    /// The first of the lines, from 1, and what exactly was wrong there; five at most.
+    /// The first of the lines, from 1, each with its trouble; at most five.
     pub first: Vec<(u64, String)>,
 }
 
-/// What can be wrong with a line of a log.
+/// Trouble with a line of a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum LogTrouble {
@@ -58,7 +58,7 @@ pub enum LogTrouble {
     BackInTime,
     /// The clock jumps by more than a minute. It is used.
     ClockJump,
-    /// The file cannot be read any further. What stands above is used.
+    /// The file cannot be read any further. The part above is used.
     EndsEarly,
     /// It is of a kind that is not known. Left out.
     UnknownKind,
@@ -104,7 +104,8 @@ impl LogReport {
         }
     }
 
-    /// Returns why a file holds nothing: what was looked for, and the first that was wrong.
+    /// Returns the error of a file without usable contents: what was expected, and the first
+    /// trouble.
     pub(crate) fn nothing(&self, path: &Path, what: &str) -> LogError {
         let first = self.troubles.iter().next();
         let first = first.map_or_else(String::new, |(trouble, met)| format!("; {trouble}: {met}"));
@@ -120,7 +121,7 @@ impl LogReport {
         self.troubles.get(&trouble).map_or(0, |known| known.count)
     }
 
-    /// Returns what a reader should know, a sentence a line: what is in the log, what was left out
+    /// Returns the report for readers, one sentence per line: what the log has, what was left out
     /// and why. O(kinds).
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {

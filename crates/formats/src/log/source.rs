@@ -12,22 +12,22 @@ pub enum LogError {
     /// It cannot be opened.
     #[error("cannot read {}; give a file that is there, plain or packed by gzip", path.display())]
     File {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
     /// Nothing in it can be used.
     #[error("{}: {what}", path.display())]
     Nothing {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What was looked for, and what was found instead.
+        /// What was expected, and what was found instead.
         what: String,
     },
 }
 
-/// The first bytes of what gzip has packed.
+/// First bytes of a gzip file.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 /// The first bytes of an MCAP file.

@@ -23,27 +23,27 @@ pub enum GreyMapError {
     /// A number is expected.
     #[error("byte {byte}: expected {what}; save the picture again as a PGM")]
     Number {
-        /// Where.
+        /// Position in the file, in bytes.
         byte: usize,
-        /// What the number says.
+        /// Meaning of the number.
         what: &'static str,
     },
     /// A number is out of its range.
     #[error("byte {byte}: {what} is {value}, and may be 1 to {most}; save the picture again")]
     Range {
-        /// Where.
+        /// Position in the file, in bytes.
         byte: usize,
-        /// What the number says.
+        /// Meaning of the number.
         what: &'static str,
         /// The value given.
         value: u64,
-        /// What it may be.
+        /// Maximum value.
         most: u64,
     },
     /// A value is brighter than white.
     #[error("byte {byte}: value {value} is above the picture's white, {most}; correct one of them")]
     TooBright {
-        /// Where.
+        /// Position in the file, in bytes.
         byte: usize,
         /// The value.
         value: u64,
@@ -53,7 +53,7 @@ pub enum GreyMapError {
     /// The picture ends too early.
     #[error("byte {byte}: the picture ends, with {found} of {wanted} values; copy it again")]
     TooShort {
-        /// Where it ends.
+        /// End of the file, in bytes.
         byte: usize,
         /// Values that are there.
         found: usize,
@@ -66,7 +66,8 @@ pub enum GreyMapError {
 const MOST_SIDE: u32 = 100_000;
 
 impl GreyMap {
-    /// Reads a picture. What follows the last value is passed over, as others do. O(bytes).
+    /// Reads a picture and returns it. Bytes after the last value are ignored, as other programs
+    /// do. O(bytes).
     ///
     /// # Errors
     /// [`GreyMapError`] with the byte at fault.

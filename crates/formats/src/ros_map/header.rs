@@ -3,7 +3,7 @@ use tolman_geom::Point;
 
 use super::MapCell;
 
-/// What the YAML file of a map says.
+/// Contents of a map's YAML file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RosMapHeader {
     /// The name of the picture's file, beside this one if it does not begin at the root.
@@ -27,13 +27,13 @@ pub enum RosMapHeaderError {
     /// A line is no `key: value`.
     #[error("line {line}: expected `key: value`; write the file as map_server does")]
     Line {
-        /// Which line.
+        /// Number of the line.
         line: usize,
     },
     /// A key stands twice.
     #[error("line {line}: `{key}` stands for the second time; remove one")]
     Twice {
-        /// Which line.
+        /// Number of the line.
         line: usize,
         /// The key.
         key: String,
@@ -41,13 +41,13 @@ pub enum RosMapHeaderError {
     /// A value cannot be one.
     #[error("line {line}: `{key}` is `{value}`; expected {expected}")]
     Value {
-        /// Which line.
+        /// Number of the line.
         line: usize,
         /// The key.
         key: &'static str,
-        /// What stands there.
+        /// Value found.
         value: String,
-        /// What should.
+        /// Value expected.
         expected: &'static str,
     },
     /// The map is turned.
@@ -55,7 +55,7 @@ pub enum RosMapHeaderError {
         "line {line}: the map is turned by {yaw} rad; turn its picture, and set the third number of `origin` to 0"
     )]
     Turned {
-        /// Which line.
+        /// Number of the line.
         line: usize,
         /// By how much, counter-clockwise, rad.
         yaw: f64,
@@ -89,7 +89,7 @@ impl RosMapHeader {
         })
     }
 
-    /// Returns what a value of the picture means: `light` is 0 for black, 1 for white.
+    /// Returns the state that a value of the picture means: `light` is 0 for black, 1 for white.
     #[must_use]
     pub fn cell(&self, light: f64) -> MapCell {
         let occupied = if self.negate { light } else { 1.0 - light };

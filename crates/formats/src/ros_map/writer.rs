@@ -1,6 +1,6 @@
 use super::{MapCell, RosMap};
 
-/// What the cells are in the picture, as map_saver has them.
+/// Values of the cells in the picture, as in map_saver.
 const FREE: u8 = 254;
 const UNKNOWN: u8 = 205;
 const OCCUPIED: u8 = 0;

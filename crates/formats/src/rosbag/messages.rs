@@ -33,7 +33,7 @@ pub(super) struct LaserScan {
     ranges: Vec<f32>,
 }
 
-/// What comes after the pose is not read.
+/// Odometry; fields after the pose are not read.
 #[derive(Deserialize)]
 pub(super) struct Odometry {
     pub(super) header: Header,
@@ -58,7 +58,7 @@ pub(super) struct Transform {
 /// Bytes before a message that tell its byte order.
 const ENCAPSULATION: usize = 4;
 
-/// Reads a message; what comes after its last field is left.
+/// Reads a message and returns it; bytes after its last field are ignored.
 pub(super) fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
     let (head, body) = bytes
         .split_first_chunk::<ENCAPSULATION>()
@@ -81,8 +81,8 @@ impl Stamp {
 }
 
 impl LaserScan {
-    /// Returns the scan, and how many of its ranges are invalid, or `None` if its angles are
-    /// invalid. What is nearer than the laser sees or farther has hit nothing.
+    /// Returns the scan and the number of its invalid ranges, or `None` if its angles are invalid.
+    /// Ranges outside those of the laser have hit nothing.
     pub(super) fn scan(&self) -> Option<(Scan, usize)> {
         let (first, spacing, most) = (self.angle_min, self.angle_increment, self.range_max);
         let are_numbers =

@@ -4,7 +4,7 @@ use tolman_geom::Pose;
 
 use super::messages::Transform;
 
-/// Where parts of a robot sit on each other.
+/// Poses of a robot's parts on each other.
 #[derive(Default)]
 pub(super) struct Mounts {
     /// By a part: the one it sits on, and where.

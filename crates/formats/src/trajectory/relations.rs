@@ -7,8 +7,8 @@ use tolman_robot::PoseRelation;
 use crate::fields::{Fields, Wrong};
 use crate::log::{self, LogError, LogReport};
 
-/// Relative poses that were verified by hand, as the benchmark of Freiburg has them: one a line, of
-/// two times and what is between them, as `from to x y z roll pitch yaw`.
+/// Relative poses that were verified by hand, in the form of the benchmark of Freiburg. Each line
+/// has two times and the pose between them: `from to x y z roll pitch yaw`.
 ///
 /// ```
 /// use tolman_formats::ReadRelations;
@@ -20,7 +20,7 @@ use crate::log::{self, LogError, LogReport};
 pub struct ReadRelations {
     /// The relations.
     pub relations: Vec<PoseRelation>,
-    /// How they were read.
+    /// Report on reading them.
     pub report: LogReport,
 }
 
@@ -35,7 +35,7 @@ impl ReadRelations {
         Ok(Self { relations, report })
     }
 
-    /// Reads from `source`; what is no relation is left out and reported.
+    /// Reads from `source` and returns the relations; other lines are left out and reported.
     pub fn from_lines(source: impl BufRead) -> Self {
         let (relations, report) = log::records(source, relation);
         Self { relations, report }

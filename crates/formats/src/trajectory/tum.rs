@@ -9,8 +9,8 @@ use crate::fields::{Fields, Wrong};
 use crate::log::{self, LogError, LogReport};
 use crate::quaternion;
 
-/// Returns a trajectory as text, one pose a line, `time x y z qx qy qz qw`: the format of the RGB-D
-/// benchmark of the Technical University of Munich, which evo and others read.
+/// Returns a trajectory as text, one pose per line, `time x y z qx qy qz qw`. It is the format of
+/// the RGB-D benchmark of the Technical University of Munich, which evo and others read.
 ///
 /// ```
 /// use tolman_formats::{ReadTrajectory, tum};
@@ -39,7 +39,7 @@ pub fn tum(trajectory: &Trajectory) -> String {
 pub struct ReadTrajectory {
     /// The trajectory.
     pub trajectory: Trajectory,
-    /// How it was read.
+    /// Report on reading it.
     pub report: LogReport,
 }
 
@@ -56,7 +56,7 @@ impl ReadTrajectory {
         })
     }
 
-    /// Reads from `source`; what is no pose is left out and reported.
+    /// Reads from `source` and returns the trajectory; other lines are left out and reported.
     pub fn from_lines(source: impl BufRead) -> Self {
         let (poses, report) = log::records(source, timed);
         Self {

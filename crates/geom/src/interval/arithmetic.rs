@@ -68,10 +68,10 @@ impl Interval {
         }
     }
 
-    /// Everything within `margin` of a number here.
+    /// Returns all numbers within `margin` of a number here.
     ///
     /// # Errors
-    /// If `margin` is negative or no number.
+    /// If `margin` is negative or not a number.
     pub fn widened(self, margin: f64) -> Result<Self, IntervalError> {
         Ok(self + Self::about(0.0, margin)?)
     }

@@ -48,7 +48,7 @@ impl Interval {
     /// Nothing is known.
     pub const UNBOUNDED: Self = Self::from_bounds(f64::NEG_INFINITY, f64::INFINITY);
 
-    /// From `low` to `high`.
+    /// Returns the interval from `low` to `high`.
     ///
     /// # Errors
     /// If a bound is NaN, `low` is above `high`, or no finite number lies between them.
@@ -70,10 +70,10 @@ impl Interval {
         Self::new(value, value)
     }
 
-    /// Everything within `margin` of `middle`.
+    /// Returns all numbers within `margin` of `middle`.
     ///
     /// # Errors
-    /// If `margin` is negative or one of them is no number.
+    /// If `margin` is negative or one of them is not a number.
     pub fn about(middle: f64, margin: f64) -> Result<Self, IntervalError> {
         if margin < 0.0 {
             return Err(IntervalError::NegativeMargin { margin });
@@ -81,7 +81,7 @@ impl Interval {
         Ok(Self::of(middle)? + Self::new(-margin, margin)?)
     }
 
-    /// From `low` to `high`, which are known to be bounds.
+    /// Returns the interval from `low` to `high`, which are known to be bounds.
     #[inline]
     const fn from_bounds(low: f64, high: f64) -> Self {
         Self { low, high }
@@ -92,7 +92,7 @@ impl Interval {
         Self::from_bounds(value, value)
     }
 
-    /// Its lower and its upper half.
+    /// Returns its lower and its upper half.
     pub(crate) fn halves(self) -> (Self, Self) {
         let middle = self.middle();
         (
@@ -113,7 +113,7 @@ impl Interval {
         self.high
     }
 
-    /// Upper bound of `high − low`; infinite if a bound is missing.
+    /// Returns an upper bound of `high − low`; infinite if a bound is missing.
     #[must_use]
     #[inline]
     pub fn width(self) -> f64 {
@@ -158,7 +158,7 @@ impl Interval {
         self.low <= other.high && other.low <= self.high
     }
 
-    /// Lower bound of the distance between a number of each; 0 where they meet.
+    /// Returns a lower bound of the distance between a number of each; 0 if they meet.
     #[must_use]
     pub fn gap(self, other: Self) -> f64 {
         sum_down(self.low, -other.high)
@@ -189,7 +189,7 @@ impl fmt::Debug for Interval {
 }
 
 impl fmt::Display for Interval {
-    /// `[low, high]`, with the decimals asked for.
+    /// Writes `[low, high]`, with the decimals asked for.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { low, high } = self;
         match out.precision() {
@@ -199,8 +199,8 @@ impl fmt::Display for Interval {
     }
 }
 
-/// How intervals are written: `[low, high]`, `null` for a bound that is not there, since JSON has
-/// no infinity.
+/// Form in which intervals are written: `[low, high]`, with `null` for an infinite bound, as JSON
+/// has no infinity.
 #[cfg(feature = "serde")]
 type Bounds = [Option<f64>; 2];
 

@@ -7,7 +7,7 @@
 //! An infinite operand stands for a bound that is not there, forever larger finite numbers, so 0
 //! times it is 0.
 
-/// At most a + b.
+/// Returns at most a + b.
 #[inline]
 pub(super) fn sum_down(a: f64, b: f64) -> f64 {
     let sum = a + b;
@@ -25,13 +25,13 @@ pub(super) fn sum_down(a: f64, b: f64) -> f64 {
     f64::from_bits((bits - sign * step).cast_unsigned())
 }
 
-/// At least a + b.
+/// Returns at least a + b.
 #[inline]
 pub(super) fn sum_up(a: f64, b: f64) -> f64 {
     -sum_down(-a, -b)
 }
 
-/// At most a · b.
+/// Returns at most a · b.
 pub(super) fn product_down(a: f64, b: f64) -> f64 {
     if a == 0.0 || b == 0.0 {
         0.0
@@ -40,12 +40,12 @@ pub(super) fn product_down(a: f64, b: f64) -> f64 {
     }
 }
 
-/// At least a · b.
+/// Returns at least a · b.
 pub(super) fn product_up(a: f64, b: f64) -> f64 {
     -product_down(-a, b)
 }
 
-/// At most a / b, for b ≠ 0.
+/// Returns at most a / b, for b ≠ 0.
 pub(super) fn quotient_down(a: f64, b: f64) -> f64 {
     if a == 0.0 || (b.is_infinite() && a.is_finite()) {
         0.0
@@ -65,13 +65,13 @@ fn below(rounded: f64, positive: bool) -> f64 {
     }
 }
 
-/// At least a / b, for b ≠ 0.
+/// Returns at least a / b, for b ≠ 0.
 pub(super) fn quotient_up(a: f64, b: f64) -> f64 {
     -quotient_down(-a, b)
 }
 
-/// √a for a ≥ 0, to the next double `towards` one side of it, where it need not be 0. libm's root
-/// is correctly rounded.
+/// Returns √a for a ≥ 0, rounded by `towards` to the next double unless it is 0. libm's root is
+/// correctly rounded.
 pub(super) fn root(a: f64, towards: fn(f64) -> f64) -> f64 {
     if a == 0.0 {
         0.0

@@ -35,12 +35,12 @@ impl Interval {
         self.sines().1
     }
 
-    /// 2π.
+    /// Returns 2π.
     pub(crate) fn full_circle() -> Self {
         multiple_of_half_pi(4)
     }
 
-    /// Sine and cosine.
+    /// Returns sine and cosine.
     pub(crate) fn sines(self) -> (Self, Self) {
         // Sine and cosine of the multiples of half π.
         const EXTREMES: [(f64, f64); 4] = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)];
@@ -80,7 +80,7 @@ fn exact_product(whole: Interval, short: Interval) -> Interval {
     Interval::point(whole.low * short.low)
 }
 
-/// Sine and cosine of one angle of at most [`MOST_QUARTERS`].
+/// Returns sine and cosine of one angle of at most [`MOST_QUARTERS`].
 fn sines_of(angle: f64) -> (Interval, Interval) {
     let quarters = libm::round(angle / FRAC_PI_2);
     let [first, second, rest] = HALF_PI;
@@ -96,8 +96,8 @@ fn sines_of(angle: f64) -> (Interval, Interval) {
     }
 }
 
-/// Sine and cosine of an angle within 0.8 of 0, by their series in Horner's form:
-/// sin x = x (1 − x²/(2·3) (1 − x²/(4·5) (…))), cos x = 1 − x²/(1·2) (1 − x²/(3·4) (…)).
+/// Returns sine and cosine of an angle within 0.8 of 0, by their series in Horner's form: sin x = x
+/// (1 − x²/(2·3) (1 − x²/(4·5) (…))), cos x = 1 − x²/(1·2) (1 − x²/(3·4) (…)).
 fn series(x: Interval) -> (Interval, Interval) {
     const ONE: Interval = Interval::point(1.0);
     let square = x.squared();

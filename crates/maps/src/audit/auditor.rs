@@ -17,9 +17,9 @@ use super::{
 };
 use crate::pose_graph::PoseGraph;
 
-/// Audits the closures of a graph: finds of each whether the odometry and the other closures
-/// support it, refute it or leave it undecided. Where the poses lie does not matter; they are
-/// numbered in the order they were driven.
+/// Audits the closures of a graph and returns the verdict on each: supported, refuted or undecided,
+/// by the odometry and the other closures. The poses' positions do not matter. Poses are numbered
+/// in the order they were driven.
 ///
 /// # Errors
 /// [`AuditError`] if odometry does not join a pose with the next, or the scale of the standard
@@ -88,9 +88,9 @@ pub(super) fn check(config: &AuditConfig) -> Result<(), AuditError> {
     }
 }
 
-/// Returns of each refuted closure, by its edge, how far the cycle that refutes it is off, χ², if
-/// the closure is replaced by the truth: how far its witnesses err. `poses` are the true ones. A
-/// certificate above the bound is not to be relied on.
+/// Returns, for each refuted closure by its edge, the error (χ²) of the refuting cycle if the
+/// closure is replaced by the truth: the error of its witnesses. `poses` are the true ones. A
+/// certificate above the bound is not reliable.
 ///
 /// # Errors
 /// As [`audit`].
@@ -116,7 +116,7 @@ pub fn errors_of_witnesses(
     Ok(refuted.collect())
 }
 
-/// Says what is found of each closure, once it is settled which are believed.
+/// Gives the verdict on each closure, once it is settled which are believed.
 struct Judge<'a, 'b> {
     belief: Belief<'a>,
     pairs: &'b Pairs,
@@ -197,7 +197,7 @@ impl Judge<'_, '_> {
         cycle.gap().supports(self.belief.config).then_some(cycle)
     }
 
-    /// Returns what a cycle beyond its bound makes of a closure.
+    /// Returns the verdict on a closure whose cycle is beyond its bound.
     fn against(&mut self, link: u32, way: &Way) -> Option<ClosureVerdict> {
         let against = self.cycle(link, way)?;
         let shunned: Vec<u32> = way.closures().collect();

@@ -1,4 +1,4 @@
-//! Which closures are believed: the greatest set of which each has a witness in the others.
+//! The closures that are believed: the greatest set in which each has a witness among the others.
 
 use alloc::vec::Vec;
 
@@ -12,7 +12,7 @@ use super::way::Way;
 /// The most rounds in which closures are believed or dropped again.
 const MOST_ROUNDS: u32 = 6;
 
-/// How many members of a group are held against what is believed before it.
+/// Maximum number of a group's members that are compared with what is believed before it.
 const PROBED: usize = 40;
 
 /// The audit while it goes on.
@@ -23,10 +23,9 @@ pub(super) struct Belief<'a> {
     pub(super) by_odometry: &'a [ByOdometry],
     pub(super) search: Search,
     pub(super) believed: Vec<bool>,
-    /// The surest way of each closure when it was looked for last, and how far the closure is off
-    /// from it.
+    /// The surest way of each closure at the last search, and the closure's gap from it.
     pub(super) found: Vec<Option<(Way, Gap)>>,
-    /// Which closures' ways lead over each closure, or did.
+    /// For each closure, the closures whose ways lead over it, or did.
     users: Vec<Vec<u32>>,
 }
 
@@ -53,7 +52,7 @@ impl<'a> Belief<'a> {
         }
     }
 
-    /// Looks for the surest way again, and returns how far the closure is off from it.
+    /// Searches the surest way again and returns the closure's gap from it.
     fn look(&mut self, link: u32) -> Option<Gap> {
         let way = self.search.way(link, self.links, &self.believed, &[]);
         let found = way.map(|way| {
@@ -73,8 +72,8 @@ impl<'a> Belief<'a> {
         gap.is_some_and(|gap| gap.supports(self.config))
     }
 
-    /// Believes the closures of groups that agree, the largest first, and drops what has no
-    /// witness, until nothing new is believed.
+    /// Believes the closures of groups that agree, the largest group first, and drops those without
+    /// a witness, until nothing changes.
     pub(super) fn settle(&mut self, pairs: &Pairs) {
         for _ in 0..MOST_ROUNDS {
             let before = self.open(true).len();
@@ -96,8 +95,8 @@ impl<'a> Belief<'a> {
         self.refresh();
     }
 
-    /// Drops what a way that shares no run with its witness speaks against, and believes again what
-    /// has a witness then: closures that bear witness to each other alone have none.
+    /// Drops closures contested by a way that shares no run with their witness. Then believes those
+    /// again that have a witness now: closures that support only each other have none.
     fn drop_contested(&mut self) {
         let believed = self.open(true).into_iter();
         let contested: Vec<u32> = believed.filter(|link| self.is_contested(*link)).collect();
@@ -208,8 +207,8 @@ impl<'a> Belief<'a> {
         (0..self.links.len() as u32).filter(of).collect()
     }
 
-    /// The greatest fixed point: drops all without a witness at once, and looks again for those
-    /// whose way led over them.
+    /// Computes the greatest fixed point: drops all closures without a witness at once, and
+    /// searches again for those whose way led over them.
     fn drop_unwitnessed(&mut self, mut asked: Vec<u32>) {
         while !asked.is_empty() {
             let mut dropped = Vec::new();

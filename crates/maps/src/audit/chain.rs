@@ -10,20 +10,21 @@ use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
 
 /// The poses as odometry alone has them, with the sums of its covariances.
 pub(super) struct Chain {
-    /// Where odometry has each pose, seen from the first of its piece.
+    /// Pose of each by odometry, relative to the first of its piece.
     pub(super) reckoned: Vec<Motion>,
     /// The summed covariance of all steps up to each pose, seen from the first of its piece.
     summed: Vec<Spread>,
     /// The summed cost of all steps up to each pose.
     cost: Vec<f64>,
-    /// Which unbroken piece of the odometry each pose is of.
+    /// Unbroken piece of the odometry to which each pose belongs.
     piece: Vec<u32>,
     /// The edge that leads to each pose from the one before.
     step: Vec<Option<u32>>,
 }
 
 impl Chain {
-    /// Sums up. Of two odometry edges between the same poses the first counts. O(poses + edges).
+    /// Returns the sums over a graph's odometry. If two odometry edges join the same poses, the
+    /// first counts. O(poses + edges).
     pub(super) fn of(graph: &PoseGraph, config: &AuditConfig) -> Result<Self, AuditError> {
         let step = steps(graph)?;
         let mut chain = Self {
@@ -100,7 +101,7 @@ impl Chain {
     }
 }
 
-/// Returns what odometry's edge says of the way from the lower pose to the higher.
+/// Returns the motion and covariance of an odometry edge from the lower pose to the higher.
 pub(super) fn forward(edge: &PoseEdge, config: &AuditConfig) -> (Pose, Spread) {
     let spread = spread_of(edge, config);
     if edge.from < edge.to {
@@ -116,7 +117,7 @@ pub(super) fn spread_of(edge: &PoseEdge, config: &AuditConfig) -> Spread {
     Spread::of(&covariance).scaled(config.sigma_scale * config.sigma_scale)
 }
 
-/// Returns how much an edge costs when the surest way is looked for.
+/// Returns the cost of an edge in the search for the surest way.
 pub(super) fn cost_of(spread: &Spread, config: &AuditConfig) -> f64 {
     spread.xx + spread.yy + config.lever * config.lever * spread.tt
 }

@@ -1,28 +1,27 @@
 use core::f64::consts::PI;
 
-/// How closures are audited.
+/// Parameters of an audit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct AuditConfig {
-    /// By how much every stated standard deviation is multiplied: below 1 for a graph that states
-    /// more than it errs, above 1 for one that states less. Positive; default 1.
+    /// Factor of every stated standard deviation: below 1 if the graph overstates its errors, above
+    /// 1 if it understates them. Positive; default 1.
     pub sigma_scale: f64,
-    /// How many standard deviations a cycle may be off, k (default 5: of right cycles with Gaussian
-    /// errors 2 in 100,000 are farther off).
+    /// Maximum error of a cycle, k, in standard deviations (default 5; with Gaussian errors 2 in
+    /// 100,000 right cycles exceed it).
     pub bound: f64,
     /// A cycle is tight if its region of k standard deviations fills at most this share of all
     /// poses near by (default 0.003).
     pub tight_share: f64,
-    /// How far poses near by may lie, m (default 5); their headings are any.
+    /// Radius of the region of poses near by, m (default 5); their headings are any.
     pub near: f64,
     /// Closures whose ends lie at most this many poses apart, both, are of one run (default 3).
     pub run_gap: u32,
     /// Pairs of closures are compared whose ends lie at most this many poses apart, both (default
     /// 60).
     pub pair_gap: u32,
-    /// By how many metres a radian counts when the surest way through the graph is looked for
-    /// (default 3).
+    /// Weight of a radian in the search for the surest way, m (default 3).
     pub lever: f64,
     /// The most witnesses of a supported closure that are looked for, at least 1 (default 5).
     pub most_witnesses: usize,

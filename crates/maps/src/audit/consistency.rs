@@ -1,4 +1,4 @@
-//! Closures held against each other in pairs, and the greatest consistent groups of them.
+//! Closures compared in pairs, and the greatest consistent groups of them.
 //!
 //! Source: the idea of pairwise consistency is that of J. Mangelson et al.: Pairwise Consistent
 //! Measurement Set Maximization for Robust Multi-robot Map Merging, 2018. Deviation: the set is
@@ -13,7 +13,7 @@ use super::chain::Chain;
 use super::groups::Groups;
 use super::link::Link;
 
-/// What odometry alone says of a closure.
+/// Verdict of odometry alone on a closure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ByOdometry {
     /// Nothing: it does not join its poses, or within a region too wide.
@@ -34,7 +34,7 @@ impl ByOdometry {
     }
 }
 
-/// Which closures agree with which.
+/// Pairs of closures that agree or conflict.
 pub(super) struct Pairs {
     /// Those within whose bounds each closure lies, tightly.
     pub(super) agreeing: Vec<Vec<u32>>,
@@ -90,9 +90,9 @@ impl Pairs {
         both[b].push(a as u32);
     }
 
-    /// Returns groups of candidates of which no two conflict, joined by agreement, the largest
-    /// first: again and again the closure is dropped that most conflict with, less those it agrees
-    /// with. O(pairs · log closures).
+    /// Returns groups of candidates without conflicts, joined by agreement, the largest first. A
+    /// member that odometry supports counts six times. Conflicts are resolved by dropping, one by
+    /// one, the closure with the most conflicts minus agreements. O(pairs · log closures).
     pub(super) fn groups(
         &self,
         is_candidate: &[bool],

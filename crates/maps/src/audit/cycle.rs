@@ -1,4 +1,4 @@
-//! Cycles, measured edge by edge: what a certificate is made of.
+//! Cycles, measured edge by edge: the contents of a certificate.
 
 use alloc::vec::Vec;
 
@@ -12,7 +12,7 @@ use super::motion::{Motion, Spread};
 use super::way::{Leg, Way};
 use crate::pose_graph::{PoseEdgeKind, PoseGraph};
 
-/// A cycle that begins with the closure in question, and how far it is off.
+/// A cycle that begins with the closure in question, and its error.
 ///
 /// Its product is that of the measurements along it, each inverted where it is walked against its
 /// direction. Were they exact, it would be the identity.
@@ -58,25 +58,25 @@ pub enum CycleError {
     /// begins.
     #[error("step {step} begins at pose {from}, but the step before ends at {to}")]
     Gap {
-        /// Which step, from 0.
+        /// Number of the step, from 0.
         step: usize,
-        /// Where it begins.
+        /// Pose at which it begins.
         from: u32,
-        /// Where the one before ends.
+        /// Pose at which the step before ends.
         to: u32,
     },
     /// A step leads over an edge that is not a closure between its poses.
     #[error("step {step} leads over edge {edge}, which is not a closure between its poses")]
     NoClosure {
-        /// Which step, from 0.
+        /// Number of the step, from 0.
         step: usize,
         /// The edge.
         edge: u32,
     },
     /// A step leads along odometry that is not there.
-    #[error("step {step} needs odometry to pose {pose}, which is not there")]
+    #[error("step {step} needs odometry to pose {pose}, which does not exist")]
     NoOdometry {
-        /// Which step, from 0.
+        /// Number of the step, from 0.
         step: usize,
         /// The pose.
         pose: u32,
@@ -84,7 +84,7 @@ pub enum CycleError {
     /// A step leads nowhere.
     #[error("step {step} leads from a pose to itself")]
     Nowhere {
-        /// Which step, from 0.
+        /// Number of the step, from 0.
         step: usize,
     },
 }
@@ -182,8 +182,8 @@ impl AuditCycle {
         }
     }
 
-    /// Returns how far the cycle is off, χ², were its first closure exact and its poses as far
-    /// apart as `truth` says.
+    /// Returns the error of the cycle, χ², if its first closure were exact, with `truth` the true
+    /// displacement of its poses.
     pub(super) fn chi2_of_witnesses(
         &self,
         board: &Board<'_>,

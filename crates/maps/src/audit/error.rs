@@ -10,7 +10,7 @@ pub enum AuditError {
          driven, or call the edge a closure"
     )]
     Odometry {
-        /// Which edge, from 0.
+        /// Number of the edge, from 0.
         edge: u32,
         /// The pose it leaves.
         from: u32,

@@ -1,4 +1,4 @@
-//! Where the poses lie by what is supported.
+//! Positions of the poses by the supported closures.
 
 use alloc::collections::BinaryHeap;
 use alloc::vec::Vec;
@@ -46,7 +46,7 @@ pub fn supported_graph(graph: &PoseGraph, config: &AuditConfig, audit: &Audit) -
     cleaned
 }
 
-/// Moves every pose to where the surest way from the first has it (Dijkstra).
+/// Moves every pose to its position along the surest way from the first (Dijkstra).
 fn place(graph: &mut PoseGraph, config: &AuditConfig) {
     let mut edges_of: Vec<Vec<u32>> = alloc::vec![Vec::new(); graph.poses().len()];
     for (index, edge) in (0..).zip(graph.edges()) {

@@ -24,7 +24,7 @@ pub(super) struct Link {
     pub(super) run: u32,
 }
 
-/// How far a cycle is off.
+/// Error of a cycle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
     pub(super) chi2: f64,
@@ -95,8 +95,7 @@ pub(super) fn links(graph: &PoseGraph, chain: &Chain, config: &AuditConfig) -> V
 }
 
 impl Link {
-    /// Returns how far it is off from odometry alone; `None` where odometry does not join its
-    /// poses. O(1).
+    /// Returns its gap from odometry alone; `None` if odometry does not join its poses. O(1).
     pub(super) fn gap_to_odometry(&self, chain: &Chain) -> Option<Gap> {
         let joined = chain.joins(self.first, self.second);
         joined.then(|| {
@@ -105,8 +104,8 @@ impl Link {
         })
     }
 
-    /// Returns how far the cycle of it, another closure and the odometry between their ends is off;
-    /// `None` where odometry does not join those. O(1).
+    /// Returns the gap of the cycle over both closures and the odometry between their ends; `None`
+    /// if odometry does not join these. O(1).
     pub(super) fn gap_to(&self, other: &Self, chain: &Chain) -> Option<Gap> {
         let joined = chain.joins(self.first, other.first) && chain.joins(self.second, other.second);
         joined.then(|| {

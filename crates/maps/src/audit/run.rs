@@ -5,10 +5,10 @@ use alloc::vec::Vec;
 
 use super::groups::Groups;
 
-/// Returns the run of each closure, given the lower and the higher pose of each, sorted: closures
-/// are of one run whose lower poses and whose higher poses lie at most `gap` apart, and those that
-/// are so by way of others. Two that contradict each other, as `agree` says, do not err together,
-/// so they link no run.
+/// Returns the run of each closure, given its lower and its higher pose, sorted. Two closures are
+/// of one run if their lower and their higher poses each lie at most `gap` apart, or if other
+/// closures link them so. Two that contradict each other by `agree` do not err together, so they do
+/// not link a run.
 ///
 /// # Complexity
 /// O(n · m) for n closures of which at most m begin within `gap` poses.

@@ -7,14 +7,14 @@ use super::link::links;
 use super::{AuditConfig, AuditError};
 use crate::pose_graph::PoseGraph;
 
-/// How many poses apart the ends of closures may lie whose cycle is measured.
+/// Maximum distance, in poses, of the ends of two closures whose cycle is measured.
 const APART: u32 = 10;
 
 /// The median and the 99th percentile of χ² with 3 degrees of freedom.
 const MEDIAN: f64 = 2.366;
 const TAIL: f64 = 11.345;
 
-/// From how many times a Gaussian's on a tail is too heavy to shrink by.
+/// Ratio of the tail to a Gaussian's from which the scale is not shrunk.
 const HEAVY: f64 = 2.0;
 
 /// The fewest cycles that tell a scale.
@@ -23,7 +23,7 @@ const FEWEST: usize = 20;
 /// By how much the stated standard deviations differ from those of the graph's short cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SigmaScale {
-    /// The scale by which the median of χ² is that of a Gaussian.
+    /// Scale at which the median of χ² is that of a Gaussian.
     pub estimate: f64,
     /// The 99th percentile of χ² over its median; a Gaussian's is 4.8.
     pub tail: f64,

@@ -8,7 +8,7 @@ use super::chain::Chain;
 use super::link::Link;
 use super::way::{Leg, Way};
 
-/// What a search needs, kept from one to the next so that none has to be cleared.
+/// Working memory of searches, kept between them so that it need not be cleared.
 pub(super) struct Search {
     /// The poses at which closures end, in order.
     stations: Vec<u32>,
@@ -73,9 +73,9 @@ impl Search {
         }
     }
 
-    /// Returns the surest way from the lower pose of a closure to its higher over odometry and
-    /// closures that are `believed`, but none of the closure's own run nor of the runs of
-    /// `shunned`; `None` if there is none.
+    /// Returns the surest way from the lower pose of a closure to the higher one. It leads over
+    /// odometry and `believed` closures, none of them of the closure's own run or of the runs of
+    /// `shunned`. `None` if no such way exists.
     ///
     /// # Complexity
     /// O((stations + closures) · log stations).

@@ -2,23 +2,23 @@ use alloc::vec::Vec;
 
 use super::AuditCycle;
 
-/// What is found of the closures of a graph.
+/// Result of auditing the closures of a graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit {
     /// One for each closure, in the order of the graph's edges.
     pub closures: Vec<AuditedClosure>,
-    /// How many runs the closures make up: as many witnesses there are at most.
+    /// Number of runs that the closures form: the maximum number of witnesses.
     pub runs: u32,
 }
 
-/// What is found of one closure.
+/// Result for one closure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AuditedClosure {
     /// The edge of the graph.
     pub edge: u32,
     /// The run it is of, from 0. Closures of one run err together.
     pub run: u32,
-    /// What is found.
+    /// The verdict on it.
     pub verdict: ClosureVerdict,
 }
 
@@ -34,7 +34,7 @@ pub enum ClosureVerdict {
     },
     /// A cycle is beyond its bound, and none was found that agrees and shares no run with it.
     Refuted {
-        /// What the cycle consists of beside the closure.
+        /// Contents of the cycle beside the closure.
         by: RefutedBy,
         /// The cycle.
         cycle: AuditCycle,
@@ -43,7 +43,7 @@ pub enum ClosureVerdict {
     Undecided(UndecidedBecause),
 }
 
-/// What refutes a closure.
+/// Evidence that refutes a closure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -58,7 +58,7 @@ pub enum RefutedBy {
 /// Reason why a closure is undecided.
 #[derive(Clone, Debug, PartialEq)]
 pub enum UndecidedBecause {
-    /// What leads from one of its poses to the other is too uncertain to tell.
+    /// The way between its poses is too uncertain to tell.
     Wide {
         /// The greatest half-axis of the region in which the pose may lie, m; infinite if nothing
         /// leads there.
@@ -68,7 +68,7 @@ pub enum UndecidedBecause {
     },
     /// Only closures of its own run agree with it, and a run is one witness.
     SingleRun {
-        /// How many closures the run has.
+        /// Number of closures in the run.
         closures: u32,
     },
     /// A cycle is beyond its bound, and another one that shares no run with it agrees.
@@ -95,7 +95,7 @@ impl ClosureVerdict {
 }
 
 impl Audit {
-    /// Returns how many closures are supported, refuted and undecided.
+    /// Returns the number of closures whose verdict satisfies `is`.
     #[must_use]
     pub fn count(&self, is: impl Fn(&ClosureVerdict) -> bool) -> usize {
         let verdicts = self.closures.iter().map(|closure| &closure.verdict);

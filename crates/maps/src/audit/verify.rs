@@ -15,7 +15,7 @@ use super::{
 };
 use crate::pose_graph::{PoseEdgeKind, PoseGraph};
 
-/// How far a number of a certificate may lie from what it is measured to be again, as a share.
+/// Maximum relative difference between a number of a certificate and its new measurement.
 const ROUNDING: f64 = 1e-7;
 
 /// Reason why a certificate does not hold.
@@ -56,11 +56,11 @@ pub enum AuditCertificateError {
     Number {
         /// The edge.
         edge: u32,
-        /// Which number.
+        /// Name of the number.
         what: &'static str,
-        /// What the certificate says.
+        /// The certificate's value.
         told: f64,
-        /// What is measured.
+        /// The measured value.
         measured: f64,
     },
     /// The cycle that should refute a closure is within its bound.
@@ -86,7 +86,7 @@ pub enum AuditCertificateError {
         most: f64,
     },
     /// A closure has no cycle that supports it.
-    #[error("edge {edge} is said to be supported, but has no cycle")]
+    #[error("the audit calls edge {edge} supported, but gives no cycle")]
     NoWitness {
         /// The edge.
         edge: u32,
@@ -108,27 +108,27 @@ pub enum AuditCertificateError {
         over: u32,
     },
     /// It is said to be refuted by something else than its cycle consists of.
-    #[error("the cycle of edge {edge} does not consist of what it is said to")]
+    #[error("the cycle of edge {edge} has other steps than the audit states")]
     RefutedBy {
         /// The edge.
         edge: u32,
     },
     /// The number of runs is another.
-    #[error("the closures are said to make up {told} runs; the graph gives {measured}")]
+    #[error("the audit states {told} runs of closures; the graph gives {measured}")]
     Runs {
-        /// What the audit says.
+        /// The audit's value.
         told: u32,
-        /// What the graph gives.
+        /// The graph's value.
         measured: u32,
     },
     /// The run is another.
-    #[error("edge {edge} is said to be of run {told}; the graph gives {measured}")]
+    #[error("the audit puts edge {edge} into run {told}; the graph gives {measured}")]
     Run {
         /// The edge.
         edge: u32,
-        /// What the certificate says.
+        /// The certificate's value.
         told: u32,
-        /// What the graph gives.
+        /// The graph's value.
         measured: u32,
     },
 }
@@ -155,10 +155,14 @@ impl AuditCertificateError {
     }
 }
 
-/// Checks every cycle of an audit again, from the graph alone: that it is one, its numbers, on
-/// which side of its bound it lies, and that it leads over nothing but odometry and closures that
-/// are themselves supported, of runs that are not counted yet. That no other cycle agrees with a
-/// refuted closure cannot be checked so. Undecided closures are passed over.
+/// Checks every cycle of an audit again, from the graph alone. It checks that:
+///
+/// - it is a cycle, with the stated numbers and on the stated side of its bound;
+/// - it leads over odometry and supported closures only;
+/// - these closures are of runs that are not counted yet.
+///
+/// It cannot check that no other cycle agrees with a refuted closure. Undecided closures are
+/// skipped.
 ///
 /// # Errors
 /// [`AuditCertificateError`] of the first certificate that does not hold.

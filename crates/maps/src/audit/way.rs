@@ -58,7 +58,7 @@ impl Way {
         way
     }
 
-    /// Returns how far `link` is off from this way. O(legs).
+    /// Returns the gap of `link` from this way. O(legs).
     pub(super) fn gap(&self, link: &Link, links: &[Link], chain: &Chain) -> Gap {
         let (mut off, mut spread) = (Motion::NONE, Spread::default());
         for leg in &self.legs {

@@ -3,27 +3,29 @@ use alloc::vec::Vec;
 
 use super::pattern::{Dictionary, PatternId};
 
-/// Sequences laid along each other with insertions, deletions and changes of speed, in place of
-/// position by position: an edit distance (Wagner, Fischer 1974) in which a pattern may also last
-/// longer in one of the two, as in dynamic time warping (Sakoe, Chiba 1978). Ours, not the paper's;
-/// costs are in parts of a whole pattern's mismatch.
+/// Similarity of sequences by edit distance (Wagner, Fischer 1974) in place of position by
+/// position.
+///
+/// Sequences are aligned with insertions, deletions and changes of speed: a pattern may last longer
+/// in one of the two, as in dynamic time warping (Sakoe, Chiba 1978). Ours, not the paper's. Costs
+/// are fractions of the cost of a complete mismatch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Alignment {
-    /// What an observation costs that the other sequence does not have; 0 to 1.
+    /// Cost of an observation that the other sequence lacks; 0 to 1.
     pub gap: f64,
-    /// What an observation costs that lasts one longer in one of the two, besides its difference; 0
-    /// to `gap`.
+    /// Cost of an observation that is repeated in one of the two, added to its difference; 0 to
+    /// `gap`.
     pub stutter: f64,
-    /// The distance of prototypes, as a part of the greatest in the dictionary, from which two
-    /// patterns have nothing in common; above 0, at most 1.
+    /// Distance of prototypes from which two patterns have nothing in common, as a fraction of the
+    /// dictionary's greatest distance; above 0, at most 1.
     pub unlike: f64,
     /// Above it two fragments are the same; 0 to 1.
     pub threshold: f64,
 }
 
 impl Alignment {
-    /// Chosen on random mazes, docs/cpm.md.
+    /// Returns the costs chosen on random mazes (see docs/cpm.md).
     #[must_use]
     pub const fn tuned() -> Self {
         Self {

@@ -8,22 +8,22 @@ use super::mapper::{Comparison, Mapper};
 use super::traversal::Traversal;
 use super::turn::{NoSuchTurn, Turn};
 
-/// The likeliest ways to understand all that the robot has met: a beam search over hypotheses.
+/// The likeliest explanations of all that the robot has met: a beam search over hypotheses.
 ///
-/// Where much is open at once a beam may lose the truth. It is known by a walk that no hypothesis
-/// explains; all that was met is gone through again then with a wider beam, which grows narrow
-/// again while all is understood.
+/// While many ports are open a beam may lose the truth. That shows by a walk that no hypothesis
+/// explains. The beam then goes through the whole record again with a greater width, which shrinks
+/// again once walks are explained.
 #[derive(Clone, Debug)]
 pub(super) struct Beam {
     /// The likeliest first, never empty. Costs are counted from that of the first.
     hypotheses: Vec<Hypothesis>,
-    /// How many there are at most.
+    /// Maximum number of hypotheses now.
     width: usize,
-    /// How many there were to be at most.
+    /// Maximum number of hypotheses that was configured.
     narrow: usize,
     /// Walks understood since the width last changed.
     understood: u32,
-    /// What was known when the first of `met` was met.
+    /// What was known before the first event of `met`.
     begin: Mapper,
     met: Vec<Event>,
 }
@@ -34,12 +34,12 @@ enum Event {
     TurnedBack(Turn, u32),
 }
 
-/// What the likeliest hypothesis makes of a walk.
+/// How the likeliest hypothesis explains a walk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Understood {
     /// All before is understood as it was.
     As(MapUpdate),
-    /// What was met before is understood in another way now.
+    /// The earlier walks have another explanation now.
     Anew(MapUpdate),
     /// No hypothesis explains it.
     Not,
@@ -54,7 +54,7 @@ enum Lost {
     ForGood,
 }
 
-/// What a walk makes of one of the hypotheses before it.
+/// One explanation of a walk, derived from one of the hypotheses before it.
 struct Child {
     hypothesis: Hypothesis,
     arrival: MapUpdate,
@@ -72,7 +72,7 @@ const WIDEST: usize = 16;
 const CALM: u32 = 32;
 
 impl Beam {
-    /// It begins with what is known for certain.
+    /// Starts from one certain hypothesis, `begin`, and keeps at most `width` of them.
     pub(super) fn new(begin: Mapper, width: u32) -> Self {
         let narrow = width.max(1) as usize;
         Self {
@@ -92,8 +92,8 @@ impl Beam {
             .map_or(&self.begin, |best| &best.mapper)
     }
 
-    /// Returns how likely the likeliest map is among all that it keeps and that can be, with places
-    /// at least `apart` m apart, 0 … 1.
+    /// Returns the probability of the likeliest map among all kept ones that are possible with
+    /// places at least `apart` m apart, 0 to 1.
     pub(super) fn certainty(&self, apart: f64) -> f64 {
         let can_be = |other: &&Hypothesis| {
             let Mapper { map, at } = &other.mapper;
@@ -111,10 +111,11 @@ impl Beam {
         }
     }
 
-    /// Takes in a walk. O(width · fragments · log fragments), and a comparison for each pair of
-    /// sequences. Where the beam has to be wider all walks since the beginning are gone through
-    /// again with each width tried, as long as it is full at some time: the sum of these widths, in
-    /// place of the width, is less than twice the widest.
+    /// Takes in a walk. O(width · fragments · log fragments), and one comparison for each pair of
+    /// sequences.
+    ///
+    /// If the beam has to be wider, it goes through all walks since the beginning again with each
+    /// width that it tries. The sum of these widths is less than twice the greatest.
     ///
     /// # Errors
     /// If the place where the robot is has no such turn; nothing is changed then.
@@ -152,7 +153,7 @@ impl Beam {
         Ok(Understood::Not)
     }
 
-    /// The beam is made narrower once it has understood enough.
+    /// Makes the beam narrower once it has explained enough walks in a row.
     fn calm_down(&mut self) {
         if self.width <= self.narrow {
             return;
@@ -164,8 +165,8 @@ impl Beam {
         }
     }
 
-    /// Goes through all that was met. Returns what was believed of the last walk. Where nothing
-    /// explains all, the beam is as before.
+    /// Goes through the whole record again and returns what the last walk taught. If no hypothesis
+    /// explains all of it, the beam stays as before.
     fn look_again(&mut self, judge: &Comparison<'_>) -> Result<MapUpdate, Lost> {
         let mut now = Vec::from([Hypothesis::certain(self.begin.clone())]);
         let (mut arrival, mut lost) = (None, Lost::ForGood);
@@ -210,8 +211,7 @@ fn turn_back(hypotheses: &mut Vec<Hypothesis>, turn: Turn, observations: u32) {
     });
 }
 
-/// Returns what a walk makes of the hypotheses, the likeliest first; of those that say the same
-/// one.
+/// Returns the hypotheses after a walk, the likeliest first; only one of those that are equal.
 fn children(
     parents: &[Hypothesis],
     turn: Turn,
@@ -316,7 +316,7 @@ mod tests {
         assert_eq!(widths, [8, 4, 2]);
     }
 
-    /// The way seems to lead to the start, whose only port has another fragment.
+    /// The walk seems to lead to the start, whose only port already has another fragment.
     #[test]
     fn what_nothing_explains_hangs_on_nothing() {
         let (dictionary, config) = (dictionary(), CpMapperConfig::robust());

@@ -3,9 +3,10 @@ use core::f64::consts::{PI, TAU};
 
 use thiserror::Error;
 
-/// Where the ways out of a place lead, seen from its middle: rad, counter-clockwise, the first of
-/// them at 0. So one of three ways in a corridor that a side way leaves differs by the way from
-/// which it is entered.
+/// Directions of the ways out of a place, seen from its middle: rad, counter-clockwise, the first
+/// at 0.
+///
+/// They tell, in a corridor that a side way leaves, by which of the three ways the robot entered.
 ///
 /// Ours; the paper's junctions number their branches and forget their directions.
 ///
@@ -27,11 +28,11 @@ pub struct Bearings(Vec<f64>);
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BearingsError {
-    /// A place has a way at least: that by which it is entered.
-    #[error("a place without ways: give the direction of the way of entry at least")]
+    /// The list has no bearing; a place has at least the way by which it is entered.
+    #[error("the place has no ways; give at least the direction of the way of entry")]
     Empty,
     /// A direction is no number.
-    #[error("way {way} leads into the direction {value}: give finite radians")]
+    #[error("the direction of way {way} is {value}; give finite radians")]
     NotFinite {
         /// Counted from 0.
         way: usize,
@@ -47,8 +48,8 @@ pub enum BearingsError {
 }
 
 impl Bearings {
-    /// From directions of any frame, rad, counter-clockwise. They may come as ways do that a robot
-    /// counts: over the direction at which angles wrap.
+    /// Returns bearings from `directions` in any frame, rad, counter-clockwise. The list may cross
+    /// the direction at which angles wrap.
     ///
     /// # Errors
     /// [`BearingsError`].
@@ -78,7 +79,7 @@ impl Bearings {
         &self.0
     }
 
-    /// Returns how many ways there are; at least 1.
+    /// Returns the number of ways; at least 1.
     #[must_use]
     pub const fn count(&self) -> u32 {
         self.0.len() as u32
@@ -100,8 +101,8 @@ impl Bearings {
         Self(turned.collect())
     }
 
-    /// By how much the ways of one number lead into other directions at most, rad, if there are as
-    /// many.
+    /// Returns the greatest angle between the ways of equal number, rad, or `None` if the numbers
+    /// of ways differ.
     #[must_use]
     pub fn apart(&self, other: &Self) -> Option<f64> {
         let pairs = self.0.iter().zip(&other.0);
@@ -115,7 +116,7 @@ impl Bearings {
     }
 }
 
-/// How far directions of ways are off that are seen from the middle of a place, rad.
+/// Standard deviation of directions seen from the middle of a place, rad.
 pub(super) const SHARP: f64 = 0.35;
 
 /// Returns the angle between two directions, rad, 0 to π.
@@ -124,7 +125,7 @@ pub(super) fn between(a: f64, b: f64) -> f64 {
     if angle > PI { TAU - angle } else { angle }
 }
 
-/// From 0 to less than a full circle.
+/// Returns the angle in [0, 2π).
 pub(super) fn wrapped(angle: f64) -> f64 {
     let wrapped = angle - TAU * libm::floor(angle / TAU);
     // A hair below 0 is rounded to the full circle.

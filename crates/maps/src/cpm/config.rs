@@ -4,27 +4,27 @@ use super::pattern::Dictionary;
 use super::scores::Scores;
 use super::similarity::{FragmentMatching, Similarity};
 
-/// How a [`CpMapper`](super::CpMapper) maps.
+/// Parameters of a [`CpMapper`](super::CpMapper).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CpMapperConfig {
     /// When the map is optimized.
     pub mapping: Mapping,
-    /// How fragments are compared.
+    /// Method of comparing fragments.
     pub matching: FragmentMatching,
-    /// Which fragments are compared.
+    /// Fragments of the map that a new one is compared with.
     pub candidates: Candidates,
 }
 
-/// Which fragments of the map a new one is compared with.
+/// Fragments of the map that a new one is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Candidates {
     /// Each.
     All,
-    /// The number of fragments compared: those that have the most patterns in common with it,
-    /// counted the more the rarer they are (tf-idf, section 8); on smaller maps that is each.
+    /// Only this number of fragments: those that share the most patterns with the new one, rare
+    /// patterns counting more (tf-idf, section 8). Smaller maps compare all.
     Best(u32),
 }
 
@@ -37,22 +37,22 @@ pub enum Mapping {
     /// *Offline CPM*: the robot takes ports at random and keeps all it has walked; the map is
     /// optimized once the goal is found.
     Offline {
-        /// Number of fragments without the goal after which it goes on *online*, so that no loop
-        /// can hold it forever; with `u32::MAX` it does as the paper, whose robot "might be locked
-        /// in infinite loops of duplicated path-fragments".
+        /// Number of fragments without the goal after which the mapper switches to *online*, so
+        /// that no loop holds the robot forever. `u32::MAX` never switches, like the paper's robot,
+        /// which "might be locked in infinite loops of duplicated path-fragments".
         patience: u32,
     },
     /// *Online CPM*, section 6: the map is optimized, and looked at, before each decision.
     Online,
-    /// Online, and for mazes with fragments that look alike or symmetrical, which the paper
-    /// excludes: several maps are kept, each one way to understand all that was met, and the most
-    /// likely of them is looked at. Ours, in the manner of the lazily searched trees of topological
-    /// maps (Johnson, Kuipers 2012).
+    /// Online, also for mazes with fragments that look alike or symmetrical, which the paper
+    /// excludes. Keeps several maps, each one explanation of all that was met, and returns the
+    /// likeliest. Ours, after the lazily searched trees of topological maps (Johnson, Kuipers
+    /// 2012).
     ///
-    /// Bounds of dead reckoning tell alike fragments apart and close loops on arrival; without
-    /// them, fragments are told apart by their neighbours alone.
+    /// Bounds of dead reckoning tell similar fragments apart and close loops on arrival. Without
+    /// dead reckoning only the neighbours of fragments tell them apart.
     Hypotheses {
-        /// How many maps are kept at most, at least 1.
+        /// Maximum number of maps kept, at least 1.
         width: u32,
     },
 }
@@ -77,7 +77,7 @@ impl CpMapperConfig {
         }
     }
 
-    /// Section 6, online CPM: positions compared with μ = 0.9.
+    /// Returns online CPM of section 6: positions compared with μ = 0.9.
     #[must_use]
     pub const fn online() -> Self {
         Self {
@@ -97,7 +97,7 @@ impl CpMapperConfig {
         }
     }
 
-    /// Section 4, offline CPM; the rest as [`online`](Self::online).
+    /// Returns offline CPM of section 4; the rest as [`online`](Self::online).
     #[must_use]
     pub const fn offline() -> Self {
         Self {

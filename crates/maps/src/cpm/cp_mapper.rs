@@ -15,7 +15,7 @@ use tolman_robot::Landmark;
 /// Learns a [`CpMap`] from walks along its fragments: the "path-fragment representation" of layer
 /// 3.
 ///
-/// Tells where on the map the robot is. Where to go next is for whoever drives.
+/// Also keeps where on the map the robot is. It does not choose where to go next.
 #[derive(Clone, Debug)]
 pub struct CpMapper {
     config: CpMapperConfig,
@@ -25,7 +25,7 @@ pub struct CpMapper {
     contradictions: u32,
 }
 
-/// What the robot knows of the maze, and where it is there.
+/// What the robot knows of the maze, and its place there.
 #[derive(Clone, Debug)]
 enum Knowledge {
     /// Offline and online: one map.
@@ -57,7 +57,7 @@ impl Knowledge {
     }
 }
 
-/// What an arrival taught.
+/// What an arrival taught the mapper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapUpdate {
     /// A fragment that was not on the map.
@@ -89,22 +89,24 @@ impl MapUpdate {
 #[non_exhaustive]
 pub enum CpmError {
     /// No way leads out of a place.
-    #[error("a place without ports: a robot that came in can get out, so it has at least 1")]
+    #[error("the place has no ports; give at least 1, by which the robot came in")]
     NoPorts,
     /// More ways lead out than any place has.
-    #[error("a place of {degree} ports: more than {most} cannot be")]
+    #[error("the place has {degree} ports; give at most {most}")]
     TooManyPorts {
-        /// How many.
+        /// Number of ports.
         degree: u32,
-        /// How many there may be.
+        /// Maximum number of ports.
         most: u32,
     },
     /// The ways out were counted twice, and differently.
-    #[error("{bearings} bearings of a place of {degree} ports: give one for each, or none at all")]
+    #[error(
+        "the place has {degree} ports but {bearings} bearings; give one for each port, or none"
+    )]
     Bearings {
-        /// How many bearings there are.
+        /// Number of bearings.
         bearings: u32,
-        /// How many ports.
+        /// Number of ports.
         degree: u32,
     },
     /// The junction has no such turn.
@@ -115,18 +117,18 @@ pub enum CpmError {
     Dictionary(#[from] DictionaryError),
 }
 
-/// A map that is less likely among those that explain what was met, 0 … 1, is doubtful.
+/// Probability below which a map is doubtful among those that explain what was met.
 const SURE: f64 = 0.5;
 
-/// Of one junction.
+/// Maximum number of ports of a junction.
 pub(super) const MOST_PORTS: u32 = 1000;
 
 impl CpMapper {
-    /// Begins at a place that ends fragments, as if the robot had come in by port 0: that of a dead
-    /// end; else the first opening counter-clockwise from straight behind it.
+    /// Starts at a place that ends fragments, as if the robot had come in by port 0. At a dead end
+    /// that is its only port, elsewhere the first opening counter-clockwise from straight behind.
     ///
-    /// A robot that stands in mid-fragment drives on to the first such place before, as the paper
-    /// has it.
+    /// A robot that stands in mid-fragment drives on to the first such place before, as in the
+    /// paper.
     ///
     /// # Errors
     /// [`CpmError`] if the place has no ports.
@@ -167,9 +169,10 @@ impl CpMapper {
         self.knowledge.mapper().at
     }
 
-    /// Returns how likely the map is among all that explain what was met, 0 … 1, by dead reckoning
-    /// and what fragments look like, in a world whose places are at least `apart` m apart; `None`
-    /// of a mapper that keeps one hypothesis. O(width · places² · ports).
+    /// Returns the probability of the map among all that explain what was met, 0 to 1, in a world
+    /// whose places are at least `apart` m apart. It follows from dead reckoning and from what
+    /// fragments look like. `None` for a mapper that keeps one hypothesis. O(width · places² ·
+    /// ports).
     #[must_use]
     pub fn certainty(&self, apart: f64) -> Option<f64> {
         match &self.knowledge {
@@ -178,9 +181,9 @@ impl CpMapper {
         }
     }
 
-    /// Returns why the map is not to be believed in a world whose places are at least `apart` m
-    /// apart; `None` if nothing speaks against it, and of a mapper that keeps one hypothesis, which
-    /// cannot tell. As [`certainty`](Self::certainty).
+    /// Returns why the map is not to be trusted in a world whose places are at least `apart` m
+    /// apart. `None` if nothing contradicts it, and for a mapper that keeps one hypothesis, which
+    /// cannot tell. Complexity as [`certainty`](Self::certainty).
     #[must_use]
     pub fn doubt(&self, apart: f64) -> Option<MapDoubt> {
         let certainty = self.certainty(apart)?;
@@ -195,8 +198,8 @@ impl CpMapper {
         self.traversals
     }
 
-    /// n_p of Theorem 1: how many fragments were passed before one came again, or `None` if none
-    /// did.
+    /// Returns n_p of Theorem 1, the number of fragments passed before one came again, or `None` if
+    /// none has.
     #[must_use]
     pub const fn before_duplicate(&self) -> Option<u32> {
         self.before_duplicate
@@ -303,8 +306,8 @@ impl CpMapper {
     }
 }
 
-/// Offline and online: on the one map there is, what is similar is the same. Offline nothing is
-/// compared.
+/// Takes a walk into the only map, offline and online: similar fragments are one. Offline compares
+/// nothing.
 fn reason(
     mapper: &mut Mapper,
     turn: Turn,

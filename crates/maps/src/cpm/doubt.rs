@@ -2,11 +2,11 @@ use thiserror::Error;
 
 use super::map::{CpMap, JunctionId};
 
-/// Reason why a map is not to be believed, as far as whoever learned it can tell without the truth.
+/// Reason why a map is not to be trusted, as far as its learner can tell without the truth.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MapDoubt {
-    /// Nothing explained what was met, so that a new map was begun beside the old one.
+    /// No hypothesis explained a walk, so a new map was started beside the old one.
     #[error(
         "{places} of its places are not joined to the rest: the robot lost its way and began again there"
     )]
@@ -16,7 +16,7 @@ pub enum MapDoubt {
     },
     /// Two places lie where there is room for one.
     #[error(
-        "its places {} and {} lie on one spot by dead reckoning: a loop is open that should be closed",
+        "by dead reckoning its places {} and {} are at the same position: a loop was not closed",
         one.0, other.0
     )]
     Twice {
@@ -26,17 +26,19 @@ pub enum MapDoubt {
         other: JunctionId,
     },
     /// Another map explains what was met as well.
-    #[error("it is one of several maps that explain what was met, and {percent:.0} % likely")]
+    #[error(
+        "several maps explain what the robot met, and this one has a probability of {percent:.0} %"
+    )]
     Unsure {
-        /// How likely it is among them, %.
+        /// Probability of the map among those that explain what was met, %.
         percent: f64,
     },
 }
 
 impl CpMap {
-    /// Returns why the map cannot be that of one world of corridors, in which places are at least
-    /// `apart` m apart; `None` if nothing speaks against it. `from` is where the robot is. O(places
-    /// · ports · log places).
+    /// Returns why the map cannot be one world of corridors with places at least `apart` m apart.
+    /// `None` if nothing contradicts it. `from` is the robot's junction. O(places · ports · log
+    /// places).
     #[must_use]
     pub fn doubt(&self, from: JunctionId, apart: f64) -> Option<MapDoubt> {
         let all = self.junctions().len();

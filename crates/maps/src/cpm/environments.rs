@@ -12,9 +12,9 @@ use super::similarity::Sense;
 /// environment is represented by the associated path-fragments."
 ///
 /// "Unlike the original SOINN-AM, our method does not limit to associative pairs. Specifically, our
-/// method create the association A → B → C → D": one sequence recalls all that follow it on the
-/// path, and with them the environment. What is associated is a code of each fragment: the
-/// prototypes at [`SAMPLES`](Self::SAMPLES) places along it.
+/// method create the association A → B → C → D". One sequence recalls all that follow it on the
+/// path, and with them the environment. A fragment's code consists of the prototypes at
+/// [`SAMPLES`](Self::SAMPLES) places along it.
 ///
 /// ```
 /// use tolman_maps::cpm::{CpMapperConfig, Dictionary, Environments, CpMapper, PatternId, Sighting, Sign, Traversal, Turn};
@@ -54,16 +54,16 @@ struct Learned {
     code: Vec<f64>,
 }
 
-/// What one sequence brings to mind.
+/// What one sequence recalls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recollection {
     /// The environment it is of.
     pub environment: u32,
-    /// The fragment it is, and those that follow it on the path that was learned, each by the end
-    /// it is entered at; up to the end of the path, or until one comes again.
+    /// The recognized fragment and those that follow it on the learned path, each by the end at
+    /// which it is entered. Stops at the end of the path, or before a fragment that comes again.
     pub chain: Vec<End>,
-    /// How far the sequence's code is from that of the fragment it was taken for, per sample: a
-    /// distance of prototypes.
+    /// Distance of the sequence's code from that of the recognized fragment, per sample, in
+    /// distances of prototypes.
     pub distance: f64,
 }
 
@@ -181,8 +181,7 @@ impl Environments {
         })
     }
 
-    /// Returns the learned fragment with the nearest code, and how far that is; the first of
-    /// equals.
+    /// Returns the learned fragment with the nearest code and its distance; the first of equals.
     fn nearest(&self, code: &[f64]) -> Option<(&Learned, f64)> {
         let all = self.learned.iter();
         let all = all.map(|known| (known, euclidean(&known.code, code)));

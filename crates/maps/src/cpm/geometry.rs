@@ -10,12 +10,12 @@ use tolman_geom::{Interval, PointBox};
 use super::bearings::wrapped;
 use super::map::{CpMap, JunctionId, Port, PortState, Sign};
 
-/// What dead reckoning has to say of a map. Ours, not the paper's, which only suggests it: "Another
-/// good choice is to add the odometry data".
+/// What dead reckoning says about a map. Ours; the paper only suggests it: "Another good choice is
+/// to add the odometry data".
 impl CpMap {
-    /// Returns where each of the junctions, by id, lies, seen from one of them: along the way on
-    /// which the bounds grow least (Dijkstra 1959), or `None` where no reckoned way leads. O(ports
-    /// · log junctions).
+    /// Returns the position of each junction, by id, relative to `origin`: along the way on which
+    /// the bounds grow least (Dijkstra 1959). `None` if no way with dead reckoning leads there.
+    /// O(ports · log junctions).
     pub(super) fn positions_from(&self, origin: JunctionId) -> Vec<Option<PointBox>> {
         let mut positions = vec![None; self.junctions.len()];
         let mut settled = vec![false; self.junctions.len()];
@@ -74,10 +74,9 @@ impl CpMap {
         })
     }
 
-    /// Returns how unlikely it is that a port looks into some direction, given those of the
-    /// junction's other ports: none if it cannot be, as bearings would not ascend with the ports'
-    /// numbers; else a negative logarithm up to a constant, which is least where the ports are
-    /// evenly spaced.
+    /// Returns the cost of a port looking into direction `bearing`, given the junction's other
+    /// ports. The cost is a negative log-probability up to a constant, least when ports are evenly
+    /// spaced. `None` if it is impossible, as bearings would not ascend with the ports' numbers.
     pub(super) fn bearing_cost(&self, port: Port, bearing: Interval) -> Option<f64> {
         let degree = self.degree(port.junction);
         let (mut cost, mut before) = (0.0_f64, None);
@@ -113,7 +112,7 @@ impl CpMap {
     }
 }
 
-/// How unevenly ports are spaced, rad.
+/// Standard deviation of the spacing of ports, rad.
 const SPREAD: f64 = 0.6;
 
 /// No two ports of a junction are nearer to each other, rad.

@@ -14,18 +14,17 @@ use super::traversal::{DeadReckoning, Traversal};
 use super::turn::{NoSuchTurn, Turn};
 use tolman_robot::Landmark;
 
-/// One way to understand all that the robot has met: a map, and what it costs to believe in it.
+/// One explanation of all that the robot has met: a map and its cost.
 ///
-/// The cost is a negative logarithm of probability, up to a constant that all hypotheses share.
-/// Every step adds how much less likely it is than a walk into the unknown would have been.
+/// The cost is a negative log-probability, up to a constant that all hypotheses share. Every step
+/// adds how much less likely it is than a walk into the unknown would have been.
 #[derive(Clone, Debug)]
 pub(super) struct Hypothesis {
     pub(super) mapper: Mapper,
     pub(super) cost: f64,
 }
 
-/// Where the junctions of a map, by id, lie, seen from where a walk began, or `None` where that is
-/// not known.
+/// Positions of the junctions of a map, by id, relative to where a walk began; `None` if unknown.
 type Positions = [Option<PointBox>];
 
 impl Hypothesis {
@@ -33,7 +32,8 @@ impl Hypothesis {
         Self { mapper, cost: 0.0 }
     }
 
-    /// Returns all hypotheses that a walk makes of this one; none if it cannot have been.
+    /// Returns all hypotheses that follow from this one after a walk; empty if the walk contradicts
+    /// it.
     pub(super) fn after(
         &self,
         turn: Turn,
@@ -72,8 +72,8 @@ impl Hypothesis {
         Ok(all)
     }
 
-    /// Returns whether a walk has led, for certain, to a place of the map: to the only start, if it
-    /// is known where that lies from here, or where one like it is and two do not fit.
+    /// Returns whether a walk has certainly led to a place of the map. That holds at the only start
+    /// if its position is known, or at a place like the one seen if no second one fits.
     fn is_known_place(
         &self,
         walk: &Traversal,
@@ -116,7 +116,8 @@ impl Hypothesis {
         Some(next)
     }
 
-    /// The walk was a new fragment that led to a known place, through an unexplored port.
+    /// Returns the explanations by which the walk was a new fragment to a known place, through an
+    /// unexplored port.
     fn to_places(
         &self,
         exit: Port,
@@ -292,8 +293,8 @@ fn bearings_cost(place: &Junction, port: u32, walk: &Traversal) -> f64 {
     (0.5 * off * off).min(MOST_EVIDENCE)
 }
 
-/// Returns how much more likely two places are to be within a box of each other if they are one
-/// than if they are any two: the area in which one is expected, over that of the box.
+/// Returns the log-ratio by which two places are likelier to lie within a box of each other if they
+/// are one than if they are any two: the area that holds places, over that of the box.
 fn coincidence(apart: PointBox, area: f64) -> f64 {
     let side = |side: Interval| side.width().max(1e-3);
     libm::log(area / (side(apart.x) * side(apart.y))).clamp(-MOST_EVIDENCE, MOST_EVIDENCE)
@@ -303,7 +304,7 @@ fn coincidence(apart: PointBox, area: f64) -> f64 {
 /// tell them apart.
 const LEAST_APART: f64 = 0.05;
 
-/// What a new place costs: a map with fewer is simpler.
+/// Cost of a new place: a map with fewer places is simpler.
 const NEW_PLACE: f64 = 1.0;
 
 /// The logarithm of odds that a whole observation brings.

@@ -6,18 +6,18 @@ use super::map::FragmentId;
 use super::nodes::Nodes;
 use super::pattern::{Dictionary, PatternId};
 
-/// Which fragments of a large map are worth comparing: a ranking, as of texts. "One can use the
-/// 'term frequency-inverse document frequency', *tf-idf*, for path-fragment matching in more
-/// complex environment" (section 8).
+/// Ranks the fragments of a large map by how promising a comparison is, as one ranks texts. "One
+/// can use the 'term frequency-inverse document frequency', *tf-idf*, for path-fragment matching in
+/// more complex environment" (section 8).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FragmentIndex {
     bags: Nodes<FragmentId, Bag>,
 }
 
-/// What is in a sequence, whatever its order.
+/// The patterns of a sequence without their order.
 #[derive(Clone, Debug, PartialEq)]
 struct Bag {
-    /// How often each pattern is in it, by pattern.
+    /// Number of occurrences of each pattern.
     counts: Vec<(PatternId, u32)>,
     length: usize,
 }
@@ -67,9 +67,9 @@ impl FragmentIndex {
         Some(ranked.into_iter().map(|(id, _)| id).collect())
     }
 
-    /// For each fragment, by id, the occurrences of patterns it shares with a sequence, the rarer
-    /// the more, as a part of the longer of the two: else long fragments would have something in
-    /// common with all.
+    /// Returns, for each fragment by id, its share of common occurrences with `sequence`. Rare
+    /// patterns weigh more. The share is of the longer of the two, as long fragments would
+    /// otherwise have something in common with all.
     fn in_common(&self, sequence: &[PatternId]) -> Vec<f64> {
         let seen = Bag::of(sequence);
         let bags = || self.bags.iter().map(|(_, bag)| bag).chain([&seen]);
@@ -102,8 +102,8 @@ impl FragmentIndex {
 mod tests {
     use super::*;
 
-    /// Long fragments share some patterns with all; the one that is the same, or nearly or
-    /// inverted, comes first all the same.
+    /// Long fragments share some patterns with all. The same, nearly the same or inverted fragment
+    /// still comes first.
     #[test]
     fn the_most_alike_comes_first() {
         let mut dictionary = Dictionary::new(1);

@@ -12,13 +12,11 @@ use super::traversal::Sighting;
 use super::turn::{NoSuchTurn, Turn};
 use tolman_robot::Landmark;
 
-/// Finds where a robot is, from one observation on: on which of several maps, in which fragment,
-/// walking which way.
+/// Finds the robot's map, fragment and direction of walking, from the first observation on.
 ///
-/// The paper's robot, left in mid-fragment, "continues moving forward until the first junction",
-/// and knows in which environment it is by its fourth layer. This one keeps a probability of every
-/// place of every map (a Bayes filter), which each observation, junction and turn moves on, and
-/// begins with the first observation.
+/// The paper's robot, left in mid-fragment, "continues moving forward until the first junction". It
+/// knows its environment by its fourth layer. This localizer keeps a probability for every place of
+/// every map (a Bayes filter), which each observation, junction and turn updates.
 ///
 /// ```
 /// use tolman_maps::cpm::{CpMapperConfig, Dictionary, CpMapper, Localizer, LocalizerConfig, PatternId, Sighting, Traversal, Turn};
@@ -53,36 +51,36 @@ pub struct Localizer {
     dictionary: Dictionary,
     config: LocalizerConfig,
     tracks: Vec<Track>,
-    /// How likely the robot is at one place of each map before anything is known.
+    /// Probability of any one place of each map before anything is known.
     anywhere: Vec<f64>,
     /// Whether anything was observed yet.
     is_placed: bool,
 }
 
-/// How a [`Localizer`] judges; probabilities.
+/// Parameters of a [`Localizer`]; probabilities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalizerConfig {
     /// That an observation is another pattern than the map's; above 0, less than 1.
     pub mistake: f64,
-    /// That the robot is, after an observation, still where the map has the one before, and
-    /// likewise that it has passed one over; 0 to 0.4.
+    /// Probability that the robot is still at the map's previous observation, and likewise that it
+    /// has skipped one; 0 to 0.4.
     pub slip: f64,
-    /// That it has been put elsewhere between two observations; above 0, at most 0.1. What it has
-    /// come to believe wrongly it forgets by this.
+    /// Probability that the robot was moved elsewhere between two observations; above 0, at most
+    /// 0.1. It lets the filter recover from a wrong belief.
     pub elsewhere: f64,
 }
 
-/// Where the robot most likely is.
+/// The robot's most likely place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Location {
     /// The map, by its place in the list.
     pub map: usize,
     /// The fragment, by the end it was entered at.
     pub enter: End,
-    /// The port it leads to or, at a junction, has led to: what
-    /// [`CpMapper::place`](super::CpMapper::place) has to be told there.
+    /// The port it leads to or, at a junction, has led to: the argument for
+    /// [`CpMapper::place`](super::CpMapper::place).
     pub ahead: Port,
-    /// How likely that is; 0 to 1.
+    /// Probability of that place, 0 to 1.
     pub probability: f64,
 }
 
@@ -91,7 +89,7 @@ pub struct Location {
 #[non_exhaustive]
 pub enum LocalizeError {
     /// The maps have no fragments.
-    #[error("no map has a fragment: there is nowhere to be")]
+    #[error("the maps have no fragments; learn one first")]
     Empty,
     /// A probability is outside its range.
     #[error("{field} is {value} but has to be {range}")]
@@ -100,13 +98,13 @@ pub enum LocalizeError {
         field: &'static str,
         /// The value given.
         value: f64,
-        /// What it may be, in words.
+        /// Allowed values, in words.
         range: &'static str,
     },
     /// A map was written with other patterns, or one observed is not in the dictionary.
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
-    /// No junction where the robot may be has such a turn.
+    /// No junction at which the robot may be has such a turn.
     #[error(transparent)]
     Turn(#[from] NoSuchTurn),
 }
@@ -117,7 +115,7 @@ struct Track {
     map: usize,
     enter: End,
     ahead: Port,
-    /// What a robot sees there that comes along the fragment.
+    /// What a robot sees at the end of the fragment.
     place: Sighting,
     bearings: Option<Bearings>,
     patterns: Vec<PatternId>,
@@ -126,16 +124,16 @@ struct Track {
 }
 
 impl Track {
-    /// Returns how likely a robot sees these ways in the middle of the place ahead. Where as many
-    /// are not seen, that has been weighed by the sighting.
+    /// Returns the likelihood of seeing the ways `seen` from the middle of the place ahead. A wrong
+    /// number of ways has been weighed by the sighting already.
     fn seen(&self, seen: &Bearings) -> f64 {
         let expected = self.bearings.as_ref();
         let apart = expected.and_then(|expected| expected.apart(seen));
         apart.map_or(1.0, |apart| near(apart, SHARP).max(UNSEEN))
     }
 
-    /// Returns how likely it glimpses these ways before the place ahead. What it glimpses may be no
-    /// way, and ways may be hidden.
+    /// Returns the likelihood of glimpsing the ways `glimpse` before the place ahead. A glimpse may
+    /// be false, and ways may be hidden.
     fn glimpsed(&self, glimpse: &Bearings) -> f64 {
         let dead_end = [];
         let expected = match &self.bearings {
@@ -155,18 +153,19 @@ impl Track {
     }
 }
 
-/// Returns how likely what is there is seen as what is seen.
+/// Returns the likelihood of an observation of the place, given whether it is what the map has.
 const fn seen_as(is_the_same: bool) -> f64 {
     if is_the_same { 1.0 } else { UNSEEN }
 }
 
-/// Returns how likely directions are so far apart that are one, against no distance at all.
+/// Returns the likelihood of two directions `apart` rad apart being one, relative to no distance.
 fn near(apart: f64, deviation: f64) -> f64 {
     libm::exp(-0.5 * (apart / deviation) * (apart / deviation))
 }
 
 impl LocalizerConfig {
-    /// For a robot that mistakes one observation in ten and slips by a tenth.
+    /// Returns the probabilities for a robot that mistakes one observation in ten and slips by a
+    /// tenth.
     #[must_use]
     pub const fn usual() -> Self {
         Self {
@@ -206,11 +205,11 @@ impl LocalizerConfig {
 }
 
 impl Localizer {
-    /// Nothing is known yet: the robot may be in any fragment of any map.
+    /// Starts with the robot equally likely on each of `maps`.
     ///
     /// # Errors
-    /// [`LocalizeError`] if the maps are empty or another dictionary's, or a field is outside its
-    /// range.
+    /// [`LocalizeError`] if there is no map, a map is another dictionary's, or a field is outside
+    /// its range.
     pub fn new(
         maps: &[CpMap],
         dictionary: &Dictionary,
@@ -301,8 +300,8 @@ impl Localizer {
         Ok(())
     }
 
-    /// The end of the fragment comes into sight: what stands there, and where ways out seem to
-    /// lead, seen from before it. O(all sequences' lengths).
+    /// Takes in the end of the fragment as it comes into sight: its landmark, and the ways out
+    /// glimpsed from before it. O(all sequences' lengths).
     pub fn end_in_sight(&mut self, landmark: Option<Landmark>, glimpse: Option<&Bearings>) {
         self.pass_all();
         self.weigh(|track| {
@@ -311,8 +310,8 @@ impl Localizer {
         });
     }
 
-    /// The end of a fragment is reached: a junction, dead end or landmark is seen, and where its
-    /// ways lead, unless the robot does not look. O(all sequences' lengths).
+    /// Takes in the arrival at the end of a fragment: the junction, dead end or landmark seen, and
+    /// the bearings of its ways if the robot looks. O(all sequences' lengths).
     pub fn arrive(&mut self, sighting: Sighting, bearings: Option<&Bearings>) {
         self.pass_all();
         self.weigh(|track| {
@@ -322,8 +321,8 @@ impl Localizer {
         self.is_placed = true;
     }
 
-    /// The robot turns round amid a fragment, or before the place at its end, and goes back along
-    /// it. O(all sequences' lengths).
+    /// Takes in that the robot turns round in mid-fragment, or before the place at its end, and
+    /// goes back along it. O(all sequences' lengths).
     pub fn turn_round(&mut self) {
         let back: Vec<Vec<f64>> = self
             .tracks
@@ -340,7 +339,7 @@ impl Localizer {
         }
     }
 
-    /// All that the map has still to come of a fragment has been passed.
+    /// Moves the belief past all observations that the map still has of each fragment.
     fn pass_all(&mut self) {
         let seen = self.config.slip.max(1e-3);
         for track in &mut self.tracks {
@@ -355,7 +354,7 @@ impl Localizer {
         }
     }
 
-    /// Weighs each fragment by how likely that is which is seen at its end.
+    /// Weighs each fragment by the likelihood of what was seen at its end.
     fn weigh(&mut self, likelihood: impl Fn(&Track) -> f64) {
         for track in &mut self.tracks {
             let count = track.patterns.len();
@@ -372,10 +371,10 @@ impl Localizer {
             .map_or(0.0, |entered| entered.iter().sum())
     }
 
-    /// The robot turns at the junction it is at, and enters the next fragment.
+    /// Takes in a turn at the junction, by which the robot enters the next fragment.
     ///
     /// # Errors
-    /// [`LocalizeError::Turn`] if no junction at which it may be has such a turn. Nothing is
+    /// [`LocalizeError::Turn`] if no junction at which the robot may be has such a turn. Nothing is
     /// learned then.
     pub fn turn(&mut self, turn: Turn) -> Result<(), LocalizeError> {
         let entered = self.entered(turn)?;
@@ -410,7 +409,7 @@ impl Localizer {
         }
     }
 
-    /// Returns how likely the robot is on each map: "which environment the robot is in".
+    /// Returns the probability of each map: "which environment the robot is in".
     #[must_use]
     pub fn maps(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.maps.len()];
@@ -454,7 +453,7 @@ impl Localizer {
             .ok()
     }
 
-    /// Moves a part of the belief to anywhere.
+    /// Moves the share `part` of the belief to any place of any map.
     fn spread(&mut self, part: f64) {
         for track in &mut self.tracks {
             let anywhere = self.anywhere[track.map];
@@ -466,7 +465,7 @@ impl Localizer {
         }
     }
 
-    /// Makes all beliefs together 1; if nothing was possible, the robot may be anywhere.
+    /// Scales all beliefs to a sum of 1. If nothing was possible, the robot may be anywhere.
     fn normalize(&mut self) {
         let sum: f64 = self.tracks.iter().flat_map(|track| &track.passed).sum();
         if sum > 0.0 {
@@ -480,8 +479,8 @@ impl Localizer {
     }
 }
 
-/// Returns how likely it is to be at any one place of each map: each map that has observations is
-/// as likely as the others, and each place of it.
+/// Returns the probability of any one place of each map. All maps that have observations are
+/// equally likely, and so are all places of a map.
 fn anywhere(maps: usize, tracks: &[Track]) -> Vec<f64> {
     let mut places = vec![0_usize; maps];
     for track in tracks {
@@ -495,20 +494,22 @@ fn anywhere(maps: usize, tracks: &[Track]) -> Vec<f64> {
     places.iter().map(each).collect()
 }
 
-/// How far the prototype of what is observed lies from that of what is there, as a part of the
-/// greatest distance in the dictionary, on average. Exponential, not normal: what is observed a
-/// stride further on is off by much the same, so that a far one says less than many independent
-/// ones would; with it beliefs are as often right as they are sure.
+/// Mean distance between the prototype observed and that of the map's place, as a fraction of the
+/// greatest distance in the dictionary.
+///
+/// The likelihood is exponential, not normal: observations a stride apart err by much the same, so
+/// a far one says less than independent ones would. With it beliefs are right as often as they
+/// claim.
 const NEAR: f64 = 0.14;
 
-/// How likely a junction is seen as one it is not.
+/// Probability of seeing a junction as one that it is not.
 const UNSEEN: f64 = 1e-3;
 
-/// How far directions of ways are off that are seen from before a place, rad.
+/// Standard deviation of directions of ways glimpsed from before a place, rad.
 const BLURRED: f64 = 0.5;
 
-/// How likely a way is glimpsed where there is none, against one.
+/// Likelihood of glimpsing a way that does not exist, relative to one that does.
 const NO_WAY: f64 = 0.1;
 
-/// How likely a way is not glimpsed from before a place.
+/// Probability of missing a way from before a place.
 const HIDDEN: f64 = 0.3;

@@ -43,9 +43,9 @@ impl JunctionId {
 /// path-fragment, the signs are assigned only at the *first* time of traversal."
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Sign {
-    /// Where the robot entered when it first walked the fragment.
+    /// Where the robot entered on its first walk along the fragment.
     Minus,
-    /// Where it left then.
+    /// Where the robot left on that walk.
     Plus,
 }
 
@@ -63,7 +63,7 @@ impl Sign {
     }
 }
 
-/// As the paper writes it.
+/// Writes the sign as in the paper.
 impl fmt::Display for Sign {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -78,7 +78,7 @@ impl fmt::Display for Sign {
 pub struct End {
     /// The fragment.
     pub fragment: FragmentId,
-    /// Which of its ends.
+    /// The end's sign.
     pub sign: Sign,
 }
 
@@ -90,8 +90,7 @@ impl End {
     }
 }
 
-/// A port of a junction. As the place of a robot: it came in here, so that this port lies behind
-/// it.
+/// A port of a junction. As the robot's place: the port it came in by, which lies behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -117,7 +116,7 @@ impl From<Port> for (JunctionId, u32) {
     }
 }
 
-/// What is known of a port.
+/// What is known about a port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PortState {
     /// Nobody has been there, or not to its end.
@@ -135,14 +134,14 @@ pub enum PortState {
 pub struct Junction {
     /// Counter-clockwise.
     pub ports: Vec<PortState>,
-    /// What stands there.
+    /// The landmark that stands there.
     pub landmark: Option<Landmark>,
-    /// Where the ports lead, from port 0 on, or `None` if no robot has looked.
+    /// Bearings of the ports, from port 0 on, or `None` if no robot has looked.
     pub bearings: Option<Bearings>,
 }
 
 impl Junction {
-    /// Returns how many ports it has; 1 makes it a dead end.
+    /// Returns the number of ports; 1 makes it a dead end.
     #[must_use]
     pub const fn degree(&self) -> u32 {
         self.ports.len() as u32
@@ -163,15 +162,15 @@ impl Junction {
         Some(self.bearings.as_ref()?.counted_from(port))
     }
 
-    /// By how much ways lead into other directions than those that a robot has seen which came by a
-    /// port, rad; 0 if nobody has looked or there are not as many.
+    /// Returns the greatest angle between the junction's ways and those seen by a robot that came
+    /// in by `port`, rad; 0 if no robot has looked or the numbers of ways differ.
     pub(super) fn apart(&self, port: u32, seen: Option<&Bearings>) -> f64 {
         let known = self.bearings_from(port);
         let apart = known.zip(seen).and_then(|(known, seen)| known.apart(seen));
         apart.unwrap_or(0.0)
     }
 
-    /// Takes in what a robot has seen that came by a port, if that was not known.
+    /// Takes in the ways seen by a robot that came in by `port`, unless bearings are known.
     pub(super) fn notice(&mut self, port: u32, seen: Option<&Bearings>) {
         let degree = self.degree().max(1);
         if self.bearings.is_none() {
@@ -194,19 +193,19 @@ impl Junction {
 pub struct Fragment {
     /// 𝔸, as observed from − to +.
     pub patterns: Vec<PatternId>,
-    /// What dead reckoning says of a walk from − to +, all such walks taken together.
+    /// Dead reckoning from − to +, combined over all walks along it.
     pub motion: Option<DeadReckoning>,
-    /// How often the robot has walked it, either way.
+    /// Number of walks along it, either way.
     pub traversals: u32,
-    /// Where 𝔸⁻ is: junc(𝔸⁻).
+    /// Port of 𝔸⁻: junc(𝔸⁻).
     pub minus: Port,
-    /// Where 𝔸⁺ is: junc(𝔸⁺).
+    /// Port of 𝔸⁺: junc(𝔸⁺).
     pub plus: Port,
 }
 
 impl Fragment {
-    /// ℓ(𝔸): its length in observations, at least 1, as a fragment costs time even where it is too
-    /// short for one.
+    /// Returns ℓ(𝔸), the length in observations; at least 1, as even a fragment too short for an
+    /// observation takes time.
     #[must_use]
     pub const fn length(&self) -> u32 {
         let length = self.patterns.len() as u32;
@@ -277,7 +276,7 @@ impl CpMap {
         self.junctions.get(id)
     }
 
-    /// Returns how many ports a junction has; 0 if it is not there.
+    /// Returns the number of ports of a junction; 0 if the map has no such junction.
     #[must_use]
     pub fn degree(&self, junction: JunctionId) -> u32 {
         self.junctions.get(junction).map_or(0, Junction::degree)
@@ -299,14 +298,14 @@ impl CpMap {
             .map_or(Ok(()), |version| dictionary.check_version(version))
     }
 
-    /// Returns what is known of a port, or `None` if it is not there.
+    /// Returns the state of a port, or `None` if the map has no such port.
     #[must_use]
     pub fn port(&self, port: Port) -> Option<PortState> {
         let junction = self.junctions.get(port.junction)?;
         junction.ports.get(port.number as usize).copied()
     }
 
-    /// Returns the end of a fragment at a port, or `None` if nobody has been there.
+    /// Returns the end of a fragment at a port, or `None` if the port is unexplored.
     #[must_use]
     pub fn end_at(&self, port: Port) -> Option<End> {
         match self.port(port)? {
@@ -338,11 +337,11 @@ impl CpMap {
         Some((self.junctions.rank(there.junction)?, there.number))
     }
 
-    /// Λ2(X, Y) = Δ_{X→Y}, equation (6): the turn of a robot that comes out of a fragment at one
-    /// end and shall enter another at another end, or `None` if the two ends are not at one
-    /// junction.
+    /// Returns Λ2(X, Y) = Δ_{X→Y}, equation (6): the turn from the end at which a robot leaves one
+    /// fragment to the end at which it enters another. `None` if the two ends are at different
+    /// junctions.
     ///
-    /// As ports are kept, not transitions, all that (7) to (10) derive is there at once.
+    /// The map stores ports, not transitions, so all that (7) to (10) derive holds already.
     #[must_use]
     pub fn transition(&self, from: End, to: End) -> Option<Turn> {
         let from = self.fragment(from.fragment)?.port(from.sign);
@@ -380,8 +379,8 @@ impl CpMap {
             .flat_map(|(id, place)| place.open_ports().map(move |number| id.port(number)))
     }
 
-    /// Definition 2: "ℳ is optimized if and only if … 𝔸ᵢ is distinctive", no two fragments are
-    /// similar, either way. O(fragments²) comparisons.
+    /// Returns whether the map is optimized, Definition 2: "ℳ is optimized if and only if … 𝔸ᵢ is
+    /// distinctive", no two fragments are similar, either way. O(fragments²) comparisons.
     #[must_use]
     pub fn is_optimized(&self, matching: &FragmentMatching, dictionary: &Dictionary) -> bool {
         let mut pairs = self.fragments().enumerate().flat_map(|(i, (_, first))| {
@@ -395,20 +394,21 @@ impl CpMap {
         })
     }
 
-    /// Definition 3: "every port (gateway) … has been filled, and ℳ contains an A-Pattern which
-    /// represents the goal path-fragment", one that ends at the goal.
+    /// Returns whether the map is complete, Definition 3: "every port (gateway) … has been filled,
+    /// and ℳ contains an A-Pattern which represents the goal path-fragment", one that ends at the
+    /// goal.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.is_explored() && self.has_goal()
     }
 
-    /// Definition 3, 1): "every port (gateway) has been filled".
+    /// Returns whether "every port (gateway) has been filled": Definition 3, 1).
     #[must_use]
     pub fn is_explored(&self) -> bool {
         self.open_ports().next().is_none()
     }
 
-    /// Definition 3, 2): a fragment leads to the goal.
+    /// Returns whether a fragment leads to the goal: Definition 3, 2).
     #[must_use]
     pub fn has_goal(&self) -> bool {
         let mut fragments = self.fragments();

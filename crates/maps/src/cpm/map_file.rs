@@ -10,8 +10,8 @@ use super::map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, P
 use super::pattern::{Dictionary, DictionaryError, Pattern, PatternId};
 use tolman_robot::Landmark;
 
-/// A map as it lies in a file, with the dictionary its sequences need. Any format of serde's will
-/// do.
+/// Contents of a map's file: the map, with the dictionary that its sequences need. Works with any
+/// format of serde's.
 ///
 /// ```
 /// use tolman_maps::cpm::{CpMapperConfig, Dictionary, CpMapper, MapFile, PatternId, Sighting, Traversal, Turn};
@@ -30,7 +30,7 @@ use tolman_robot::Landmark;
 /// ```
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MapFile {
-    /// How many there are of each: a file that was cut off has fewer.
+    /// Number of each kind of entry; a truncated file has fewer.
     counts: Counts,
     dictionary: SavedDictionary,
     map: SavedMap,
@@ -53,7 +53,7 @@ struct SavedDictionary {
 
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 struct SavedMap {
-    /// How many patterns the dictionary had when it was last written to, or `None` of an empty map.
+    /// Number of patterns in the dictionary at the map's last change, or `None` for an empty map.
     patterns: Option<u32>,
     next_fragment: u32,
     next_junction: u32,
@@ -94,24 +94,24 @@ enum SavedPort {
 #[non_exhaustive]
 pub enum MapFileError {
     /// Something is missing.
-    #[error("it was cut off: {found} of {expected} {what} are there")]
+    #[error("it is cut off: it has {found} of {expected} {what}; copy it again")]
     Truncated {
-        /// What is missing.
+        /// Kind of entry that is missing.
         what: &'static str,
-        /// How many there should be.
+        /// Number the file promises.
         expected: usize,
-        /// How many there are.
+        /// Number found.
         found: usize,
     },
-    /// Without it nobody can tell whose patterns the fragments are made of.
-    #[error("it has fragments but does not say how many patterns there were")]
+    /// The map has fragments but no dictionary version, so their patterns cannot be identified.
+    #[error("it has fragments, but not the number of patterns they were written with")]
     Unversioned,
     /// The patterns are not those that were written.
     #[error("its patterns have the fingerprint {found}, not {expected}: they were changed")]
     Fingerprint {
-        /// What the file says.
+        /// Version the file states.
         expected: String,
-        /// What they have.
+        /// Version its patterns have.
         found: String,
     },
     /// The patterns are invalid, or the map is another robot's.
@@ -122,7 +122,7 @@ pub enum MapFileError {
     TooManyPorts {
         /// Its number.
         junction: u32,
-        /// How many ports it has.
+        /// Number of its ports.
         ports: usize,
     },
     /// The ways of a junction lead nowhere, or not to its ports.
@@ -130,7 +130,7 @@ pub enum MapFileError {
     Bearings {
         /// Its number.
         junction: u32,
-        /// What is wrong with them.
+        /// What is wrong with the bearings.
         source: BearingsError,
     },
     /// There are more or fewer bearings than ports.
@@ -138,13 +138,13 @@ pub enum MapFileError {
     BearingsOfPorts {
         /// Its number.
         junction: u32,
-        /// How many bearings it has.
+        /// Number of its bearings.
         bearings: u32,
-        /// How many ports.
+        /// Number of its ports.
         ports: usize,
     },
     /// Two things of one number, or one beyond those that are given out.
-    #[error("{what} {id} is there twice, or was never given out")]
+    #[error("{what} {id} appears twice, or was never assigned")]
     BadId {
         /// A fragment or a junction.
         what: &'static str,
@@ -305,7 +305,8 @@ impl MapFile {
     }
 }
 
-/// Every end of a fragment is at a port that says so, and every filled port has such an end.
+/// Checks that every end of a fragment is at a port that names it, and every filled port has such
+/// an end.
 fn check_joints(map: &CpMap) -> Result<(), MapFileError> {
     let unjoined = |end: End, port: Port| MapFileError::Unjoined {
         end,

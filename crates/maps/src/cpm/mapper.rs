@@ -47,8 +47,8 @@ impl Mapper {
         is_expected
     }
 
-    /// The robot is not where the map has it. What it has walked begins at a copy of its place that
-    /// hangs on nothing, until it is recognized; the port stays as it is.
+    /// Starts a new part of the map, as the robot is not where the map has it. The walk begins at
+    /// an unconnected copy of the place, until that is recognized; the port stays as it is.
     pub(super) fn go_adrift(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let place = self.map.junction(exit.junction);
         let sighting = place.map(Junction::sighting);
@@ -62,8 +62,8 @@ impl Mapper {
         self.append(adrift.port(turn.0), walk)
     }
 
-    /// Returns what is new is joined to the last junction, "together with the performed
-    /// transition"; the junction it led to is new as well, until unified with another.
+    /// Adds the walk as a new fragment from `exit`, "together with the performed transition". The
+    /// junction that it led to is new as well, until unified with another.
     pub(super) fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let junction = self.map.add_junction(walk.sighting, walk.bearings.clone());
         self.at = junction.port(0);
@@ -71,7 +71,7 @@ impl Mapper {
             .add_fragment(walk.patterns.clone(), walk.motion, exit, self.at)
     }
 
-    /// The robot has come along a fragment to where it is now.
+    /// Takes in a walk along a known fragment, entered at `end`.
     pub(super) fn confirm(&mut self, end: End, walk: &Traversal) {
         self.notice(walk);
         let Some(fragment) = self.map.fragments.get_mut(end.fragment) else {
@@ -87,7 +87,7 @@ impl Mapper {
         };
     }
 
-    /// The robot has come to where it is now, and has seen its ways out.
+    /// Takes in the ways out seen at the robot's present place.
     pub(super) fn notice(&mut self, walk: &Traversal) {
         if let Some(place) = self.map.junctions.get_mut(self.at.junction) {
             place.notice(self.at.number, walk.bearings.as_ref());
@@ -142,8 +142,9 @@ impl Mapper {
         })
     }
 
-    /// "The robot repeats checking the similar A-Pattern and fills the new path-fragments to the
-    /// junction … until no similar pattern remains." Returns how many were found to be duplicates.
+    /// Unifies duplicates until none is left and returns how many there were. "The robot repeats
+    /// checking the similar A-Pattern and fills the new path-fragments to the junction … until no
+    /// similar pattern remains."
     pub(super) fn optimize(&mut self, comparison: &Comparison<'_>) -> usize {
         let before = self.map.fragments.len();
         let ids: Vec<FragmentId> = self.map.fragments().map(|(id, _)| id).collect();
@@ -154,7 +155,7 @@ impl Mapper {
     }
 }
 
-/// What fragments are compared by, and what came of it.
+/// How fragments are compared, and the results so far.
 #[derive(Debug)]
 pub(super) struct Comparison<'a> {
     pub(super) matching: &'a FragmentMatching,
@@ -200,8 +201,8 @@ impl Comparison<'_> {
         others
     }
 
-    /// Returns how an online robot judges a fragment that it knows, entered at an end: it trusts
-    /// the map unless another fragment fits what it has observed, and this one does not.
+    /// Returns whether an online robot takes the walk for the known fragment that it entered at
+    /// `end`. It does, unless another fragment fits what it has observed and this one does not.
     fn trusts(&self, map: &CpMap, walk: &Traversal, end: End) -> bool {
         let Self {
             matching,

@@ -1,9 +1,8 @@
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-/// The nodes of a map by id. Copies of the map share them all, and still the others once one of
-/// them has changed some: a copy costs nothing, the first change to it a count for each node,
-/// whatever is in it.
+/// Nodes of a map, by id, shared between copies of the map. A copy costs O(1). The first change
+/// after a copy costs one reference count per node, whatever the nodes' size.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Nodes<I, T>(Arc<Vec<(I, Arc<T>)>>);
 
@@ -18,17 +17,17 @@ impl<I: Copy + Ord, T: Clone> Nodes<I, T> {
         self.0.len()
     }
 
-    /// By id.
+    /// Returns the nodes in order of id.
     pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = (I, &T)> {
         self.0.iter().map(|(id, node)| (*id, &**node))
     }
 
-    /// By id, to be changed with [`Arc::make_mut`] where they have to be.
+    /// Returns the nodes in order of id, to be changed with [`Arc::make_mut`] where necessary.
     pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Arc<T>> {
         Arc::make_mut(&mut self.0).iter_mut().map(|(_, node)| node)
     }
 
-    /// Returns how many nodes have lower ids, or `None` if it is not there. O(log nodes).
+    /// Returns the number of nodes with lower ids, or `None` if `id` does not exist. O(log nodes).
     pub(super) fn rank(&self, id: I) -> Option<usize> {
         self.search(id).ok()
     }

@@ -9,10 +9,9 @@ pub struct PatternId(pub u32);
 
 /// C, the set of common patterns: the prototypes of what the robot observes.
 ///
-/// A dictionary only grows: a pattern keeps its number and its prototype for good, so that
-/// sequences that were written with an earlier [version](Self::version) stay readable beside new
-/// ones. A version is a number of patterns, and its [fingerprint](Version::fingerprint) tells it
-/// from those of other robots.
+/// A dictionary only grows: a pattern keeps its number and its prototype. Sequences written with an
+/// earlier [version](Self::version) therefore stay readable beside new ones. A version is a number
+/// of patterns. Its [fingerprint](Version::fingerprint) tells it from those of other robots.
 ///
 /// ```
 /// use tolman_maps::cpm::{Dictionary, PatternId};
@@ -46,16 +45,16 @@ pub(super) struct Pattern {
     pub(super) half_turned: PatternId,
 }
 
-/// Which patterns a sequence or a map was written with.
+/// Version of the dictionary that a sequence or a map was written with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Version {
-    /// How many patterns there were.
+    /// Number of patterns.
     pub patterns: u32,
-    /// What they were.
+    /// Hash of the patterns.
     pub fingerprint: u64,
 }
 
-/// Reason why a dictionary refuses what it is given.
+/// Reason why a dictionary refuses its input.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DictionaryError {
@@ -82,25 +81,25 @@ pub enum DictionaryError {
         value: f64,
     },
     /// A pattern that the dictionary does not have.
-    #[error("pattern {} of a dictionary of {patterns}: observed with another dictionary, or a later version", .pattern.0)]
+    #[error("pattern {} does not exist in this dictionary of {patterns}; use the one it was observed with", .pattern.0)]
     UnknownPattern {
         /// The pattern.
         pattern: PatternId,
-        /// How many there are.
+        /// Number of patterns in the dictionary.
         patterns: u32,
     },
     /// The patterns of a map are not this dictionary's.
-    #[error("written with {} patterns of another dictionary: use the one it was learned with", .version.patterns)]
+    #[error("it was written with {} patterns of another dictionary; use the one it was learned with", .version.patterns)]
     OtherDictionary {
-        /// What it was written with.
+        /// Version it was written with.
         version: Version,
     },
     /// A list of half-turned patterns that is no involution.
-    #[error("pattern {} half turned is {}, which half turned is not that again", .pattern.0, .half_turned.0)]
+    #[error("pattern {} half turned is {}, but that half turned is not the first one again", .pattern.0, .half_turned.0)]
     NotInvolutive {
         /// The pattern.
         pattern: PatternId,
-        /// What is said to be that pattern half turned.
+        /// The pattern stated as its half-turned partner.
         half_turned: PatternId,
     },
 }
@@ -117,12 +116,11 @@ impl Dictionary {
         }
     }
 
-    /// Returns a finished dictionary: the prototypes, and for each which of them is its vector
-    /// turned half round, for patterns that are seen walking the other way. O(patterns²).
+    /// Returns a finished dictionary. Each prototype comes with the id of its half-turned partner,
+    /// the pattern seen when walking the other way. O(patterns²).
     ///
     /// # Errors
-    /// [`DictionaryError`] if a prototype is invalid, or `half_turned` does not lead back and
-    /// forth.
+    /// [`DictionaryError`] if a prototype is invalid, or two partners do not name each other.
     pub fn from_prototypes(
         dimension: usize,
         prototypes: &[(Vec<f64>, PatternId)],
@@ -142,10 +140,10 @@ impl Dictionary {
         Ok(dictionary)
     }
 
-    /// Returns the pattern that stands for an observation: the nearest if it lies within
-    /// `tolerance`, else a new one, made of the observation, together with a new one for
-    /// `half_turned`, the same seen the other way, unless that is known or nearly the same. The
-    /// paper's own wish: "the CPs must be learned incrementally". O(patterns · features).
+    /// Returns the pattern of an observation: the nearest if it lies within `tolerance`, else a new
+    /// one with the observation as prototype. A new pattern comes with a partner for `half_turned`,
+    /// the same seen the other way, unless that is known or nearly the same. The paper asks for it:
+    /// "the CPs must be learned incrementally". O(patterns · features).
     ///
     /// # Errors
     /// [`DictionaryError`] if one of the observations or the tolerance is invalid. Nothing is
@@ -195,13 +193,13 @@ impl Dictionary {
             .min_by(|(_, a), (_, b)| a.total_cmp(b)))
     }
 
-    /// Returns how many features a pattern has.
+    /// Returns the number of features of a pattern.
     #[must_use]
     pub const fn dimension(&self) -> usize {
         self.dimension
     }
 
-    /// Returns how many patterns there are.
+    /// Returns the number of patterns.
     #[must_use]
     pub const fn len(&self) -> usize {
         self.patterns.len()
@@ -239,14 +237,14 @@ impl Dictionary {
         }
     }
 
-    /// d_max, "maximum distance among all CPs".
+    /// Returns d_max, "maximum distance among all CPs".
     #[must_use]
     pub const fn greatest_distance(&self) -> f64 {
         self.greatest_distance
     }
 
-    /// A⁻¹: what is observed along a sequence walked the other way. Its order is reversed and each
-    /// pattern half turned.
+    /// Returns A⁻¹, what is observed along a sequence walked the other way: its order reversed,
+    /// each pattern half turned.
     ///
     /// # Errors
     /// If a pattern is not the dictionary's.

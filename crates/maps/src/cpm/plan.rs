@@ -5,9 +5,9 @@ use tolman_planners::{Graph, a_star};
 use super::map::{CpMap, End, Fragment, JunctionId, Port, PortState};
 use super::turn::Turn;
 
-/// A way through the map, as section 4.3 words it: "follow the path until reaching the junction,
-/// perform Δ, follow the path by skipping the observation for 3 CPs until reaching another
-/// junction, perform Δ, and make observation again to confirm the correct destination".
+/// A way through the map, in the words of section 4.3: "follow the path until reaching the
+/// junction, perform Δ, follow the path by skipping the observation for 3 CPs until reaching
+/// another junction, perform Δ, and make observation again to confirm the correct destination".
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Plan {
     /// One fragment after the other; none where the robot is there already.
@@ -23,10 +23,10 @@ pub struct PlanLeg {
     pub turn: Turn,
     /// The fragment, by the end to enter it at.
     pub enter: End,
-    /// Where it leads.
+    /// Port at which it arrives.
     pub arrive: Port,
-    /// How many observations were made along the fragment, "used to estimate how many observation
-    /// the robot can skip"; 0 where it was too short for any.
+    /// Number of observations along the fragment, "used to estimate how many observation the robot
+    /// can skip"; 0 if it was too short for any.
     pub observations: u32,
 }
 

@@ -5,12 +5,12 @@ use core::cell::RefCell;
 use super::pattern::PatternId;
 use super::similarity::Sense;
 
-/// How similar sequences are: of all pairs that were asked for. The hypotheses of a walk ask for
-/// the same ones again and again.
+/// Cache of the similarity of sequences. The hypotheses of a walk ask for the same pairs
+/// repeatedly.
 #[derive(Debug, Default)]
 pub(super) struct Scores(RefCell<BTreeMap<Vec<PatternId>, Row>>);
 
-/// Of one sequence and others, as they are and inverted.
+/// Scores of one sequence against others, in both senses.
 type Row = BTreeMap<Vec<PatternId>, BTreeMap<Sense, f64>>;
 
 impl Scores {

@@ -5,7 +5,7 @@ use super::map::Sign;
 use super::pattern::{Dictionary, DictionaryError, PatternId};
 use super::traversal::DeadReckoning;
 
-/// How two fragments are compared.
+/// Method of comparing two fragments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -17,7 +17,7 @@ pub enum FragmentMatching {
     Alignment(Alignment),
 }
 
-/// Which way round two sequences are similar.
+/// Direction in which two sequences are similar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Sense {
     /// 𝔸₁ ≅ 𝔸₂: − belongs to −.
@@ -49,7 +49,7 @@ impl Sense {
         }
     }
 
-    /// Returns what is observed along a fragment that is walked so: 𝔸 or 𝔸⁻¹.
+    /// Returns the sequence observed along a fragment walked in this sense: 𝔸 or 𝔸⁻¹.
     ///
     /// # Errors
     /// If a pattern of an inverted sequence is not the dictionary's.
@@ -76,9 +76,9 @@ impl Sense {
 /// Two fragments that are similar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Match {
-    /// Which way round, the better of the two; *same* if both are as good.
+    /// The better of the two senses; *same* if both are equal.
     pub sense: Sense,
-    /// How similar, at most 1.
+    /// Similarity, at most 1.
     pub score: f64,
 }
 
@@ -93,7 +93,7 @@ impl FragmentMatching {
         }
     }
 
-    /// μ: above it two sequences are similar.
+    /// Returns μ, the score above which two sequences are similar.
     #[must_use]
     pub const fn threshold(&self) -> f64 {
         match self {
@@ -102,8 +102,8 @@ impl FragmentMatching {
         }
     }
 
-    /// Above it two fragments may be one that would lead out of one port because others are
-    /// similar: what others say for it makes up for a little that is missing to μ.
+    /// Returns the score above which two fragments at one port may be one, where that follows from
+    /// the similarity of others. It is below μ, as those others are evidence too.
     #[must_use]
     pub const fn threshold_at_port(&self) -> f64 {
         match self {
@@ -177,11 +177,11 @@ impl FragmentMatching {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Similarity {
-    /// What aⱼ − a'ⱼ is.
+    /// Measure of aⱼ − a'ⱼ.
     pub difference: PatternDifference,
-    /// Which positions are compared.
+    /// Positions that are compared.
     pub span: Span,
-    /// How the differences add up.
+    /// Rule by which differences add up.
     pub sum: Sum,
     /// μ: above it two fragments are the same; 0 to 1. "We simply set μ = 0.9."
     pub mu: f64,
@@ -190,7 +190,7 @@ pub struct Similarity {
     pub mu_at_port: f64,
 }
 
-/// What the difference of two patterns, aⱼ − a'ⱼ in (4), is.
+/// Measure of the difference of two patterns, aⱼ − a'ⱼ in (4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -202,7 +202,7 @@ pub enum PatternDifference {
     Indices,
 }
 
-/// Which positions are compared.
+/// Positions that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -214,13 +214,13 @@ pub enum Span {
     Shorter,
 }
 
-/// How differences add up to ε_b.
+/// Rule by which differences add up to ε_b.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Sum {
-    /// Their mean over the positions, which is what the sum and the division of (3) make, so that
-    /// long fragments and short ones are measured alike.
+    /// Mean over the positions: the sum and the division of (3). Long and short fragments are
+    /// measured alike.
     Mean,
     /// The root of the sum of their squares, (4); the sum of (3) over n times the same E, divided
     /// by n, is E.
@@ -228,8 +228,8 @@ pub enum Sum {
 }
 
 impl Similarity {
-    /// As we read the paper: distances of prototypes, whole sequences, means, μ = 0.9; at one port
-    /// half-way between that and 0.8, under which distinctive fragments stay.
+    /// Returns our reading of the paper: distances of prototypes, whole sequences, means, μ = 0.9.
+    /// At one port μ is half-way from there to 0.8, below which distinctive fragments stay.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -254,9 +254,9 @@ impl Similarity {
         }
     }
 
-    /// f_S of two sequences, at most 1, which equal ones have. [`Sum::Euclidean`] may lead below 0.
-    /// Two empty ones, which nothing tells apart or proves the same, have 0, and so has an empty
-    /// one beside another. O(length · features).
+    /// Returns f_S of two sequences: 1 for equal ones, less otherwise. An empty sequence scores 0
+    /// against any, even another empty one. With [`Sum::Euclidean`] the score may be negative.
+    /// O(length · features).
     #[must_use]
     pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
         let positions = match self.span {

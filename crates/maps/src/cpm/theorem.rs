@@ -1,9 +1,9 @@
-/// Theorem 1: "Given that all path-fragments in the environment are distinctive and asymmetrical,
-/// the time required for reaching the unknown goal is finite", and no more than this.
+/// Returns the bound of Theorem 1: "Given that all path-fragments in the environment are
+/// distinctive and asymmetrical, the time required for reaching the unknown goal is finite".
 ///
 /// `first` are T₁ … T_{n_p}, the times for the fragments "the robot passes before detecting
-/// duplication", in any unit; `longest` is max T over all fragments, in the same; `fragments` is
-/// n_A, the number of fragments of the environment. With all times 1 it bounds the number of
+/// duplication", in any unit. `longest` is max T over all fragments, in the same unit. `fragments`
+/// is n_A, the number of fragments of the environment. With all times 1 it bounds the number of
 /// fragments walked.
 ///
 /// ```

@@ -8,14 +8,14 @@ use super::bearings::Bearings;
 use super::pattern::PatternId;
 use tolman_robot::Landmark;
 
-/// What the robot sees of a place that ends a fragment: a junction, a dead end (one port), or a
-/// landmark ("other CP (some extra landmarks) might also be used to divide fragment as well"),
-/// which may stand in a corridor (two ports).
+/// What the robot sees at a place that ends a fragment: a junction, a dead end (one port) or a
+/// landmark. A landmark may stand in a corridor (two ports): "other CP (some extra landmarks) might
+/// also be used to divide fragment as well".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sighting {
-    /// How many ways lead out, the port of entry among them; at least 1.
+    /// Number of ways out, the port of entry among them; at least 1.
     pub degree: u32,
-    /// What stands there.
+    /// The landmark that stands there.
     pub landmark: Option<Landmark>,
 }
 
@@ -54,22 +54,21 @@ pub struct Traversal {
     /// 𝔸 of Definition 1: the common patterns observed on the way, without those of the places at
     /// its ends.
     pub patterns: Vec<PatternId>,
-    /// What dead reckoning says, or `None` if the robot has none, as the paper's.
+    /// Dead reckoning of the walk, or `None` if the robot has none, like the paper's.
     pub motion: Option<DeadReckoning>,
     /// The place it led to.
     pub sighting: Sighting,
-    /// Where the ways out of that place lead, counted from the one by which the robot came, or
-    /// `None` if it did not look, as the paper's.
+    /// Bearings of the ways out, counted from the one by which the robot came. `None` if it did not
+    /// look, like the paper's.
     pub bearings: Option<Bearings>,
 }
 
-/// What dead reckoning knows of a walk. Its axes are the same for all walks: those the robot had at
-/// its start, as far as it knows them, with the drift of its heading since then allowed for in the
-/// bounds.
+/// Dead reckoning of a walk. Its axes are the same for all walks: the robot's at its start. Bounds
+/// allow for the drift of its heading since then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DeadReckoning {
-    /// Where the end lies, seen from the beginning, m.
+    /// Position of the end relative to the beginning, m.
     pub displacement: PointBox,
     /// The heading in which the robot left, rad; not wrapped.
     pub departure: Interval,

@@ -1,18 +1,18 @@
 use thiserror::Error;
 
-/// A transition Δ: which port of a junction the robot leaves by, counted counter-clockwise from the
-/// port it came in by, which is 0.
+/// A transition Δ: the port by which the robot leaves a junction. Ports are counted
+/// counter-clockwise from the one it came in by, which is 0.
 ///
-/// In a crossing, 1 turns right, 2 goes straight on, 3 turns left, whatever way the robot came. The
-/// paper counts from the robot's heading, which its equation (2) does not survive; counted from the
-/// port of entry, Δ runs from 1 to degree − 1 and N_w of (2) is degree − 1. [`BACK`](Self::BACK) is
-/// the turn of a dead end.
+/// In a crossing, 1 turns right, 2 goes straight on and 3 turns left, whatever way the robot came.
+/// The paper counts from the robot's heading, which contradicts its equation (2). Counted from the
+/// port of entry, Δ runs from 1 to degree − 1, and N_w of (2) is degree − 1. [`BACK`](Self::BACK)
+/// is the turn of a dead end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Turn(pub u32);
 
 /// A turn that the junction does not have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("turn {} at a junction of {degree} ports: turns are 0 … {degree} − 1", .turn.0)]
+#[error("turn {} does not exist at a junction of {degree} ports; turns run from 0 to {degree} − 1", .turn.0)]
 pub struct NoSuchTurn {
     /// The turn.
     pub turn: Turn,
@@ -48,8 +48,8 @@ impl Turn {
         Ok(sum(entry, self.0, degree))
     }
 
-    /// Λ1, equation (2): the turn that leads back again, Δ⁻¹ = N_w − Δ + 1 with N_w = `degree` − 1.
-    /// It is its own inverse.
+    /// Returns the turn that leads back, equation (2): Λ1, Δ⁻¹ = N_w − Δ + 1, where N_w is `degree`
+    /// − 1. It is its own inverse.
     ///
     /// # Errors
     /// If the junction has no such turn.
@@ -61,8 +61,8 @@ impl Turn {
         Ok(Self(sum(0, degree - self.0, degree)))
     }
 
-    /// Equations (9) and (10): the turn that leads to where first this turn and then `next` would
-    /// lead, (Δ + Δ') mod n_junc with n_junc = `degree`.
+    /// Returns the turn that equals this one followed by `next`, equations (9) and (10): (Δ + Δ')
+    /// mod n_junc with n_junc = `degree`.
     ///
     /// # Errors
     /// If the junction has no such turn.
@@ -75,7 +75,7 @@ impl Turn {
     }
 }
 
-/// Of two numbers up to the degree, round the junction; no overflow at any degree.
+/// Returns the sum of two turns modulo `degree`, without overflow.
 const fn sum(a: u32, b: u32, degree: u32) -> u32 {
     ((a as u64 + b as u64) % degree as u64) as u32
 }

@@ -5,11 +5,11 @@ use alloc::vec::Vec;
 use super::map::{CpMap, End, Fragment, FragmentId, JunctionId, Port, PortState, Sign};
 use super::similarity::Sense;
 
-/// Ways of one place are not seen so far apart from each other, rad: less than a quarter of a
-/// circle, by which those of a side way seen from its three ends differ.
+/// Maximum angle between two views of one place's ways, rad. It is less than a quarter circle, by
+/// which the views from the three ends of a side way differ.
 const MOST_APART: f64 = 1.0;
 
-/// Which fragments and junctions have become which.
+/// Fragments and junctions that were merged, each with the one that it became.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Merges {
     fragments: BTreeMap<FragmentId, (FragmentId, Sense)>,
@@ -41,22 +41,28 @@ impl Merges {
     }
 }
 
-/// Whether two fragments may be one, the second walked as the sense says.
+/// Answers whether two fragments may be one, the second walked in the given sense.
 pub(super) type Agree<'a> = &'a dyn Fn(&Fragment, &Fragment, Sense) -> bool;
 
 impl CpMap {
-    /// Returns the map in which two fragments are one, and what follows from it: "given that 𝔸₁ is
+    /// Returns the map in which two fragments are one, with all that follows: "given that 𝔸₁ is
     /// approximately identical to 𝔸₂, then junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", or +
-    /// to − if they are similar inverted. "Those similar junctions must be *unified*": laid over
-    /// each other, turned so that the fragment's ports meet. Where both have a fragment at a port
-    /// then, these are one as well, and so on; where one has, it is added to the other, which is
-    /// both sub-cases of equations (9) and (10). The older fragments and junctions stay.
+    /// to − if they are similar inverted.
     ///
-    /// `agree` is asked of all pairs but the first. O(fragments + junctions) and the questions.
+    /// "Those similar junctions must be *unified*": laid over each other, turned so that the
+    /// fragment's ports meet. If both then have a fragment at a port, these two are one as well,
+    /// and so on. If only one has, the other gets it: both sub-cases of equations (9) and (10). The
+    /// older fragments and junctions stay.
     ///
-    /// `None` if something that follows is not so: two junctions would be one that have another
-    /// number of ports, other bearings or another landmark; one would be itself, turned; a fragment
-    /// would be itself, inverted; or two fragments would lead out of one port that are not similar.
+    /// `agree` is asked about all pairs but the first. O(fragments + junctions) and these
+    /// questions.
+    ///
+    /// Returns `None` if it leads to a contradiction:
+    ///
+    /// - two junctions would be one that differ in their number of ports, bearings or landmark;
+    /// - a junction would be itself, turned;
+    /// - a fragment would be itself, inverted;
+    /// - two fragments would lead out of one port that are not similar.
     pub(super) fn unified(
         &self,
         one: FragmentId,
@@ -118,7 +124,7 @@ impl Unification {
         Some(())
     }
 
-    /// Two ports are one, and so their junctions.
+    /// Makes two ports one, and so their junctions.
     fn meet(&mut self, a: Port, b: Port) -> Option<()> {
         let (a, b) = (self.merges.port(a), self.merges.port(b));
         let (kept, gone) = if a.junction <= b.junction {

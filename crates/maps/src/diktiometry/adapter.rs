@@ -9,8 +9,8 @@ use super::{
     PlaceId, Projection, Similarity, Successor, Track, elide_place, remember, trusted_odometry,
 };
 
-/// How many of the places met before the last are related to a new one directly: two moves back,
-/// three, …
+/// Number of earlier places, before the last, that are related to a new one directly: two moves
+/// back, three, …
 const SPAN: usize = 4;
 
 impl Observer {
@@ -27,6 +27,9 @@ impl Observer {
         let from = track.place;
         let best = choice.matches[0];
         let (to, robot) = match best.candidate {
+            Some(candidate) if best.matcher == Matcher::Beta => {
+                (candidate.place, self.map.place(candidate.place).position)
+            }
             Some(candidate) => (candidate.place, candidate.robot),
             None => self.make_place(projection),
         };
@@ -76,10 +79,11 @@ impl Observer {
         (to, Some(link))
     }
 
-    /// Relates the places met lately to the one just met by the way between them. Where in a place
-    /// the robot stopped matters at the ends of a way alone, while relations from each place to the
-    /// next count it at both ends of every move; so nothing is to be won where robots stop at a
-    /// point.
+    /// Relates the places met lately to the one just met, by the way between them.
+    ///
+    /// The robot's stopping point within a place matters only at the two ends of such a way. A
+    /// chain of relations counts it at both ends of every move. With a place radius of 0 there is
+    /// nothing to gain, so nothing is done.
     fn relate_lately(&mut self, track: &Track, to: PlaceId, moved: PointBox) {
         if self.config.place_radius <= 0.0 {
             return;
@@ -116,8 +120,8 @@ impl Observer {
         grid.traverse(start, end, self.config.separation);
     }
 
-    /// A track gives way to another: the places that it alone made, and that nobody has met since,
-    /// are taken out of the map.
+    /// Drops a track in favour of another. Takes the places that only it made, and that were not
+    /// met since, out of the map.
     pub(super) fn abandon(&mut self, loser: &Track, winner: PlaceId) {
         let lately = loser.history.iter().rev().map(|entry| entry.place);
         let made = lately.take_while(|&place| {

@@ -7,10 +7,10 @@ use tolman_geom::{Interval, PointBox};
 
 use super::Action;
 
-/// What the observer is told of the robot and the world, and which parts of it are at work.
+/// What the observer knows of the robot and the world, and which of its parts are at work.
 ///
 /// The paper gives no numbers but the error of odometry (10 % of the distance), so there is no
-/// `Default`; [`Config::new`] has the values proposed here, each with its reason. Lengths are in
+/// `Default`. [`Config::new`] has the values proposed here, each with its reason. Lengths are in
 /// metres of the odometry.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -19,10 +19,10 @@ pub struct Config {
     pub actions: Vec<ActionKind>,
     /// δ_sep: two places are never nearer than this, m, > 0. (*Geometric constraints*)
     pub separation: f64,
-    /// Two places that look alike are never nearer than this, m, at least `separation`. Where views
-    /// tell, this is what lets boxes be wider.
+    /// Minimum distance of two places that look alike, m; at least `separation`. Where views tell
+    /// places apart, this lets boxes be wider.
     pub alike_separation: f64,
-    /// In what sense they are so far apart.
+    /// Measure of the distances above.
     #[cfg_attr(feature = "serde", serde(default))]
     pub apart: Apart,
     /// Places at both ends of an action that [leads](ActionKind::leads) straight lie within this of
@@ -40,16 +40,16 @@ pub struct Config {
     pub shared_scale: f64,
     /// Whether percepts come with moves.
     pub percepts: Percepts,
-    /// A new place whose box in the frame it was reached from would be wider than twice this, m, ≥
-    /// 0, opens a frame of its own. At 0 every place has one.
+    /// Half the maximum width of a new place's box in the frame it was reached from, m, ≥ 0. A
+    /// place with a wider box opens a frame of its own; at 0 every place does.
     pub frame_half_width: f64,
-    /// How far the reference graph is searched.
+    /// Limits of the search through the reference graph.
     pub search: SearchLimits,
     /// *Indexing places*.
     pub indexing: Indexing,
     /// *Matching and updating*.
     pub matching: Matching,
-    /// How many hypotheses are followed.
+    /// Number of hypotheses followed, and when one is dropped.
     pub tracks: Tracking,
     /// *Transients*.
     pub transients: Transients,
@@ -57,16 +57,16 @@ pub struct Config {
     pub restructuring: Restructuring,
     /// *Opportunistic mapping*.
     pub opportunities: Opportunities,
-    /// What is remembered to be undone.
+    /// Length of the record from which decisions can be undone.
     pub journal: JournalLength,
 }
 
-/// What is known of an action beforehand.
+/// Prior knowledge of an action.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ActionKind {
-    /// The action that usually leads back. Advice uses it; the map believes what it saw, unless the
-    /// world is [static](WorldKind::Static).
+    /// The action that usually leads back. Advice uses it. The map trusts what it saw instead,
+    /// unless the world is [static](WorldKind::Static).
     pub reverse: Option<Action>,
     /// The axis of the compass along which it leads straight; `None` if its ways may bend.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -84,7 +84,7 @@ pub enum CompassAxis {
     NorthSouth,
 }
 
-/// In what sense two places are δ_sep apart.
+/// Measure in which two places are at least δ_sep apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -98,7 +98,7 @@ pub enum Apart {
 }
 
 impl Apart {
-    /// Returns the most by which two places may be apart whose displacement is in a box, m.
+    /// Returns the greatest distance of two places whose displacement lies in `offset`, m.
     pub(super) fn most(self, offset: PointBox) -> f64 {
         match self {
             Self::Distance => offset.norm().high(),
@@ -132,7 +132,7 @@ pub enum Use {
     Off,
 }
 
-/// What the robot sees of a place.
+/// The kind of view that the robot has of a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Percepts {
@@ -150,18 +150,18 @@ pub struct SignatureKind {
     pub rows: usize,
     /// Columns, ≥ 1.
     pub columns: usize,
-    /// Values of two views of one place differ by no more than this, in units of the values, ≥ 0:
-    /// twice the bound of the sensor's noise.
+    /// Maximum difference between values of two views of one place, in the units of the values, ≥
+    /// 0: twice the bound of the sensor's noise.
     pub tolerance: f64,
     /// Share of the columns that have to agree, 0 < … ≤ 1.
     pub share: f64,
-    /// Whether views may be turned against each other.
+    /// Whether views may be rotated against each other.
     pub rotation: ViewRotation,
-    /// How many views a place keeps, ≥ 1.
+    /// Number of views kept per place, ≥ 1.
     pub views: usize,
 }
 
-/// Whether views of one place may be turned against each other.
+/// Whether views of one place may be rotated against each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ViewRotation {
@@ -193,7 +193,7 @@ impl SearchLimits {
     };
 }
 
-/// Which modules propose candidates.
+/// Modules that propose candidates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Indexing {
@@ -205,7 +205,7 @@ pub struct Indexing {
     pub perceptual: PerceptualIndexing,
 }
 
-/// What views are told apart by in *Perceptual Indexing*.
+/// Features by which *Perceptual Indexing* tells views apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum PerceptualIndexing {
@@ -230,16 +230,16 @@ pub enum GeometricIndexing {
     ActiveFrames,
 }
 
-/// How places are matched.
+/// Rules for matching places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Matching {
-    /// What an unexpected place has to show.
+    /// Evidence that an unexpected place needs.
     pub identity: Identity,
-    /// How matchers take precedence.
+    /// Precedence of the matchers.
     pub order: Precedence,
-    /// CONTINUE. Without it, an expected place has to show what an unexpected one has to, but to
-    /// α-MATCH.
+    /// The matcher CONTINUE. Without it an expected place needs the evidence of an unexpected one,
+    /// except for α-MATCH.
     pub continuation: Use,
     /// LINK. Without it, unexpected places are noted at best.
     pub link: Use,
@@ -247,8 +247,8 @@ pub struct Matching {
     pub alpha: Use,
     /// β-MATCH.
     pub beta: Use,
-    /// α-MATCH goes before a new place while the old one has fewer visits than this: young boxes
-    /// are the ones poisoned.
+    /// Number of visits of the old place below which α-MATCH goes before a new place: young boxes
+    /// are the ones that errors spoil.
     pub alpha_visits: u32,
     /// β-MATCH snaps to places nearer than this share of the distance since the last CONTINUE, ≥ 0,
     /// and never farther than `separation`.
@@ -261,15 +261,15 @@ pub struct Matching {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Identity {
-    /// As the paper has it: the boxes meet. A wide box meets the neighbours as well, so that
-    /// different places are confused.
+    /// The paper's rule: the boxes meet. A wide box also meets the neighbours', which confuses
+    /// different places.
     Meets,
-    /// The box of the difference is so narrow that two places cannot both be in it; what merely
-    /// meets is noted, and merged when the box has become narrow.
+    /// The box of the difference is too narrow to hold two places. Boxes that merely meet are
+    /// noted, and merged once the box is narrow.
     Certain,
 }
 
-/// How matchers take precedence.
+/// Precedence of the matchers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Precedence {
@@ -279,7 +279,7 @@ pub enum Precedence {
     Dynamic,
 }
 
-/// How many hypotheses are followed, and when one is given up.
+/// Number of hypotheses followed, and when one is dropped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tracking {
@@ -291,7 +291,7 @@ pub struct Tracking {
     pub high: f64,
     /// A track of at most this confidence is not, 0 … `high`.
     pub low: f64,
-    /// How many matches a history holds.
+    /// Number of matches that a history holds.
     pub history: usize,
 }
 
@@ -304,7 +304,7 @@ pub struct Transients {
     /// Elided when they are met, with 99 % certainty, in less than this share of the times they are
     /// expected, 0 … 1.
     pub rate: f64,
-    /// Factor by which older counts fade with each expectation, 0 < … ≤ 1; at 1 nothing is ever
+    /// Factor by which older counts fade with each expectation, in (0, 1]; at 1 nothing is
     /// forgotten.
     pub fading: f64,
 }
@@ -342,17 +342,17 @@ pub struct Restructuring {
     pub look_error: f64,
 }
 
-/// What geometry asks for before two places are merged.
+/// Geometric condition for merging two places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum GeometricMerge {
-    /// Geometry says nothing.
+    /// Geometry never merges.
     Off,
-    /// As the paper has it: the union of their estims has one mode.
+    /// The paper's rule: the union of their estims has one mode.
     Estims,
-    /// The box of their difference is so narrow that two places cannot both be in it. What two
-    /// places have in common, and histories that fit both, are then no ground on their own: in a
-    /// spiral whose places look alike they made one of two.
+    /// The box of their difference is too narrow to hold two places. Common links and histories
+    /// that fit both are then no reason by themselves: in a spiral whose places look alike they
+    /// merged two places wrongly.
     Narrow,
 }
 
@@ -363,7 +363,7 @@ impl GeometricMerge {
     }
 }
 
-/// What is advised.
+/// Kinds of advice that are given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Opportunities {
@@ -373,7 +373,7 @@ pub struct Opportunities {
     pub priming: Use,
     /// Going back and forth on a new link.
     pub shuttle: Use,
-    /// Going round a cycle again whose ends may be one place.
+    /// Walking round a cycle again whose ends may be one place.
     pub close_loop: Use,
     /// A link that was traversed this often needs no shuttle.
     pub traversals: u32,
@@ -381,7 +381,7 @@ pub struct Opportunities {
     pub reach: u32,
 }
 
-/// How far back the journal goes.
+/// Length of the journal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum JournalLength {
@@ -470,8 +470,8 @@ impl Config {
         }
     }
 
-    /// Four actions, each two the reverse of each other: 0 and 2, 1 and 3, as north, east, south
-    /// and west in [`Direction::ALL`](tolman_maze::Direction::ALL).
+    /// Returns four actions in two opposite pairs: 0 and 2, 1 and 3, as north, east, south and west
+    /// in [`Direction::ALL`](tolman_maze::Direction::ALL).
     #[must_use]
     pub fn compass_actions() -> Vec<ActionKind> {
         let reverses = [2, 3, 0, 1].map(|reverse| Some(Action(reverse)));
@@ -504,12 +504,12 @@ impl Config {
         self.actions.get(action.0 as usize)?.reverse
     }
 
-    /// Metres of odometry that two places are apart at the least.
+    /// Returns the minimum distance of two places, in metres of odometry.
     pub(super) fn least_distance(&self) -> f64 {
         self.separation * (1.0 - self.shared_scale)
     }
 
-    /// Metres of odometry that two places which look alike are apart at the least.
+    /// Returns the minimum distance of two places that look alike, in metres of odometry.
     pub(super) fn least_alike_distance(&self) -> f64 {
         self.alike_separation * (1.0 - self.shared_scale)
     }
@@ -607,13 +607,13 @@ const fn not_zero(field: &'static str, count: usize) -> Result<(), DiktiometryCo
 pub enum DiktiometryConfigError {
     /// An action's reverse does not exist.
     #[error(
-        "action {} is given as a reverse, and there are only {actions}; name one of them or none",
+        "action {} is named as a reverse, but there are only {actions} actions; name one of them or none",
         reverse.0
     )]
     NoSuchReverse {
-        /// What is named.
+        /// The reverse that was named.
         reverse: Action,
-        /// How many actions there are.
+        /// Number of actions.
         actions: usize,
     },
     /// A number is out of the range its field names.
@@ -627,7 +627,7 @@ pub enum DiktiometryConfigError {
     /// Views have too few columns for triangles of edges.
     #[error("views of {columns} columns have no triangles; give 3 or more, or index `Columns`")]
     NoTriangles {
-        /// How many they have.
+        /// Number of columns that views have.
         columns: usize,
     },
     /// A count is 0.

@@ -1,9 +1,9 @@
 use super::Expected;
 
-/// How constant something is that may come and go, as a door that is shut and opened: when it was
-/// last looked for, whether it was there, and how often that had changed.
+/// Constancy of something that may come and go, such as a door that is shut and opened. Holds when
+/// it was last looked for, whether it was there, and how often that had changed.
 ///
-/// Beyond the paper, whose counts say how often a link works and not whether it does now.
+/// Beyond the paper, whose counts say how often a link works, but not whether it does now.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Constancy {
     seen: Option<Seen>,
@@ -18,10 +18,10 @@ struct Seen {
 }
 
 impl Constancy {
-    /// Returns the chance that it is there now: 1 for what was never looked for.
+    /// Returns the probability that it is there now; 1 for something never looked for.
     ///
-    /// As a chain of two states that changes as often per move as was seen, v: t moves after it was
-    /// seen, it is as it was seen with chance (1 + exp(−2vt)) / 2.
+    /// The model is a chain of two states with the observed rate of changes per move, v. After t
+    /// moves the state is as last seen with probability (1 + exp(−2vt)) / 2.
     #[must_use]
     pub fn chance(&self, now: u64) -> f64 {
         let Some(seen) = self.seen else {
@@ -36,7 +36,7 @@ impl Constancy {
         }
     }
 
-    /// It was looked for.
+    /// Takes in that it was looked for, with the outcome.
     pub(super) fn look(&mut self, outcome: Expected, now: u64) {
         let first = Seen {
             first: now,
@@ -51,7 +51,7 @@ impl Constancy {
         seen.last = now;
     }
 
-    /// What was seen of two things that are one.
+    /// Takes in the observations of another one that turned out to be the same.
     pub(super) fn join(&mut self, other: Self) {
         self.seen = match (self.seen, other.seen) {
             (Some(one), Some(other)) => {

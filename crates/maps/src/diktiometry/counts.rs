@@ -1,12 +1,12 @@
-/// How often something was expected, and how often of these it was met, both fading: with every
-/// expectation what was counted before it weighs less by a factor, so that the world may change.
+/// Number of times that something was expected, and how often it was met. Both fade: each
+/// expectation makes earlier ones weigh less by a factor, so that the world may change.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counts {
     expected: f64,
     met: f64,
 }
 
-/// Whether what was expected was met.
+/// Outcome of an expectation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Expected {
     Met,
@@ -20,19 +20,19 @@ impl Counts {
         met: 1.0,
     };
 
-    /// Weighted number of expectations.
+    /// Returns the weighted number of expectations.
     #[must_use]
     pub const fn expected(&self) -> f64 {
         self.expected
     }
 
-    /// Weighted number of expectations that were met.
+    /// Returns the weighted number of expectations that were met.
     #[must_use]
     pub const fn met(&self) -> f64 {
         self.met
     }
 
-    /// One more expectation; what was before counts less by the factor `fading`, 0 < … ≤ 1.
+    /// Counts one more expectation. Earlier ones weigh less by the factor `fading`, in (0, 1].
     pub(super) fn expect(&mut self, outcome: Expected, fading: f64) {
         let met = match outcome {
             Expected::Met => 1.0,
@@ -42,18 +42,18 @@ impl Counts {
         self.met = self.met * fading + met;
     }
 
-    /// The counts of two things that are one.
+    /// Adds the counts of another one that turned out to be the same.
     pub(super) fn join(&mut self, other: Self) {
         self.expected += other.expected;
         self.met += other.met;
     }
 
-    /// Returns the share of expectations that are met, at most: the upper end of Wilson's score
-    /// interval at 99 %. 1 for something never expected.
+    /// Returns the greatest plausible share of expectations that are met: the upper end of Wilson's
+    /// score interval at 99 %. 1 for something never expected.
     ///
-    /// Expectations that fade are as good as n_eff = (Σw)² / Σw² that do not (Kish); from the sum
-    /// alone, E = Σw, n_eff = E (1 + f) / (2 − (1 − f) E), which is E without fading and at last (1
-    /// + f) / (1 − f), about 2 E.
+    /// Fading expectations are worth n_eff = (Σw)² / Σw² that do not fade (Kish). From the sum
+    /// alone, E = Σw, that is n_eff = E (1 + f) / (2 − (1 − f) E). Without fading it is E. In the
+    /// long run it is (1 + f) / (1 − f), about 2 E.
     pub(super) fn rate_at_most(&self, fading: f64) -> f64 {
         if self.expected <= 0.0 {
             return 1.0;
@@ -90,7 +90,7 @@ mod tests {
         counts.rate_at_most(transients().fading) < transients().rate
     }
 
-    /// Returns how often something that was met `met` times is expected in vain before it is a
+    /// Returns the number of vain expectations after which something met `met` times is a
     /// transient.
     fn vain_after(met: u32) -> u32 {
         let mut counts = Counts::default();

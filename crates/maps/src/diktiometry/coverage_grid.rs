@@ -1,12 +1,12 @@
 //! "Local grid-based methods to maintain estimates of how well areas have been visited or
-//! traversed": traversed is all that the matchers' order asks for.
+//! traversed"; the matchers' order needs traversals only.
 
 use alloc::collections::BTreeMap;
 
 use tolman_geom::{Point, Vector};
 
-/// How well the area around a frame's origin was traversed, in square cells of the length that its
-/// user names.
+/// Record of traversals of the area around a frame's origin, in square cells; the caller gives
+/// their side.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CoverageGrid {
     /// Cells that the robot was in, by their number.
@@ -16,11 +16,11 @@ pub struct CoverageGrid {
 /// Column and row.
 type CellNumber = (i32, i32);
 
-/// How often a cell was traversed heading east, north, west, south.
+/// Number of traversals of a cell heading east, north, west and south.
 type Traversals = [u32; 4];
 
 impl CoverageGrid {
-    /// The robot went straight from one point to the other.
+    /// Counts a straight drive between two points, m, on cells of side `cell`, m.
     pub(super) fn traverse(&mut self, from: Point, to: Point, cell: f64) {
         let heading = quadrant(to - from);
         crossed(from, to, cell, |number| {
@@ -57,8 +57,8 @@ fn quadrant(way: Vector) -> usize {
     }
 }
 
-/// The cells along a straight way, sampled twice a cell, each at most once in a row; at most 64
-/// samples, so that a way of any length costs no more.
+/// Visits the cells along a straight way, by samples twice a cell. At most 64 samples are taken, so
+/// that the cost of a long way is bounded.
 fn crossed(from: Point, to: Point, cell: f64, mut visit: impl FnMut(CellNumber)) {
     let way = to - from;
     let samples = (libm::ceil(2.0 * way.norm() / cell) as u32).clamp(1, 64);

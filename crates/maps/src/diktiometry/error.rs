@@ -10,25 +10,25 @@ pub enum ObservedMoveError {
     /// The robot has no such action.
     #[error("action {} is not one of the {actions} of the configuration", action.0)]
     UnknownAction {
-        /// What the move names.
+        /// Action that the move names.
         action: Action,
-        /// How many there are.
+        /// Number of actions in the configuration.
         actions: usize,
     },
     /// An exit names no action.
     #[error("exit {} is not one of the {actions} actions of the configuration", action.0)]
     UnknownExit {
-        /// What the exits name.
+        /// Action that the exits name.
         action: Action,
-        /// How many there are.
+        /// Number of actions in the configuration.
         actions: usize,
     },
-    /// A bound is missing: the odometry says nothing.
+    /// The odometry has an infinite bound.
     #[error(
-        "the odometry {odometry:?} has no bound on some side; give one, or tell no move until the robot knows"
+        "the odometry {odometry:?} has an infinite bound; give a finite one, or report no move until the robot has one"
     )]
     Unbounded {
-        /// What the move says.
+        /// Odometry of the move.
         odometry: PoseBox,
     },
     /// The percept is not of the configured form.
@@ -46,7 +46,7 @@ pub enum ObservedMoveError {
         expected_columns: usize,
     },
     /// The configuration has percepts, and the move brings none.
-    #[error("the percept is missing; tell what the robot sees, or configure no percepts")]
+    #[error("the percept is missing; give the robot's view, or configure `Percepts::None`")]
     PerceptMissing,
 }
 
@@ -55,9 +55,9 @@ pub enum ObservedMoveError {
 #[non_exhaustive]
 pub enum StartError {
     /// The configuration is invalid.
-    #[error("the configuration is out of its bounds")]
+    #[error("the configuration is invalid")]
     Config(#[from] DiktiometryConfigError),
-    /// What the robot sees at first does not fit the configuration.
-    #[error("what the robot sees at the start does not fit the configuration")]
+    /// The view of the first place does not fit the configuration.
+    #[error("the view at the start does not fit the configuration")]
     Start(#[from] ObservedMoveError),
 }

@@ -126,9 +126,9 @@ impl Observer {
         TrackId(self.born - 1)
     }
 
-    /// The robot is not where it was expected to be: it may be wherever it looks like here, however
-    /// far away. "Good candidate places can be found based on perceptual cues, even if they are
-    /// geometrically distant."
+    /// Adds tracks at all places that look like the robot's, however far away, as it is not where
+    /// it was expected. "Good candidate places can be found based on perceptual cues, even if they
+    /// are geometrically distant."
     fn suppose(
         &mut self,
         track: &Track,
@@ -198,8 +198,8 @@ impl Observer {
         }
     }
 
-    /// Returns the tracks that live on: of those at one place the most trusted, none that is
-    /// trusted too little, at most as many as allowed; the best first.
+    /// Returns the tracks that live on, the best first. Of those at one place only the most trusted
+    /// stays. Tracks that are trusted too little go, and so do those beyond the maximum number.
     pub(super) fn select(&mut self, mut tracks: Vec<Track>) -> Vec<Track> {
         // The best track stays the best until it has lost confidence and another has won it.
         let tracking = self.config.tracks;
@@ -236,7 +236,7 @@ impl Observer {
         kept
     }
 
-    /// After a split, tracks that came along a link which now leads to the new place are there.
+    /// Moves tracks to the new place after a split, if they came along a link that now leads there.
     pub(super) fn take_sides(&mut self, kept: PlaceId, new: PlaceId) {
         for track in self.tracks.iter_mut().filter(|track| track.place == kept) {
             let came = track.link.map(|link| self.map.link(link));
@@ -250,7 +250,7 @@ impl Observer {
         }
     }
 
-    /// After places were merged, split or elided: tracks are called by the places' new names.
+    /// Gives tracks the new names of their places after a merge, split or elision.
     pub(super) fn rename_tracks(&mut self) {
         let best = self.tracks.first().map(|track| track.id);
         let mut seen: Vec<PlaceId> = Vec::new();
@@ -285,9 +285,9 @@ pub(super) fn trusted_odometry(step: &ObservedMove, choice: &Choice, matcher: Ma
 /// The confidence of a track that begins because a place looks like what the robot sees.
 const SUPPOSED: f64 = 0.5;
 
-/// Returns how far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an
-/// error or looks strange loses it. A new place posits one where another place was expected, or
-/// where another track needs none.
+/// Returns the confidence in a track after a match. A CONTINUE raises it; a posited error or a
+/// strange look lowers it. A new place posits an error if another one was expected, or if another
+/// track needs none.
 fn confidence_after(confidence: f64, matcher: Matcher, choice: &Choice, rivals: bool) -> f64 {
     match matcher {
         _ if choice.look == Similarity::Unlike => 0.7 * confidence,

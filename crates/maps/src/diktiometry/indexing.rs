@@ -20,9 +20,9 @@ use super::{Apart, Diktiometry, PlaceId};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Candidate {
     pub(super) place: PlaceId,
-    /// Where the track projects the robot to be in the place's own frame, m.
+    /// Projected position of the robot in the place's own frame, m.
     pub(super) robot: PointBox,
-    /// The place as seen from there, m: 0 lies inside if the robot may be at it.
+    /// Position of the place relative to the robot, m: contains 0 if the robot may be at the place.
     pub(super) offset: PointBox,
     pub(super) expectation: Expectation,
 }

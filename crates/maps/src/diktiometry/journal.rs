@@ -1,5 +1,4 @@
-//! The journal: what the robot told, so that all that followed from it can be undone and done
-//! again.
+//! The journal: all input of the robot, so that what followed from it can be undone and repeated.
 
 use alloc::vec::Vec;
 
@@ -10,16 +9,15 @@ use super::{
     StartError,
 };
 
-/// All that an observer was told, in order. What it decided follows from that, to the bit: to
-/// replay the journal is to decide again.
+/// All input of an observer, in order. Replaying it repeats all decisions bit for bit.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Journal {
-    /// How it began.
+    /// The first place.
     pub start: FirstPlace,
     /// The moves.
     pub moves: Vec<ObservedMove>,
-    /// Pairs of places that were told to be different.
+    /// Pairs of places that are known to be different.
     pub distinctions: Vec<Distinction>,
 }
 
@@ -43,9 +41,9 @@ pub enum UndoError {
     /// There are not that many moves.
     #[error("{asked} moves cannot be undone, there are only {moves}")]
     TooFar {
-        /// How many were to be undone.
+        /// Number of moves that should be undone.
         asked: u64,
-        /// How many there are.
+        /// Number of moves in the journal.
         moves: u64,
     },
     /// One of the places was never made.
@@ -58,12 +56,12 @@ pub enum UndoError {
 #[non_exhaustive]
 pub enum JournalError {
     /// There is no observer to begin with.
-    #[error("the journal's beginning fits no observer")]
+    #[error("no observer can begin as the journal does")]
     Start(#[from] StartError),
     /// A move is invalid.
     #[error("move {number} of the journal is refused")]
     Move {
-        /// Which, from 1.
+        /// Number of the move, from 1.
         number: usize,
         /// The underlying error.
         source: ObservedMoveError,
@@ -71,13 +69,13 @@ pub enum JournalError {
 }
 
 impl Observer {
-    /// Returns what the observer was told so far, or `None` if no journal is kept.
+    /// Returns all input so far, or `None` if no journal is kept.
     #[must_use]
     pub fn journal(&self) -> Option<&Journal> {
         (self.config.journal == JournalLength::All).then_some(&self.journal)
     }
 
-    /// Returns an observer that was told all that a journal holds. O(moves).
+    /// Returns an observer with all input of a journal. O(moves).
     ///
     /// # Errors
     /// [`JournalError`] if the journal does not fit the configuration.
@@ -91,11 +89,11 @@ impl Observer {
         Ok(observer)
     }
 
-    /// Takes the last moves back: everything is as it was before them, to the bit. O(moves), since
-    /// those before them are gone through again.
+    /// Takes the last moves back: everything is as it was before them, bit for bit. O(moves), since
+    /// the earlier ones are replayed.
     ///
     /// # Errors
-    /// [`UndoError`] if no journal is kept or it has not that many moves.
+    /// [`UndoError`] if no journal is kept or it does not have that many moves.
     pub fn undo(&mut self, moves: u64) -> Result<(), UndoError> {
         let mut journal = self.journal().ok_or(UndoError::NoJournal)?.clone();
         let length = journal.moves.len() as u64;
@@ -110,9 +108,8 @@ impl Observer {
         Ok(())
     }
 
-    /// Takes back that two places were taken for one: all moves are gone through again, with the
-    /// knowledge that the two are different. Of `merged` in a
-    /// [`Restructured::Merged`](super::Restructured::Merged) this is the undoing of that one
+    /// Undoes the merge of two places: replays all moves, knowing that the two are different. For
+    /// `merged` of a [`Restructured::Merged`](super::Restructured::Merged) it undoes that one
     /// decision. Places made later may get other ids. O(moves).
     ///
     /// # Errors

@@ -1,5 +1,5 @@
-//! What new places teach of looks, and which places are noted since they look alike. Beyond the
-//! paper.
+//! What new places teach about looks, and which places are noted because they look alike. Beyond
+//! the paper.
 
 use alloc::vec::Vec;
 
@@ -9,11 +9,11 @@ use super::{
 };
 
 impl Observer {
-    /// A place is new: which of those around it are different for certain, and whether they look
-    /// like it.
+    /// Learns from a new place: which places around it are certainly different, and whether they
+    /// look like it.
     ///
-    /// O(a search) a place if looks are used, amortized; where looks have begun to tell more, what
-    /// is noted is weighed again.
+    /// Amortized cost: one search per place if looks are used. Once looks tell more, the notes are
+    /// weighed again.
     pub(super) fn learn_looks(&mut self, place: PlaceId, view: &Signature, hints: &mut Hints) {
         if self.config.restructuring.look_merge == Use::Off {
             return;

@@ -1,38 +1,39 @@
-/// What the map itself has learned of how well looks tell places apart.
+/// What the map has learned of how well looks tell places apart.
 ///
 /// Beyond the paper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Looks {
-    /// Looks that were unlike all that were known when they were met.
+    /// Number of looks that were unlike all that were known when they were met.
     pub kinds: u32,
-    /// Pairs of places of which geometry has told that they are two.
+    /// Number of pairs of places that geometry has told apart.
     pub different: u32,
-    /// Those of them that look alike.
+    /// Number of these pairs that look alike.
     pub deceiving: u32,
-    /// Those of them of which neighbours by the same action are known.
+    /// Number of these alike pairs with known neighbours along the same action.
     pub followed: u32,
-    /// Those of them whose neighbours look alike, too.
+    /// Number of these pairs whose neighbours look alike, too.
     pub repeating: u32,
-    /// Places before this id were held against all that look like them.
+    /// Places before this id were compared with all that look like them.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) noted: usize,
-    /// The fewest kinds of looks so far that would do for a merge where geometry knows nothing.
+    /// The fewest kinds of looks so far that are enough for a merge where geometry knows nothing.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) least_wanted: Option<usize>,
 }
 
 impl Looks {
-    /// Returns how many kinds of looks have to agree before the chance that all of them do by
-    /// chance is below `error`; `None` if there are not as many kinds. O(kinds²).
+    /// Returns the number of kinds of looks that have to agree, such that a coincidence of all is
+    /// less likely than `error`. `None` if there are not as many kinds. O(kinds²).
     ///
-    /// For places whose looks have nothing to do with their neighbours', how often two look alike,
-    /// p, has a beta distribution by the pairs that were seen (Jeffreys' prior), and the chance of
-    /// k in a row is the mean of pᵏ. Where looks repeat, room for room, those that deceive have
-    /// neighbours that deceive, and it is at least the power of how often that was met.
+    /// If the looks of a place are independent of its neighbours', the rate p at which two look
+    /// alike has a beta distribution by the pairs seen (Jeffreys' prior). The probability of k
+    /// coincidences in a row is then the mean of pᵏ. Where looks repeat, room for room, places that
+    /// deceive have neighbours that deceive. So the probability is at least the power of the rate
+    /// seen there.
     ///
-    /// A true place may be many places of a map that is not yet folded, whose pairs are no evidence
-    /// of their own: all pairs count for as many as the kinds of looks make.
+    /// A true place may be many places of a map that is not yet folded, whose pairs are not
+    /// independent evidence. All pairs therefore count for no more than the kinds of looks allow.
     pub(super) fn enough(&self, error: f64) -> Option<usize> {
         (1..=self.kinds as usize).find(|agreeing| self.chance(*agreeing) < error)
     }
@@ -72,8 +73,8 @@ impl Looks {
 
     /// Counts two places that geometry has told apart.
     ///
-    /// Of two that look alike, `neighbours` says how two look that the same action leads from or
-    /// to, if any are known.
+    /// `neighbours`, used if the two look alike, says how the places look that the same action
+    /// leads from or to, if any are known.
     pub(super) fn count(&mut self, look: Similarity, neighbours: Option<Similarity>) {
         self.different = self.different.saturating_add(1);
         if look == Similarity::Unlike {

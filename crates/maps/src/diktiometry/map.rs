@@ -20,17 +20,17 @@ pub struct Diktiometry {
     pub looks: Looks,
 }
 
-/// Where a place is drawn.
+/// Position at which a place is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawnPlace {
     /// The place.
     pub place: PlaceId,
-    /// What is known of its position, m: it is drawn in the middle.
+    /// Bounds of its position, m; it is drawn in the middle.
     pub bounds: PointBox,
 }
 
-/// What the two graphs promise and do not keep. [`Diktiometry::check`] finds none, whatever the
-/// robot tells.
+/// A broken invariant of the two graphs. [`Diktiometry::check`] finds none, whatever the robot's
+/// input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Flaw {
@@ -77,9 +77,9 @@ impl Diktiometry {
         Some(self.reference.known(start, end)? + to - from)
     }
 
-    /// Returns all places that can be reached from `origin` in the reference graph, where they are
-    /// for the eye: as seen from `origin`, which is at (0, 0). By id. O(frames · degree · log
-    /// frames + places · log places).
+    /// Returns all places that can be reached from `origin` in the reference graph, by id, with
+    /// positions relative to `origin` for drawing. O(frames · degree · log frames + places · log
+    /// places).
     #[must_use]
     pub fn layout(&self, origin: PlaceId) -> Vec<DrawnPlace> {
         let Some(origin) = self.paths.resolve(origin) else {

@@ -2,12 +2,12 @@ use thiserror::Error;
 
 use super::{Config, Journal, JournalError, Observer};
 
-/// An observer as it lies in a file: the journal, from which everything follows to the bit. Any
-/// format of serde's will do.
+/// Contents of an observer's file: the journal, from which all follows bit for bit. Works with any
+/// format of serde's.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MapFile {
     config: Config,
-    /// How many moves the journal has: a journal that was cut off has fewer.
+    /// Number of moves in the journal; a truncated journal has fewer.
     moves: usize,
     journal: Journal,
 }
@@ -20,11 +20,11 @@ pub enum MapFileError {
     #[error("no journal was kept; set `journal` of the configuration to `All`")]
     NoJournal,
     /// Moves are missing.
-    #[error("the journal was cut off: {found} of {expected} moves are there")]
+    #[error("the journal is cut off: it has {found} of {expected} moves; copy the file again")]
     Truncated {
-        /// How many there should be.
+        /// Number the file promises.
         expected: usize,
-        /// How many there are.
+        /// Number found.
         found: usize,
     },
     /// The journal cannot be replayed.

@@ -54,8 +54,8 @@ impl Mapper for Observer {
         self.tracks().iter().map(guess).collect()
     }
 
-    /// Returns how likely the map is right by what speaks against it
-    /// ([`SelfCheck`](super::SelfCheck)). By the paper's rule of matching it does not ask.
+    /// Returns the probability that the map is right, by its [`SelfCheck`](super::SelfCheck).
+    /// `None` by the paper's rule of matching, which does not ask.
     fn certainty(&self) -> Option<f64> {
         match self.config().matching.identity {
             Identity::Certain => Some(self.self_check().certainty()),

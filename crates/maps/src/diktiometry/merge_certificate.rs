@@ -1,20 +1,20 @@
-//! Certificates: why two nodes of the map are one place, in a form that somebody else can check.
+//! Certificates: evidence that two nodes of the map are one place, for others to check.
 //!
-//! Beyond the paper. A merge rests on one of two grounds, and on what is told of the robot and the
-//! world ([`Config`]):
+//! Beyond the paper. A merge rests on one of two grounds, and on the assumptions about the robot
+//! and the world in [`Config`]:
 //!
-//! - *bounds* ([`MergeProof::Bounds`]): routes through the journal bring the two so near to each
-//!   other that no two places are. A proof, as long as the bounds of odometry hold, places are
-//!   δ_sep apart in the sense of [`Apart`](super::Apart), and corridors are as straight as told;
+//! - *bounds* ([`MergeProof::Bounds`]): routes through the journal bring the two nearer to each
+//!   other than two places can be. It is a proof as long as the bounds of odometry hold, places are
+//!   δ_sep apart in the sense of [`Apart`](super::Apart), and corridors are as straight as stated;
 //! - *looks* ([`MergeProof::Looks`]): the two look alike, and so do the places that the same
-//!   actions lead to. A chance of being wrong, stated.
+//!   actions lead to. It states the probability of being wrong.
 //!
 //! A proof by bounds may lead through places that are one by looks. It is then no surer than these,
 //! and says so ([`MergeCertificate::rests_on_looks`]).
 //!
 //! In a [static](super::WorldKind::Static) world an action leads from a place to one place and its
-//! reverse from there back. What follows from that is known without a route; a move along a way
-//! that was gone before has no certificate.
+//! reverse from there back. What follows from that is known without a route. A move along a way
+//! that was taken before has no certificate.
 //!
 //! [`certify_merges`] goes through a journal and has a certificate for each merge that the map
 //! made; [`verify_merges`] checks certificates against the journal, and knows nothing of the map.
@@ -53,7 +53,7 @@ pub struct MergeCertificate {
     pub proof: MergeProof,
     /// Whether it is by looks, or leads through places that are one by an earlier one that is.
     pub rests_on_looks: bool,
-    /// A checksum of all that, so that one that was changed is told from one that is wrong.
+    /// Checksum of all fields, which tells a changed certificate from a wrong one.
     pub seal: u64,
 }
 
@@ -79,14 +79,14 @@ pub struct JournalSpan {
     pub end: usize,
 }
 
-/// How far looks agree.
+/// Agreement of the looks.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LookEvidence {
     /// Pairs of visits that look alike; the first pair is at the two places.
     pub pairs: Vec<LookPair>,
-    /// How well looks tell places apart, as the map had counted. The checker takes these counts as
-    /// they are told.
+    /// The map's counts of how well looks tell places apart. The checker takes these counts as
+    /// given.
     pub looks: Looks,
     /// The chance that they agree so far at two places, 0 … 1.
     pub chance: f64,
@@ -126,8 +126,8 @@ impl JournalSpan {
         }
     }
 
-    /// Returns the box of the displacement between the places at its ends, m; `None` if there are
-    /// no such moves, too many, or one of them was blocked.
+    /// Returns the box of the displacement between the places at its ends, m. `None` if such moves
+    /// do not exist, are too many, or one of them was blocked.
     fn displacement(self, moves: &[ObservedMove], config: &Config) -> Option<PointBox> {
         if self.end < self.begin {
             return Some(-self.reversed().displacement(moves, config)?);

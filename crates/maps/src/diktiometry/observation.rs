@@ -1,4 +1,4 @@
-//! What the robot tells its observer.
+//! Input of an observer.
 
 use alloc::vec::Vec;
 
@@ -6,22 +6,22 @@ use tolman_geom::PoseBox;
 
 use super::{Action, Signature};
 
-/// One move: "a sequence of actions ending with the robot in a distinguished place", told after it
-/// ended.
+/// One move: "a sequence of actions ending with the robot in a distinguished place", reported at
+/// its end.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ObservedMove {
     /// The control routine.
     pub action: Action,
-    /// The displacement from where the move began to where it ended, along the axes of the compass
-    /// (x east, y north), m, and the heading by the compass, rad: bounds that hold the truth.
+    /// Bounds that hold the truth: the displacement of the move along the axes of the compass (x
+    /// east, y north), m, and the heading by the compass, rad.
     ///
-    /// A robot whose odometry is in its own axes turns it by its compass:
+    /// A robot with odometry in its own axes turns it by its compass:
     /// `PoseBox::new(PointBox::ORIGIN, heading).transform(displacement)`.
     pub odometry: PoseBox,
-    /// What the place looks like that it ended at.
+    /// View of the place where it ended.
     pub percept: Option<Signature>,
-    /// What could be tried there.
+    /// Actions that could be tried there.
     pub exits: Exits,
     /// How it ended.
     pub outcome: MoveOutcome,
@@ -37,8 +37,8 @@ pub enum MoveOutcome {
     Blocked,
 }
 
-/// Which actions the robot sees that it could try. It serves plans, advice and the counts of links;
-/// no place is recognized by it.
+/// Actions that the robot sees it could try. Used for plans, advice and the counts of links, never
+/// to recognize a place.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Exits {
@@ -60,12 +60,12 @@ impl Exits {
     }
 }
 
-/// How the robot begins: what it sees of the first place.
+/// What the robot sees of the first place.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FirstPlace {
-    /// What it looks like.
+    /// View of the place.
     pub percept: Option<Signature>,
-    /// What could be tried.
+    /// Actions that could be tried.
     pub exits: Exits,
 }

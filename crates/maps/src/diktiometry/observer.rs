@@ -10,13 +10,12 @@ use super::{
     deposit, remember, restructure, steps_along,
 };
 
-/// The adaptive state-space model: an observer that any robot can feed, and that drives none.
+/// The adaptive state-space model: an observer of any robot's moves, which drives none.
 ///
-/// Each [`step`](Self::step) is the loop of the paper's figure 1: the *estimator* (projector,
-/// indexer, matching engine) finds where every track is, the *adapter* (updater, restructurer)
-/// changes the map by it. A planner asks [`tracks`](Self::tracks), [`predict`](Self::predict),
-/// [`plan`](Self::plan) and [`opportunities`](Self::opportunities), and does with the answers what
-/// it likes.
+/// Each [`step`](Self::step) is the loop of the paper's figure 1. The *estimator* (projector,
+/// indexer, matching engine) finds where every track is; the *adapter* (updater, restructurer)
+/// changes the map. A planner asks [`tracks`](Self::tracks), [`predict`](Self::predict),
+/// [`plan`](Self::plan) and [`opportunities`](Self::opportunities).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observer {
     pub(super) config: Config,
@@ -75,13 +74,13 @@ impl Observer {
         &self.map
     }
 
-    /// Returns what it was told at first.
+    /// Returns the configuration it was made with.
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config
     }
 
-    /// Moves taken in so far.
+    /// Returns the number of moves taken in so far.
     #[must_use]
     pub const fn moves(&self) -> u64 {
         self.map.paths.now
@@ -119,10 +118,10 @@ impl Observer {
             .collect()
     }
 
-    /// Returns the actions from one place to another that are the likeliest to lead there and few,
-    /// along links that probably work now ([`PathGraph::likely`](super::PathGraph::likely)); the
-    /// fewest where the world never changed. Empty if both are one, or `None` if no way is known.
-    /// O(places + links · (degree + log links)).
+    /// Returns the actions from one place to another that are likeliest to lead there and few. They
+    /// follow links that probably work now ([`PathGraph::likely`](super::PathGraph::likely)). In a
+    /// world that never changed they are the fewest. Empty if both are one place, `None` if no way
+    /// is known. O(places + links · (degree + log links)).
     #[must_use]
     pub fn plan(&self, from: PlaceId, to: PlaceId) -> Option<Vec<PlanStep>> {
         let from = self.map.paths.resolve(from)?;
@@ -170,7 +169,7 @@ impl Observer {
         check_exits(&self.config, &step.exits)
     }
 
-    /// The robot is where it was, and now knows that the action leads nowhere.
+    /// Takes in a move that was blocked: the robot is where it was, and the action leads nowhere.
     fn blocked(&mut self, step: &ObservedMove, report: &mut StepReport) {
         let here = self.place();
         self.block(here, step.action);
@@ -215,8 +214,8 @@ impl Observer {
         report.tracks = lines.collect();
     }
 
-    /// Returns where one place lies as seen from another by what is known of their two frames, m;
-    /// by a search only if they are not related.
+    /// Returns the position of one place relative to another, m: from the relation of their frames,
+    /// or else by a search.
     pub(super) fn motion(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
         self.map
             .related(from, to)

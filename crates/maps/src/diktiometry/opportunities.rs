@@ -13,20 +13,20 @@ use super::{Action, Link, Observer, PlaceId, PlanStep, Use};
 /// particular situations".
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opportunity {
-    /// What it is good for.
+    /// Its purpose.
     pub kind: OpportunityKind,
     /// The place it is about.
     pub place: PlaceId,
     /// The actions, from where the best track is now; never empty.
     pub script: Vec<Action>,
-    /// What is to be won, in links: 1 for a new one, less for one that is known better afterwards.
+    /// Expected gain in links: 1 for a new one, less for better knowledge of a known one.
     pub gain: f64,
-    /// What it costs: moves.
+    /// Cost in moves.
     pub cost: f64,
 }
 
-/// What a new link is worth where the place may be another, which may have it already: less than a
-/// few walks round the loop that would tell.
+/// Gain of a new link at a place that may be another one, which may have the link already. It is
+/// less than that of a few walks round the loop that would tell.
 const IN_DOUBT: f64 = 0.03;
 
 /// The kinds of scripts.
@@ -45,7 +45,7 @@ pub enum OpportunityKind {
 }
 
 impl Opportunity {
-    /// Returns what is won per move: the scripts are offered in this order.
+    /// Returns the gain per move; scripts are offered in this order.
     #[must_use]
     pub fn worth(&self) -> f64 {
         self.gain / self.cost
@@ -166,8 +166,8 @@ impl Observer {
         OpportunityKind::CloseLoop.offer(other, script, gain)
     }
 
-    /// Returns how many walks along a script there would be: the first tells most, and what did not
-    /// help often will not help, so that no script is preferred forever.
+    /// Returns the number of walks along a script if it is taken once more. The first walk tells
+    /// most, so no script is preferred forever.
     fn walks(&self, script: &[Action]) -> f64 {
         let paths = &self.map.paths;
         let links = script.iter().scan(self.place(), |at, action| {
@@ -188,8 +188,8 @@ impl Observer {
     }
 
     /// Returns whether a robot that goes along a link and back is recognized where it began, by
-    /// geometry alone: after a longer way it might be at a place of its own, and going back would
-    /// make one more place that nobody can tell.
+    /// geometry alone. After a longer way it might be at another place, and going back would add a
+    /// place that cannot be told apart.
     fn is_proved_by_return(&self, link: &Link) -> bool {
         self.map.related(link.from, link.to).is_some_and(|there| {
             // Another measurement within the same bounds: there and back are off by the box's width
@@ -199,16 +199,16 @@ impl Observer {
         })
     }
 
-    /// Returns how well the displacement between two linked places is known: the box's longer side,
-    /// m.
+    /// Returns the uncertainty of the displacement between two linked places: the box's longer
+    /// side, m.
     fn width(&self, from: PlaceId, to: PlaceId) -> Option<f64> {
         self.map.related(from, to).map(PointBox::width)
     }
 }
 
-/// The ways that scripts take: those a plan may follow and, where the robot came along a link, the
-/// action back, if it was never tried and its end will be recognized. The world may have no such
-/// way; a script may fail.
+/// The ways that scripts take: those a plan may follow, and the untried action back along the
+/// robot's last link, if its end will be recognized. The world may lack such a way; a script may
+/// fail.
 struct Walkable<'a>(&'a Observer);
 
 impl Walkable<'_> {

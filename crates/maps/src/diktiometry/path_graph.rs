@@ -16,14 +16,14 @@ pub struct Place {
     pub fate: Fate,
     /// The frame its position is given in.
     pub frame: FrameId,
-    /// Where it is in its frame, m.
+    /// Bounds of its position in its frame, m.
     pub position: PointBox,
     /// The *nominal envelope*: the least box that holds all estimates that its position was updated
     /// with, m.
     pub envelope: PointBox,
-    /// Where it seemed to be, weighted, m.
+    /// Weighted estimates of its position, m.
     pub estims: Vec<Estim>,
-    /// What it looks like.
+    /// Views of it.
     pub views: Vec<Signature>,
     /// Links that leave it, by id.
     pub outgoing: Vec<LinkId>,
@@ -33,15 +33,15 @@ pub struct Place {
     pub blocked: Vec<Action>,
     /// Actions that the robot said it could try when it was last here.
     pub exits: Exits,
-    /// How often the robot was thought to be here.
+    /// Number of times that the robot was thought to be here.
     pub visits: u32,
-    /// How often it was expected to be here, and how often of these it was.
+    /// Number of times that the robot was expected here, and that it was.
     pub counts: Counts,
     /// Whether it was there when it was last expected, and how often that changed.
     pub constancy: Constancy,
     /// Histories of tracks left here, the oldest first.
     pub histories: Vec<Vec<TrackEntry>>,
-    /// Delayed gratification: what is to be decided once more is known.
+    /// Delayed gratification: decisions put off until more is known.
     pub notes: Vec<MergeNote>,
 }
 
@@ -66,8 +66,8 @@ impl Place {
         }
     }
 
-    /// Returns whether an action could be tried here when the robot last was here, by what it saw
-    /// and what came of it.
+    /// Returns whether an action could be tried here on the robot's last visit, by what it saw and
+    /// by the outcome.
     #[must_use]
     pub fn is_open(&self, action: Action) -> bool {
         self.exits.allow(action) && !self.blocked.contains(&action)
@@ -79,7 +79,7 @@ impl Place {
     }
 }
 
-/// What became of a place.
+/// State of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
     /// It is part of the map.
@@ -93,9 +93,9 @@ pub enum Fate {
 /// "A weighted point-estimate of the place's position (in its canonical reference frame)."
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estim {
-    /// Where, m.
+    /// Position, m.
     pub position: Point,
-    /// How many estimates it stands for.
+    /// Number of estimates merged into it.
     pub weight: f64,
 }
 
@@ -113,9 +113,9 @@ impl Estim {
 /// more looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MergeNote {
-    /// The place that may be the same as the one the note is left at.
+    /// The place that may be the same as the one with the note.
     pub other: PlaceId,
-    /// Reason why it may be.
+    /// Reason for the suspicion.
     pub ground: Ground,
 }
 
@@ -124,7 +124,7 @@ pub struct MergeNote {
 pub enum Ground {
     /// Their boxes meet.
     Position,
-    /// They look alike, however far apart they may be.
+    /// They look alike, however far apart.
     Look,
 }
 
@@ -132,19 +132,19 @@ pub enum Ground {
 /// action.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// Where it begins.
+    /// Place where it begins.
     pub from: PlaceId,
     /// The action.
     pub action: Action,
-    /// Where it leads.
+    /// Place where it leads.
     pub to: PlaceId,
-    /// How often the robot is thought to have gone along it.
+    /// Number of times that the robot is thought to have gone along it.
     pub traversed: u32,
-    /// How often it was expected to, and how often of these it did.
+    /// Number of times that the robot was expected to go along it, and that it did.
     pub counts: Counts,
     /// Whether it worked when it was last expected to, and how often that changed.
     pub constancy: Constancy,
-    /// Which link was taken after it, and how often.
+    /// Links taken after it, with counts.
     pub then: Vec<Successor>,
     /// Whether it is still part of the map.
     pub standing: LinkStatus,
@@ -167,12 +167,12 @@ impl Link {
     }
 }
 
-/// How often a link was followed by another.
+/// Count of how often a link was followed by another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Successor {
     /// The link taken next.
     pub link: LinkId,
-    /// How often.
+    /// Number of times.
     pub count: u32,
 }
 
@@ -190,7 +190,7 @@ pub enum LinkStatus {
 pub struct PathGraph {
     pub(super) places: Vec<Place>,
     pub(super) links: Vec<Link>,
-    /// How many of the places stand.
+    /// Number of places that stand.
     standing: usize,
     /// Moves so far.
     pub(super) now: u64,
@@ -221,8 +221,8 @@ impl PathGraph {
         all.filter(|(_, link)| link.standing == LinkStatus::Standing)
     }
 
-    /// Returns what a place is called now, after all merges, or `None` if it was elided or never
-    /// was.
+    /// Returns the present id of a place, after all merges; `None` if it was elided or never
+    /// existed.
     #[must_use]
     pub fn resolve(&self, mut id: PlaceId) -> Option<PlaceId> {
         loop {
@@ -279,8 +279,8 @@ impl PathGraph {
         })
     }
 
-    /// Returns the chance that a link leads now where it led: as long as it and the place at its
-    /// end are constant, by the less likely of both. 0 for ids never given.
+    /// Returns the probability that a link still leads where it led: the smaller of the constancies
+    /// of the link and of the place at its end. 0 for ids that were never given.
     #[must_use]
     pub fn chance(&self, id: LinkId) -> f64 {
         let Some(link) = self.link(id) else {
@@ -290,8 +290,8 @@ impl PathGraph {
         link.constancy.chance(self.now).min(there)
     }
 
-    /// Returns the links that are most likely to work now, of each action at a place the one; of
-    /// equals the one that was met more often lately, then the older.
+    /// Returns, for each action at a place, the link that most probably works now. Of equals it is
+    /// the one met more often lately, then the older one.
     pub fn likely(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
         self.outgoing(place).filter(move |(id, link)| {
             let along = self.along(place, link.action);
@@ -323,7 +323,7 @@ impl PathGraph {
         core::mem::replace(place, grave)
     }
 
-    /// Notes at both of two places that they may be one.
+    /// Notes at both places that they may be one.
     pub(super) fn note(&mut self, a: PlaceId, b: PlaceId, ground: Ground) {
         for (at, other) in [(a, b), (b, a)] {
             let notes = &mut self.places[at.index()].notes;
@@ -341,7 +341,7 @@ impl PathGraph {
         self.standing
     }
 
-    /// Returns the link for an action between two places, made where there is none.
+    /// Returns the link for an action between two places, which is made if it does not exist.
     pub(super) fn link_to(&mut self, from: PlaceId, action: Action, to: PlaceId) -> LinkId {
         if let Some(known) = self.between(from, action, to) {
             return known;
@@ -373,12 +373,12 @@ impl PathGraph {
     }
 }
 
-/// For planning: from every place, each action along the link that is most likely to work now. The
-/// nodes are the ids of places.
+/// Graph for planning: from every place, each action along the link that most probably works now.
+/// The nodes are the ids of places.
 ///
-/// A move costs `MOVE`; that it may fail costs as much as going `FAILURE` moves about, for each
-/// factor of e by which it makes the plan less likely to work. Where the world never changed, the
-/// cheapest plan has the fewest moves.
+/// A move costs `MOVE`. Risk costs as much as `FAILURE` moves for each factor of e by which the
+/// move makes the plan less likely to work. In a world that never changed, the cheapest plan has
+/// the fewest moves.
 impl Graph for PathGraph {
     fn node_count(&self) -> usize {
         self.places.len()

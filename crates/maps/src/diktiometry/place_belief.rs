@@ -5,11 +5,11 @@ use super::{
     Action, Exits, FirstPlace, MoveOutcome, ObservedMove, Observer, PlaceId, agrees, share_a_view,
 };
 
-/// Where on a learned map a robot may be that was put down anywhere: the chance of each place.
+/// Probability of each place of a learned map for a robot that was put down anywhere.
 ///
-/// What the robot sees and does makes some places likelier. Those that it contradicts are dropped.
-/// A robot that finds itself where the map did not lead is looked for everywhere again. The map is
-/// only read.
+/// What the robot sees and does makes some places likelier. Places that it contradicts are dropped.
+/// If the robot is where the map did not lead, all places are considered again. The map is only
+/// read.
 ///
 /// Beyond the paper, whose tracks begin at a known place: a histogram filter over places (S. Thrun,
 /// W. Burgard, D. Fox, *Probabilistic Robotics*, 2005, section 8.2).
@@ -40,8 +40,8 @@ const LEAST: f64 = 1e-4;
 const PAIRS: usize = 20_000;
 
 impl PlaceBelief {
-    /// Returns what a robot believes that was put down at a place of the map of `observer`, and
-    /// sees it. O(places).
+    /// Returns the belief of a robot that was put down on the map of `observer` and has the view
+    /// `seen`. O(places).
     #[must_use]
     pub fn put_down(observer: &Observer, seen: &FirstPlace) -> Self {
         let places = observer.map.paths.places();
@@ -82,8 +82,8 @@ impl PlaceBelief {
         }
     }
 
-    /// Multiplies the chance of each place by what `likelihood` says of it, 0 … 1, and drops those
-    /// that have become too unlikely. If nothing is likely, the belief stays as it was.
+    /// Multiplies the probability of each place by its `likelihood`, 0 to 1, and drops those that
+    /// have become too unlikely. If nothing is likely, the belief stays as it was.
     pub fn weigh(&mut self, likelihood: impl Fn(PlaceId) -> f64) {
         let weighed = self.chances.iter();
         let weighed = weighed.map(|(place, chance)| (*place, chance * likelihood(*place)));
@@ -102,8 +102,8 @@ impl PlaceBelief {
         }
     }
 
-    /// Returns the places where the robot may be with their chances, which sum to 1, the likeliest
-    /// first, of equals the older.
+    /// Returns the possible places with their probabilities, which sum to 1; the likeliest first,
+    /// of equals the older.
     #[must_use]
     pub fn places(&self) -> Vec<(PlaceId, f64)> {
         let mut places: Vec<(PlaceId, f64)> =
@@ -112,9 +112,9 @@ impl PlaceBelief {
         places
     }
 
-    /// Returns the action with which the shortest way begins that tells the two likeliest places
-    /// apart by what the map has of them; `None` if there is only one, or nothing on the map tells
-    /// them apart. Breadth-first over pairs of places, 20,000 at most.
+    /// Returns the first action of the shortest script that tells the two likeliest places apart on
+    /// the map. `None` if there is only one place, or nothing on the map tells them apart.
+    /// Breadth-first over at most 20,000 pairs of places.
     #[must_use]
     pub fn telling_action(&self, observer: &Observer) -> Option<Action> {
         let places = self.places();
@@ -140,9 +140,9 @@ impl PlaceBelief {
     }
 }
 
-/// What becomes of two places where a robot may be by one action.
+/// Result of one action from two possible places.
 enum Pair {
-    /// What happens tells them apart.
+    /// The outcome tells them apart.
     ToldApart,
     /// It may now be at these two.
     At((PlaceId, PlaceId)),

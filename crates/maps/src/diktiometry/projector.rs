@@ -2,8 +2,8 @@ use tolman_geom::{Interval, Point, PointBox};
 
 use super::{Action, CompassAxis, Config, FrameId, ObservedMove, Observer, PlaceId, Track};
 
-/// Where a track would be after a move, before anything is recognized: the projector "predicts new
-/// states given old state estimates and control inputs".
+/// Predicted position of a track after a move, before anything is recognized: the projector
+/// "predicts new states given old state estimates and control inputs".
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Projection {
     /// The place that was left.
@@ -57,7 +57,8 @@ impl Config {
         way.intersection(cut).unwrap_or(way)
     }
 
-    /// The robot's displacement is the places' up to where in the places it stopped.
+    /// Returns the displacement between places: the robot's, widened by where in the places it
+    /// stopped.
     pub(super) fn between_places(&self, robot: PointBox) -> PointBox {
         let Ok(stops) = Interval::about(0.0, 2.0 * self.place_radius) else {
             return robot; // Its radius was checked to be a number, and not negative.

@@ -16,21 +16,21 @@ pub(super) use search::{Reached, search};
 pub struct Frame {
     /// The places whose position is given in it, by id.
     pub places: Vec<PlaceId>,
-    /// What is known of other frames, by their id; each is kept from both sides.
+    /// Relations to other frames, by their id; each is stored on both sides.
     pub relations: Vec<Relation>,
-    /// How well its area is known.
+    /// Traversals of its area.
     pub grid: CoverageGrid,
 }
 
 impl Frame {
-    /// Returns the number of the relation to a frame, or the one that it would have.
+    /// Returns the index of the relation to a frame, or the index at which it would be inserted.
     fn find(&self, to: FrameId) -> Result<usize, usize> {
         self.relations
             .binary_search_by_key(&to, |relation| relation.to)
     }
 }
 
-/// What is known of where another frame lies.
+/// Bounds of another frame's position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relation {
     /// The other frame.
@@ -39,7 +39,7 @@ pub struct Relation {
     pub position: PointBox,
     /// The least box that holds all estimates, m.
     pub envelope: PointBox,
-    /// How many estimates there were.
+    /// Number of estimates.
     pub estimates: u32,
 }
 
@@ -47,9 +47,9 @@ pub struct Relation {
 /// were confused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excluded {
-    /// What was known, m.
+    /// Bounds known before, m.
     pub known: PointBox,
-    /// What came, m.
+    /// The new estimate, m.
     pub estimate: PointBox,
 }
 

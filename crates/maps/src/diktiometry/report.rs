@@ -1,4 +1,4 @@
-//! What the observer answers.
+//! Output of the observer.
 
 use alloc::vec::Vec;
 
@@ -6,45 +6,45 @@ use tolman_geom::PointBox;
 
 use super::{Action, LinkId, Matcher, PlaceId, TrackId};
 
-/// What became of a move.
+/// Result of a move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepReport {
     /// Number of the move, from 1.
     pub number: u64,
     /// Every track that lives on, the best first.
     pub tracks: Vec<TrackReport>,
-    /// What cannot all be true, with the culprit. Nothing is narrowed by it.
+    /// Contradictions, each with its culprit. They narrow nothing.
     pub contradictions: Vec<Contradiction>,
-    /// How the map was restructured, in this order.
+    /// Changes of the map, in order.
     pub restructured: Vec<Restructured>,
 }
 
-/// What became of a track.
+/// Result of a move for one track.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrackReport {
-    /// Which.
+    /// Id of the track.
     pub track: TrackId,
-    /// Where it was.
+    /// Place where it was.
     pub from: PlaceId,
-    /// How it came to its place, or `None` if the move was blocked.
+    /// Matcher by which it came to its place, or `None` if the move was blocked.
     pub matcher: Option<Matcher>,
-    /// Where it is.
+    /// Place where it is.
     pub place: PlaceId,
-    /// How far it is trusted, 0 … 1.
+    /// Confidence in the track, 0 to 1.
     pub confidence: f64,
-    /// What the map predicted before the move.
+    /// The map's prediction before the move.
     pub predicted: Option<Predicted>,
-    /// How the map has the move now that it is updated: from the place it was to the one it is, m,
-    /// or `None` if it knows no way in the reference graph.
+    /// Displacement of the move by the updated map, from `from` to `place`, m. `None` if no way
+    /// through the reference graph is known.
     pub motion: Option<PointBox>,
 }
 
-/// What the map expects of an action at a place.
+/// Prediction of the map for an action at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Predicted {
-    /// Where it leads.
+    /// Place where it leads.
     pub place: PlaceId,
-    /// How probable that is, by the counts of the links; those of an action at a place sum to 1.
+    /// Its probability, by the counts of the links; those of an action at a place sum to 1.
     pub probability: f64,
     /// The displacement there, m, or `None` if the reference graph does not relate the two.
     pub displacement: Option<PointBox>,
@@ -70,11 +70,11 @@ pub enum Culprit {
     Link(LinkId),
     /// A link that should have led to its place, which looks different.
     Look(LinkId),
-    /// What is known of two places that the robot was recognized at.
+    /// The bounds of the relation between two places at which the robot was recognized.
     Relation {
-        /// Where the move began.
+        /// Place where the move began.
         from: PlaceId,
-        /// Where it ended.
+        /// Place where it ended.
         to: PlaceId,
     },
 }
@@ -84,16 +84,16 @@ pub enum Culprit {
 pub enum Restructured {
     /// Two places turned out to be one.
     Merged {
-        /// What remains.
+        /// The place that remains.
         kept: PlaceId,
-        /// What is now called the same.
+        /// The place that is now another name for it.
         merged: PlaceId,
     },
     /// One place turned out to be two.
     Split {
-        /// What remains.
+        /// The place that remains.
         kept: PlaceId,
-        /// What is new.
+        /// The new place.
         new: PlaceId,
     },
     /// A place turned out not to exist.
@@ -105,8 +105,8 @@ pub enum Restructured {
 /// One action of a plan: of a way over known links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlanStep {
-    /// What to do.
+    /// Action to take.
     pub action: Action,
-    /// Where it most often led.
+    /// Place where it most often led.
     pub to: PlaceId,
 }

@@ -19,7 +19,7 @@ pub(super) use look_agreement::{learn_of_two, wanted_anywhere};
 pub(super) use non_local_path::deposit;
 pub(super) use transients::elide_place;
 
-/// What a restructurer says of a diagnosis.
+/// A restructurer's opinion of a diagnosis.
 ///
 /// "If a diagnosis of either monotopy or polytopy is proposed by at least one restructurer, and is
 /// not rejected by any, we accept the diagnosis."
@@ -50,15 +50,15 @@ enum Diagnosis {
         /// The point of the new one.
         leaves: Estim,
     },
-    /// What follows depends on how the robot came.
+    /// The continuation depends on how the robot came.
     Links {
         /// The links that lead to the new place.
         incoming: Vec<LinkId>,
     },
 }
 
-/// Returns whether a diagnosis is accepted: proposed by one, rejected by none. Nobody is asked
-/// after the first rejection.
+/// Returns whether a diagnosis is accepted: proposed by one, rejected by none. Stops at the first
+/// rejection.
 fn accepted(verdicts: impl IntoIterator<Item = Verdict>) -> bool {
     let mut proposed = false;
     for verdict in verdicts {
@@ -71,7 +71,7 @@ fn accepted(verdicts: impl IntoIterator<Item = Verdict>) -> bool {
     proposed
 }
 
-/// Where something changed that may settle what was put off.
+/// Places with changes that may settle an open decision.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Hints {
     /// Places whose relations to their neighbours changed.
@@ -88,9 +88,9 @@ impl Hints {
     }
 }
 
-/// Restructures the map where the updater hints at, and where this in turn changes something: "it
-/// can be advantageous for the updater to inform the restructuring module when it performs an
-/// update". Places that tracks are at (`occupied`) are never elided.
+/// Restructures the map where the updater hints, and where this in turn changes something. Returns
+/// the changes. "It can be advantageous for the updater to inform the restructuring module when it
+/// performs an update". Places with tracks (`occupied`) are never elided.
 pub(super) fn restructure(
     map: &mut Diktiometry,
     config: &Config,
@@ -155,7 +155,7 @@ fn separates(map: &Diktiometry, distinction: &Distinction, pair: &geometric::Pai
     ends == [Some(pair.a), Some(pair.b)] || ends == [Some(pair.b), Some(pair.a)]
 }
 
-/// What a restructurer says of two places being one.
+/// A restructurer's opinion whether two places are one.
 type Restructurer = fn(&Diktiometry, &geometric::Pair, &Config) -> Verdict;
 
 /// They are asked one by one, as far as need be.
@@ -168,8 +168,8 @@ const RESTRUCTURERS: [Restructurer; 6] = [
     look_agreement::merge,
 ];
 
-/// Places that look different are not one. But what stands where nothing else can looks new, and is
-/// the same.
+/// Rejects places that look different. The exception: a place with room for no other looks new, and
+/// is the same.
 fn views_differ(map: &Diktiometry, pair: &geometric::Pair, config: &Config) -> Verdict {
     let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
     let settled = || {
@@ -183,9 +183,8 @@ fn views_differ(map: &Diktiometry, pair: &geometric::Pair, config: &Config) -> V
     }
 }
 
-/// Returns what is proposed for a place that is two. Neither restructurer has grounds to reject
-/// what the other sees: places at one point may behave differently, and places that behave alike
-/// may be apart.
+/// Returns the proposal to split a place. Neither restructurer has grounds to reject the other's:
+/// places at one point may behave differently, and places that behave alike may be apart.
 fn split_diagnosis(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     geometric::split(map, place, config).or_else(|| local_path::split(map, place, config))
 }

@@ -12,17 +12,17 @@ use super::{
 /// Pairs of places that are compared at most before two are taken for different.
 const COMPARED: usize = 256;
 
-/// What a map says against itself, without any truth: counts of places.
+/// Signs in the map itself that it is wrong, found without the truth: counts of places.
 ///
-/// Beyond the paper. A map that is not folded has places which may be one with others; one in which
-/// two places were confused has ways that lead to two places. See [`Self::certainty`].
+/// Beyond the paper. A map that is not folded has places that may be one with others. A map in
+/// which two places were confused has actions that lead to two places. See [`Self::certainty`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SelfCheck {
     /// Places of the map.
     pub places: usize,
-    /// Those of them that may be one with another: the bounds leave room for that, they look alike,
-    /// and so does all that follows along the same actions.
+    /// Number of places that may be one with another: the bounds allow it, they look alike, and so
+    /// does all that follows along the same actions.
     pub doubtful: usize,
     /// Those of them from where an action of a static world leads to two places, or not back.
     pub torn: usize,
@@ -30,7 +30,7 @@ pub struct SelfCheck {
     pub open: usize,
 }
 
-/// What a map is, as far as it can tell itself.
+/// State of a map, as far as it can tell itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapState {
     /// Nothing speaks against it, and nothing is left to try.
@@ -39,7 +39,7 @@ pub enum MapState {
     Unfinished,
     /// Some places may be one, and it cannot tell which.
     Unfolded,
-    /// It contradicts itself: two places were confused, or what was told of the robot is not true.
+    /// It contradicts itself: two places were confused, or an assumption about the robot is wrong.
     Contradictory,
 }
 
@@ -48,7 +48,7 @@ pub enum MapState {
 const ERROR: f64 = 0.01;
 
 impl SelfCheck {
-    /// Returns how likely the map is right as far as the robot has been, 0 … 1.
+    /// Returns the probability that the map is right as far as the robot has been, 0 to 1.
     #[must_use]
     pub fn certainty(&self) -> f64 {
         match self.state() {
@@ -77,7 +77,7 @@ impl SelfCheck {
         }
     }
 
-    /// Returns what it is most likely.
+    /// Returns the most likely state of the map.
     #[must_use]
     pub const fn state(&self) -> MapState {
         match self {

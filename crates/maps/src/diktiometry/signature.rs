@@ -2,9 +2,9 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
-/// What a place looks like: an image signature, "an array of values, each computed by a measurement
-/// function from a subset of the image". Columns stand side by side around the robot,
-/// counter-clockwise from the north or, without a compass, from wherever the robot looked.
+/// The look of a place: an image signature, "an array of values, each computed by a measurement
+/// function from a subset of the image". Columns run around the robot, counter-clockwise from north
+/// or, without a compass, from the robot's heading.
 ///
 /// Source: paper, *Perceptual Indexing*.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Signature {
     values: Vec<f64>,
 }
 
-/// A signature as it lies in a file.
+/// A signature as read from a file, unchecked.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 struct Unchecked {
@@ -101,7 +101,7 @@ impl Signature {
         self.rows
     }
 
-    /// Returns how many columns there are.
+    /// Returns the number of columns.
     #[must_use]
     pub const fn columns(&self) -> usize {
         self.values.len() / self.rows
@@ -114,8 +114,8 @@ impl Signature {
         self.values.get(from..from + self.rows).unwrap_or_default()
     }
 
-    /// Returns how many columns differ nowhere by more than `tolerance` from those of `other`,
-    /// which is turned by `offset` columns: column c is compared with column c + offset there.
+    /// Returns the number of columns that differ by no more than `tolerance` in any row from those
+    /// of `other` rotated by `offset` columns: column c is compared with column c + offset there.
     pub(super) fn agreement(&self, other: &Self, offset: usize, tolerance: f64) -> usize {
         let columns = self.columns();
         (0..columns)

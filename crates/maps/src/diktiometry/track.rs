@@ -13,15 +13,15 @@ use super::{
 pub struct Track {
     /// Its name.
     pub id: TrackId,
-    /// Where the robot is if the track is right.
+    /// The robot's place if the track is right.
     pub place: PlaceId,
-    /// How far it is trusted, 0 … 1; by its recent matches.
+    /// Confidence by its recent matches, 0 to 1.
     pub confidence: f64,
     /// The link it came along, or `None` where it began or came along none.
     pub link: Option<LinkId>,
     /// Distance gone since the last CONTINUE, m.
     pub astray: f64,
-    /// What it matched lately, the newest last.
+    /// Its latest matches, the newest last.
     pub history: Vec<TrackEntry>,
     /// Frames that its position tells something about.
     pub active: Vec<ActiveFrame>,
@@ -36,7 +36,7 @@ pub struct TrackEntry {
     pub action: Option<Action>,
     /// Places that "were considered as matches but rejected" and could be the same still.
     pub doubts: Vec<PlaceId>,
-    /// How the robot has moved since, by odometry, m; unbounded if something on the way is
+    /// Displacement of the robot since then by odometry, m; unbounded if something on the way is
     /// doubtful.
     pub since: PointBox,
 }

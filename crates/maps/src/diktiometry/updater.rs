@@ -33,8 +33,8 @@ impl Observer {
         link
     }
 
-    /// An action led nowhere: no plan uses it until it leads somewhere again, and the links it
-    /// should have gone along were expected in vain.
+    /// Takes in that an action led nowhere. No plan uses it until it leads somewhere again, and its
+    /// links were expected in vain.
     pub(super) fn block(&mut self, from: PlaceId, action: Action) {
         let blocked = &mut self.map.place_mut(from).blocked;
         if !blocked.contains(&action) {
@@ -43,12 +43,12 @@ impl Observer {
         self.expect(from, action, None);
     }
 
-    /// Narrows what is known of two places by an estimate of the displacement between them: the box
-    /// of the second by that of the first (as in the paper) and back.
+    /// Narrows the bounds of two places by an estimate of the displacement between them: the
+    /// second's box by the first's (as in the paper) and back.
     ///
     /// # Errors
-    /// [`Excluded`] if it contradicts what is known of the two frames; the boxes then stay as they
-    /// were.
+    /// [`Excluded`] if it contradicts the known relation of the two frames; the boxes then stay as
+    /// they were.
     pub(super) fn narrow(
         &mut self,
         from: PlaceId,
@@ -66,8 +66,7 @@ impl Observer {
         Ok(())
     }
 
-    /// The robot saw which actions could be tried at a place: links of all others were expected
-    /// there in vain.
+    /// Takes in which actions could be tried at a place: links of all others were expected in vain.
     pub(super) fn see_exits(&mut self, place: PlaceId, exits: &Exits) {
         if *exits == Exits::Unknown {
             return;
@@ -96,8 +95,8 @@ impl Observer {
         self.map.place_mut(place).exits = exits.clone();
     }
 
-    /// Counts that the links of an action, and the places they lead to, were expected, and that one
-    /// of them, if any, was met: the one `taken`, on a way of that displacement.
+    /// Counts that the links of an action, and the places they lead to, were expected. If one was
+    /// met, it is `taken`: the link and the displacement of the move.
     fn expect(&mut self, from: PlaceId, action: Action, taken: Option<(LinkId, PointBox)>) {
         let (fading, now) = (self.config.transients.fading, self.map.paths.now);
         let along = self.map.paths.along(from, action);
@@ -118,9 +117,9 @@ impl Observer {
         }
     }
 
-    /// Returns whether a way from a place ends before another place: two places are δ_sep apart, so
-    /// that it ends before it, and not there, if it is shorter by more than half of that. By the
-    /// middles of the boxes, along ways that do not turn.
+    /// Returns whether a way from a place ends before another place. It does if it is shorter by
+    /// more than half of δ_sep, as two places are δ_sep apart. By the middles of the boxes, along
+    /// straight ways.
     fn ends_before(&self, from: PlaceId, place: PlaceId, way: PointBox) -> bool {
         let length = |displacement: PointBox| displacement.middle().coords.norm();
         let there = self.map.related(from, place);
@@ -134,9 +133,8 @@ fn contract(place: &mut Place, estimate: PointBox) {
     }
 }
 
-/// Takes an estimate of a place's position into its nominal envelope and, if it is not too wide to
-/// tell one place from the next, its estims: the middle of a wide box is no point where the place
-/// was seen.
+/// Adds an estimate of a place's position to its nominal envelope. Adds it to its estims only if it
+/// is narrow enough to tell one place from the next: the middle of a wide box is no observation.
 fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
     place.envelope = place.envelope.hull(robot);
     if robot.width() > separation {
@@ -149,11 +147,11 @@ fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
     merge_estims(&mut place.estims, separation);
 }
 
-/// "All estims within δ_sep of each other are merged, with new positions gotten by weighted
-/// averaging, and new weights the sum of the component's weights."
+/// Merges estims: "All estims within δ_sep of each other are merged, with new positions gotten by
+/// weighted averaging, and new weights the sum of the component's weights."
 ///
-/// Averaging lets an estim swallow a mode exactly δ_sep away, so estims merge within half of it,
-/// the closest pair first, of equal pairs the older.
+/// Averaging lets an estim swallow a mode exactly δ_sep away. Estims therefore merge within half of
+/// it, the closest pair first, of equal pairs the older.
 pub(super) fn merge_estims(estims: &mut Vec<Estim>, separation: f64) {
     loop {
         let pairs =

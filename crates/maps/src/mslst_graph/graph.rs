@@ -4,7 +4,7 @@ use thiserror::Error;
 use tolman_maze::Direction;
 use tolman_planners::{Graph, path_to, steps_from};
 
-/// Where a node was made.
+/// Zone in which a node was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -51,19 +51,21 @@ pub enum GraphError {
     /// More nodes than ids.
     #[error("the graph has {count} nodes, more than there are ids: learn a shorter one")]
     TooMany {
-        /// How many.
+        /// Number of nodes in the file.
         count: usize,
     },
     /// An edge leads to a node that is not there.
-    #[error("node {node}: its {action} edge leads to node {head}, and there are only {count}")]
+    #[error(
+        "node {node}: its {action} edge leads to node {head}, which does not exist; there are {count} nodes"
+    )]
     NoSuchNode {
         /// The node.
         node: u32,
         /// The edge's action.
         action: Direction,
-        /// Where it leads.
+        /// Node to which it leads.
         head: u32,
-        /// How many nodes there are.
+        /// Number of nodes.
         count: u32,
     },
     /// An edge is not entered both ways.
@@ -76,7 +78,7 @@ pub enum GraphError {
         node: u32,
         /// The edge's action.
         action: Direction,
-        /// Where it leads.
+        /// Node to which it leads.
         head: u32,
     },
     /// Two edges of a node cannot be told apart.
@@ -93,9 +95,9 @@ pub enum GraphError {
 
 /// The finished graph of Phase II. Nodes are numbered from 0 in the order they were made.
 ///
-/// Every edge between nodes is entered both ways with opposite actions. Two edges of a node that
-/// bear one action lead to nodes of different states, so that an action and the state it led to
-/// name at most one edge.
+/// Every edge between nodes is stored both ways with opposite actions. Two edges of a node with the
+/// same action lead to nodes of different states. So an action and the state it led to name at most
+/// one edge.
 ///
 /// With the feature `serde` it is saved as its nodes. Reading checks them as
 /// [`from_nodes`](Self::from_nodes) does.
@@ -109,7 +111,7 @@ pub struct MslstGraph {
     distances: Vec<Option<u32>>,
 }
 
-/// A graph as it lies in a file.
+/// A graph as read from a file, unchecked.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -136,8 +138,9 @@ impl MslstGraph {
         Ok(Self::finished(nodes))
     }
 
-    /// "When the graph-building is complete, we calculate the length of the path from each node to
-    /// the nearest destination node … and store it."
+    /// Returns the finished graph, with distances: "When the graph-building is complete, we
+    /// calculate the length of the path from each node to the nearest destination node … and store
+    /// it."
     pub(super) fn finished(nodes: Vec<Node>) -> Self {
         let mut graph = Self {
             nodes,
@@ -192,8 +195,8 @@ impl MslstGraph {
             .is_some_and(|node| node.zone == NodeZone::Destination)
     }
 
-    /// Actions from a node to the nearest destination node, or `None` where the graph has no
-    /// destination.
+    /// Returns the number of actions from a node to the nearest destination node, or `None` if the
+    /// graph has no destination.
     #[must_use]
     pub fn distance(&self, id: u32) -> Option<u32> {
         self.distances.get(id as usize).copied().flatten()
@@ -205,13 +208,13 @@ impl MslstGraph {
         follow(&self.nodes, id, action, state)
     }
 
-    /// "A simple breadth first search along the graph, then … a list of the values of the edges
-    /// connecting the source node to the destination node": the actions of a shortest path from a
-    /// node to the nearest destination node, empty at one. Ties go to edges that were entered
-    /// earlier.
+    /// Returns the actions of a shortest path from a node to the nearest destination node; empty at
+    /// one. "A simple breadth first search along the graph, then … a list of the values of the
+    /// edges connecting the source node to the destination node". Ties go to edges that were
+    /// entered earlier.
     ///
-    /// The path begins with none of the actions that just `failed` ("not allowing the first action
-    /// to be equal to the one that failed (this results in a longer path)"), or `None` if there is
+    /// The path does not begin with an action that just `failed`: "not allowing the first action to
+    /// be equal to the one that failed (this results in a longer path)". Returns `None` if there is
     /// no such path. O(nodes + edges).
     #[must_use]
     pub fn path_to_destination(&self, id: u32, failed: &[Direction]) -> Option<Vec<Direction>> {

@@ -27,7 +27,7 @@ impl GraphMapper {
         }
     }
 
-    /// Returns an action succeeded and led to `state`. Returns the node the robot is at now.
+    /// Takes in a successful action that led to `state`. Returns the node the robot is at now.
     ///
     /// "If the last high-level action succeeded, then normally it adds a node to the graph with the
     /// current state, and connects it to the previous one with the action that it just completed …
@@ -35,10 +35,10 @@ impl GraphMapper {
     /// before, instead of adding a new node it traces the graph back to the old node and when it
     /// eventually reaches a new state it adds on from there."
     ///
-    /// Since edges are entered both ways, whoever reverses an action finds the edge back. An edge
-    /// of this action to a node of this state is therefore all there is to look for; and as a new
-    /// node hangs on one edge, only the exact reverse of the actions that led away from a node
-    /// leads back to it. O(degree of the node).
+    /// Edges are stored both ways, so a reversed action finds the edge back. It is enough to look
+    /// for an edge of this action to a node of this state. A new node hangs on one edge, so only
+    /// the exact reverse of the actions that led away from a node leads back to it. O(degree of the
+    /// node).
     pub fn succeeded(&mut self, action: Direction, state: u32, zone: NodeZone) -> u32 {
         if let Some(known) = follow(&self.nodes, self.at, action, state) {
             self.at = known;
@@ -62,8 +62,8 @@ impl GraphMapper {
         new
     }
 
-    /// "If the last action failed, then it adds a connection from the previous node to the dummy
-    /// node." One that is there already is not added again.
+    /// Takes in a failed action: "If the last action failed, then it adds a connection from the
+    /// previous node to the dummy node." A connection that exists is not added again.
     pub fn failed(&mut self, action: Direction) {
         let failure = ActionEdge { action, head: None };
         if !self.nodes[self.at as usize].edges.contains(&failure) {

@@ -3,14 +3,14 @@ use alloc::vec::Vec;
 use super::graph::MslstGraph;
 use super::memory::Memory;
 
-/// Where on the graph the robot may be.
+/// Nodes of the graph at which the robot may be.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Localization {
     /// The best match, or `None` if no node has the robot's state.
     pub node: Option<u32>,
     /// All nodes that were left when the search ended, by id.
     pub candidates: Vec<u32>,
-    /// How many experiences they match, from the newest on.
+    /// Number of experiences that they match, from the newest on.
     pub matched: usize,
 }
 

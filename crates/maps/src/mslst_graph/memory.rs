@@ -39,7 +39,7 @@ impl Memory {
         });
     }
 
-    /// An action succeeded and led to `state`. Failed actions are not told.
+    /// Takes in a successful action that led to `state`. Failed actions are not remembered.
     pub fn moved(&mut self, action: Direction, state: u32) {
         self.experiences.push_back(Experience {
             action: Some(action),

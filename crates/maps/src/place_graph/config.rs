@@ -1,6 +1,6 @@
 use crate::pose_graph::OptimizerConfig;
 
-/// How places are kept and recognized.
+/// Parameters by which places are kept and recognized.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlaceGraphConfig {
@@ -19,15 +19,15 @@ pub struct PlaceGraphConfig {
     pub most_doubt: f64,
     /// Most hypotheses of where a lost robot is.
     pub most_hypotheses: usize,
-    /// How often the graph is optimized, in new places.
+    /// Number of new places between two optimizations of the graph.
     pub optimize_every: u32,
-    /// How.
+    /// Parameters of these optimizations.
     pub optimizer: OptimizerConfig,
 }
 
 impl PlaceGraphConfig {
-    /// Returns our values, for rooms and robots of some metres: tried in arenas of 3 to 7 m, with
-    /// wheels 3 % out of calibration 0.32 m apart.
+    /// Returns our values for rooms and robots of some metres. They were tried in arenas of 3 to 7
+    /// m, with wheels 0.32 m apart and 3 % out of calibration.
     #[must_use]
     pub const fn indoors() -> Self {
         Self {

@@ -11,7 +11,7 @@ use super::surfaces::{CELL, Surface};
 use super::{Outline, OutlinePoint};
 use crate::tangent::{difference, moved};
 
-/// Where a robot is that sees an outline.
+/// Pose of a robot that sees an outline, found by fitting it to the map.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fit {
     /// Its pose, by the map and by its wheels.
@@ -20,13 +20,13 @@ pub(super) struct Fit {
     pub(super) information: Matrix3<f64>,
     /// The same with what the wheels say.
     pub(super) covariance: Matrix3<f64>,
-    /// How far it is from where the wheels had it: a squared distance in standard deviations.
+    /// Squared distance from the pose by the wheels, in standard deviations.
     pub(super) surprise: f64,
     /// The share of the outline's points that lie on surfaces of the map.
     pub(super) share: f64,
     /// The share of them that lie where the map has surfaces of other colours or directions alone.
     pub(super) contradicted: f64,
-    /// How likely such a view is here: the logarithm, but for a constant.
+    /// Log-likelihood of such a view here, up to a constant.
     pub(super) likelihood: f64,
     /// Information by the place that first saw the surfaces.
     pub(super) by_place: BTreeMap<u32, f64>,
@@ -39,7 +39,7 @@ const ROUNDS: u32 = 8;
 const FIRST_GATE: f64 = 0.5;
 /// … and within this at last.
 const LAST_GATE: f64 = 0.12;
-/// What the gate is multiplied by from round to round.
+/// Factor of the gate from round to round.
 const GATE_SHRINKS: f64 = 0.75;
 
 /// Surfaces of colours farther apart are not the same; light changes.
@@ -60,11 +60,11 @@ const CONE_SLACK: f64 = 0.03;
 /// Points of one outline err together: each brings this share of what it would alone.
 const INDEPENDENT: f64 = 0.3;
 
-/// An arc, which may be a miss or another's echo, says this much beside a point.
+/// Weight of an arc relative to a point; an arc may be a miss or another sonar's echo.
 const ARC_SHARE: f64 = 0.5;
 
-/// One residual: how far a measurement is from the map, in standard deviations, and how that
-/// changes with the pose.
+/// One residual: the distance of a measurement from the map, in standard deviations, and its
+/// derivative by the pose.
 struct Residual {
     off: f64,
     by_pose: Vector3<f64>,
@@ -72,11 +72,11 @@ struct Residual {
     share: f64,
 }
 
-/// What is left out lies farther than what matters by this much at least, m: no rounding brings it
-/// back.
+/// Minimum margin by which left-out surfaces lie beyond those that matter, m, whatever the
+/// rounding.
 const SLACK: f64 = 1e-6;
 
-/// How far from the robot surfaces can matter to an outline, m.
+/// Distances from the robot within which surfaces can matter to an outline, m.
 struct Reach {
     points: f64,
     arcs: f64,
@@ -96,7 +96,8 @@ impl Reach {
     }
 }
 
-/// Returns a point's surface is looked for within this distance, m: what is far is seen vaguely.
+/// Returns the distance within which a point's surface is searched, m; it grows with the point's
+/// deviation.
 fn gate_of(point: &OutlinePoint, gate: f64) -> f64 {
     gate + 2.0 * point.deviation
 }
@@ -183,8 +184,8 @@ fn residuals(outline: &Outline, surfaces: &[&Surface], pose: Pose, gate: f64) ->
     points.chain(arcs).collect()
 }
 
-/// Returns how far a point lies off the nearest surface of its colour and direction, along the
-/// surface's normal.
+/// Returns the residual of a point: its distance from the nearest surface of its colour and
+/// direction, along the surface's normal.
 fn of_point(
     point: &OutlinePoint,
     surfaces: &[&Surface],
@@ -323,7 +324,7 @@ fn left(pose: Pose) -> Vector {
     pose.heading.rotate(Vector::new(0.0, 1.0))
 }
 
-/// JᵀWJ and JᵀWr.
+/// Returns JᵀWJ and JᵀWr.
 fn normal_equations(residuals: &[Residual]) -> (Matrix3<f64>, Vector3<f64>) {
     let mut information = Matrix3::zeros();
     let mut pull = Vector3::zeros();
@@ -342,7 +343,8 @@ fn normal_equations(residuals: &[Residual]) -> (Matrix3<f64>, Vector3<f64>) {
     (information, pull)
 }
 
-/// Returns what was found counts by how far it is off; what was not, as far off.
+/// Returns the log-likelihood of an outline. Points that were found count by their residuals,
+/// others as the worst residual.
 fn likelihood(outline: &Outline, residuals: &[Residual]) -> f64 {
     let worst = MOST_OFF * MOST_OFF;
     let of = outline.points.len() as f64 + ARC_SHARE * outline.arcs.len() as f64;

@@ -5,12 +5,10 @@ use tolman_robot::Picture;
 
 use super::OutlinePoint;
 
-/// Returns where things stand on the floor in a picture: in each column, the first row from below
-/// that does not look like the floor below it. Points come in order of bearing, in the robot's
-/// frame. O(pixels).
+/// Returns where things stand on the floor in a picture, in order of bearing, in the robot's frame.
+/// In each column it is the first row from below that differs from the floor below it. O(pixels).
 ///
-/// A column whose floor goes on to the horizon, or in which the floor does not show at all, has
-/// none.
+/// A column has no point if its floor reaches the horizon, or if no floor shows in it.
 #[must_use]
 pub fn foot_line(picture: &Picture) -> Vec<OutlinePoint> {
     let columns = (0..picture.width).step_by(picture.width.div_ceil(MOST_COLUMNS).max(1) as usize);

@@ -14,11 +14,11 @@ use super::{Outline, PlaceGraphConfig};
 use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
 use crate::tangent::difference;
 
-/// What a robot has seen where it stands, and how it came there.
+/// What a robot has seen where it stands, and the way that led there.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SeenThere {
-    /// What its wheels rolled since it looked before, step by step.
+    /// Odometry of its wheels since its last look, step by step.
     pub rolled: Vec<Odometry>,
     /// What it perceives.
     pub snapshot: Snapshot,
@@ -39,7 +39,7 @@ pub struct SeenThere {
 )]
 pub struct PlaceGraph {
     pub(super) config: PlaceGraphConfig,
-    /// What is seen from each place.
+    /// Outline seen from each place.
     pub(super) places: Vec<Outline>,
     pub(super) graph: PoseGraph,
     /// Places that the robot went between, the lower one first.
@@ -55,7 +55,7 @@ pub struct PlaceGraph {
     relaxes_at: usize,
 }
 
-/// What is known of where the robot is.
+/// What is known of the robot's pose.
 #[derive(Clone, Debug)]
 enum Whereabouts {
     /// It has not looked yet.
@@ -75,7 +75,7 @@ struct Here {
     last: u32,
     since: Pose,
     since_covariance: Matrix3<f64>,
-    /// How much of what it has seen lately contradicts the map, in looks.
+    /// Evidence of its latest looks against the map, in looks.
     doubt: f64,
 }
 
@@ -86,7 +86,7 @@ pub enum PlaceGraphError {
     /// A number of the odometry is not finite.
     #[error("step {step} of the odometry is not finite: leave it out")]
     Odometry {
-        /// Which, counted from 0.
+        /// Number of the step, from 0.
         step: usize,
     },
     /// An edge between two places cannot be kept.
@@ -153,9 +153,8 @@ impl PlaceGraph {
         map.put_down(true)
     }
 
-    /// Returns the map with another robot in it, whose wheels are not known and which may be
-    /// anywhere, and which adds new places only if `grows`. An empty map begins where the robot
-    /// looks first, whether it grows or not.
+    /// Returns the map with another robot on it, whose wheels and pose are unknown. The robot adds
+    /// new places only if `grows`. An empty map begins where the robot looks first, in any case.
     #[must_use]
     pub fn put_down(mut self, grows: bool) -> Self {
         self.wheels =
@@ -447,7 +446,7 @@ impl PlaceGraph {
     }
 }
 
-/// Variances of where a robot is beside a place by which it was recognized, m and rad: fits of
+/// Returns the variances of a robot's pose beside a place that was recognized, m² and rad²: fits of
 /// neighbouring places err together.
 const fn beside_a_place() -> Vector3<f64> {
     Vector3::new(0.05 * 0.05, 0.05 * 0.05, 0.04 * 0.04)
@@ -460,7 +459,7 @@ const USUAL_CONTRADICTION: f64 = 0.08;
 /// rejected.
 const MOST_SURPRISE: f64 = 16.0;
 
-/// An outline of fewer points says nothing by itself.
+/// Minimum number of points of an outline that is evidence by itself.
 const LEAST_POINTS: usize = 8;
 
 /// Returns the places that saw the surfaces of a fit first, each with its share of the information,

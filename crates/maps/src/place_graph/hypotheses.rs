@@ -1,4 +1,4 @@
-//! Where the robot may be.
+//! Hypotheses of the robot's pose.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -13,18 +13,18 @@ use super::surfaces::Surface;
 use super::wheels::Rolled;
 use crate::tangent::difference;
 
-/// One place where the robot may be.
+/// One possible pose of the robot.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Hypothesis {
     pub(super) pose: Pose,
     pub(super) covariance: Matrix3<f64>,
-    /// The logarithm of how likely it is, but for a constant.
+    /// Log-probability, up to a constant.
     score: f64,
-    /// How often the robot has looked since it was made.
+    /// Number of the robot's looks since it was made.
     pub(super) looks: u32,
 }
 
-/// How uncertain a hypothesis is at first: it stands where another place was seen from. m and rad.
+/// Initial standard deviations of a hypothesis, m and rad: it starts where a place was seen from.
 const SPREAD: (f64, f64) = (0.25, 0.25);
 
 /// Number of directions that hypotheses look into, wherever a place lies.
@@ -39,16 +39,16 @@ const HOPELESS: f64 = 12.0;
 /// Two that are nearer are one, m and rad.
 const SAME: (f64, f64) = (0.2, 0.2);
 
-/// What was seen before counts this much less with each look: no map is quite right.
+/// Factor by which earlier looks weigh less after each look, as no map is quite right.
 const FORGETS: f64 = 0.95;
 
-/// What is seen counts this much of what a right map would make of it.
+/// Weight of a look's evidence, relative to that for a map without errors.
 const BELIEVES: f64 = 0.3;
 
 /// Log-likelihood (natural) that a hypothesis loses by a look that the map contradicts altogether.
 const REFUTES: f64 = 6.0;
 
-/// How much likelier the pose that was held is than any other, as a logarithm.
+/// Bonus of the pose that was held over any other, as a log-likelihood.
 const HELD: f64 = 5.0;
 
 /// Returns hypotheses all round at each of `places`.
@@ -100,7 +100,7 @@ pub(super) fn looked(
     kept
 }
 
-/// Returns how much each is believed.
+/// Returns the probability of each hypothesis.
 pub(super) fn weights(hypotheses: &[Hypothesis]) -> Vec<f64> {
     let best = hypotheses
         .first()

@@ -5,7 +5,7 @@ use tolman_robot::{Snapshot, Sounding};
 
 use super::foot_line;
 
-/// What a snapshot shows of the things round the robot, in the robot's frame.
+/// The shape of the things round the robot in a snapshot, in the robot's frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Outline {
@@ -13,7 +13,7 @@ pub struct Outline {
     pub points: Vec<OutlinePoint>,
     /// Readings of sensors that hear in a cone, as far as they met something.
     pub arcs: Vec<Sounding>,
-    /// Where surfaces are that face such a sensor: it heard them nearer than its neighbours did.
+    /// Surfaces that face a range sensor, which heard them nearer than its neighbours did.
     pub faced: Vec<OutlinePoint>,
 }
 
@@ -21,7 +21,7 @@ pub struct Outline {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OutlinePoint {
-    /// Where, m.
+    /// Position, m.
     pub position: Point,
     /// The direction in which its surface looks, a unit vector towards the robot; `None` where its
     /// neighbours tell none.
@@ -74,7 +74,7 @@ impl Outline {
 /// A surface that is farther may face another sensor as well, m.
 const FACED_WITHIN: f64 = 3.0;
 
-/// Standard deviation of how far away a faced surface is: m, and by range.
+/// Standard deviation of the distance of a faced surface: m, and per metre of range.
 const FACED_DEVIATION: (f64, f64) = (0.02, 0.01);
 
 /// Returns the surfaces that face a sonar: those that it hears nearer than both its neighbours do.
@@ -133,8 +133,8 @@ fn find_normals(points: &mut [OutlinePoint]) {
     }
 }
 
-/// Returns the normal of the line through a point and as many neighbours on either side as belong
-/// to it; `None` if they lie on none.
+/// Returns the normal of the line through a point and up to `beside` neighbours on either side;
+/// `None` if they do not lie on a line.
 fn normal(points: &[OutlinePoint], index: usize, beside: usize) -> Option<Vector> {
     let around = neighbours(points, index, beside)?;
     let line = Line::through(around)?;
@@ -201,6 +201,5 @@ impl Line {
     }
 }
 
-/// The mean squared distance of points from their line, in what they err by, above which they are
-/// on none.
+/// Maximum mean squared distance of points from their line, in variances of the points.
 const MOST_BENT: f64 = 1.5;

@@ -10,11 +10,10 @@ use crate::pose_graph::{PoseEdge, PoseGraph, PoseGraphError};
 const FORMAT: &str = "tolman-place-graph";
 const VERSION: u32 = 1;
 
-/// A place graph as it lies in a file; any format of serde's will do. What is known of the robot in
-/// it is left out: the map comes back as one on which a robot was [put down](PlaceGraph::put_down)
-/// anywhere, and grows.
+/// Contents of a place graph's file; works with any format of serde's. The robot's pose is left
+/// out: the map comes back with a robot [put down](PlaceGraph::put_down) anywhere on it, and grows.
 ///
-/// [`PlaceGraph`] itself is serialized as this, and refuses to be made of what is invalid.
+/// [`PlaceGraph`] itself is serialized as this, and refuses invalid contents.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedPlaceGraph {
@@ -51,9 +50,9 @@ pub enum SavedPlaceGraphError {
     /// A number of the configuration has no sense.
     #[error("`{field}` is {value}; give a positive number")]
     Config {
-        /// Which field.
+        /// Name of the field.
         field: &'static str,
-        /// What it says.
+        /// Its value.
         value: f64,
     },
     /// A number of a place is invalid.
@@ -65,7 +64,9 @@ pub enum SavedPlaceGraphError {
         place: usize,
     },
     /// A link joins a place that is not there.
-    #[error("places {from} and {to} are linked, and there are {places}: learn the map again")]
+    #[error(
+        "places {from} and {to} are linked, but the number of places is {places}: learn the map again"
+    )]
     Link {
         /// One end.
         from: u32,

@@ -4,8 +4,8 @@ use tolman_geom::{Point, Pose, Vector};
 
 use super::{Outline, OutlinePoint};
 
-/// What all places together know of the surfaces of things, in the map's frame: little pieces of
-/// them, one for each cell of a grid, direction and colour.
+/// The surfaces of things as seen from all places, in the map's frame. Each is a small piece: one
+/// for each cell of a grid, direction and colour.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Surfaces {
     pieces: BTreeMap<Key, Surface>,
@@ -46,7 +46,7 @@ impl Surface {
         self.has_colour.then_some(self.colour)
     }
 
-    /// Variance of where it lies along its normal, m².
+    /// Returns the variance of its position along its normal, m².
     pub(super) fn variance(&self) -> f64 {
         1.0 / self.weight + LEAST_DEVIATION * LEAST_DEVIATION
     }

@@ -4,15 +4,15 @@ use tolman_robot::Odometry;
 
 use crate::tangent::difference;
 
-/// What is known of the constant error of the wheels: that they are larger or smaller than they
-/// should be, together and one beside the other.
+/// Estimate of the constant errors of the wheels: both larger or smaller than they should be, and
+/// one larger than the other.
 ///
-/// A robot that rolled `distance` and `turn` has truly come `distance` · (1 + scale), and has truly
-/// turned by `turn` · (1 + scale) + `distance` · curvature.
+/// A robot that rolled `distance` and `turn` has truly moved `distance` · (1 + scale), and has
+/// truly turned by `turn` · (1 + scale) + `distance` · curvature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelError {
-    /// The share by which both wheels are too large.
+    /// Share by which both wheels are too large.
     pub scale: f64,
     /// The turn that goes unnoticed, rad per metre.
     pub curvature: f64,
@@ -20,14 +20,14 @@ pub struct WheelError {
     covariance: Matrix2<f64>,
 }
 
-/// Where a robot has come to, by its wheels.
+/// Pose of a robot by its wheels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rolled {
     /// From where it was.
     pub(super) pose: Pose,
     /// Covariance of that, ahead and to the left of it, and of the heading.
     pub(super) covariance: Matrix3<f64>,
-    /// How it changes with scale and curvature.
+    /// Derivative of the pose by scale and curvature.
     by_error: Matrix3x2<f64>,
 }
 
@@ -71,8 +71,8 @@ impl WheelError {
         }
     }
 
-    /// Learns from where the robot was found: `off` from where it was predicted with the covariance
-    /// `before`, known with the covariance `after`, in which the prediction has a part.
+    /// Learns from where the robot was found: `off` from the prediction, whose covariance is
+    /// `before`. The new pose has the covariance `after`, to which the prediction contributes.
     pub(super) fn learn(
         &mut self,
         predicted: &Rolled,

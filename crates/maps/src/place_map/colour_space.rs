@@ -1,4 +1,4 @@
-/// How the colour of a pixel becomes three values.
+/// Conversion of a pixel's colour to three values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -6,9 +6,9 @@
 pub enum ColourSpace {
     /// Red, green and blue, each 0 … 1.
     Rgb,
-    /// Hue, saturation and value, each 0 … 1. Hue is taken plainly, as the paper takes it (section
-    /// 3.4, "Features"): a red just below 1 and a red just above 0 are far apart, although they are
-    /// neighbours on the circle of hues.
+    /// Hue, saturation and value, each 0 to 1. Hue is compared as a plain number, as in the paper
+    /// (section 3.4, "Features"). So a red just below 1 and a red just above 0 are far apart,
+    /// although they are neighbours on the circle of hues.
     Hsv,
 }
 
@@ -22,7 +22,7 @@ impl ColourSpace {
         }
     }
 
-    /// Returns the red, green and blue of three values; what lies beyond 0 … 1 is cut off.
+    /// Returns red, green and blue of three values, which are clamped to 0 to 1.
     ///
     /// ```
     /// use tolman_maps::place_map::ColourSpace;
@@ -41,7 +41,7 @@ impl ColourSpace {
     }
 }
 
-/// Of grey, which has no hue, the hue is 0.
+/// Returns hue, saturation and value; grey, which has no hue, gets 0.
 fn hsv_from_rgb([red, green, blue]: [f32; 3]) -> [f32; 3] {
     let value = red.max(green).max(blue);
     let spread = value - red.min(green).min(blue);
@@ -105,7 +105,7 @@ mod tests {
         }
     }
 
-    /// What the paper lives with, so that nobody takes it for a mistake of ours.
+    /// Shows a property of the paper's hue that may look like a mistake.
     #[test]
     fn plain_hue_tears_red_apart() {
         let [orange, pink] = [[1.0, 0.02, 0.0], [1.0, 0.0, 0.02]].map(|rgb| {

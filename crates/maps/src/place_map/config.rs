@@ -2,17 +2,17 @@ use tolman_quantizers::GngConfig;
 
 use super::FeatureWeights;
 
-/// How a place map learns.
+/// Parameters by which a place map learns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct PlaceMapConfig {
     /// The parameters of the growing neural gas.
     pub gng: GngConfig,
-    /// What each group of features counts for.
+    /// Weight of each group of features.
     pub weights: FeatureWeights,
-    /// How often all records are learned, one by one in their order (default 3: "which was done
-    /// three times each run").
+    /// Number of times that all records are learned in order (default 3: "which was done three
+    /// times each run").
     pub passes: u32,
 }
 
@@ -65,7 +65,7 @@ impl PlaceMapConfig {
         self
     }
 
-    /// Sets how often all records are learned.
+    /// Sets the number of times that all records are learned.
     #[must_use]
     pub const fn with_passes(mut self, passes: u32) -> Self {
         self.passes = passes;

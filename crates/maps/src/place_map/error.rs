@@ -48,9 +48,9 @@ pub enum FeatureError {
     OtherSoundings {
         /// Its number, from 0.
         record: usize,
-        /// How many the first record has.
+        /// Number in the first record.
         expected: usize,
-        /// How many it has.
+        /// Number in this record.
         found: usize,
     },
     /// A range or a position that is NaN or infinite.
@@ -76,13 +76,13 @@ pub enum PlaceMapError {
     /// The features of a record are too large, or the map has no nodes yet.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// What was saved is no network.
+    /// The saved network is invalid.
     #[error(transparent)]
     Network(#[from] SnapshotError),
     /// Two records are needed to begin with.
     #[error("{found} records are too few for a map: give at least two")]
     TooFewRecords {
-        /// How many there are.
+        /// Number found.
         found: usize,
     },
     /// A number of a record that is not there.
@@ -90,15 +90,15 @@ pub enum PlaceMapError {
     NoSuchRecord {
         /// The number.
         record: usize,
-        /// How many there are.
+        /// Number found.
         count: usize,
     },
-    /// What was saved is something else, or of a later version.
+    /// The file is something else, or of a later version.
     #[error(
         "this is {format:?} of version {version} where \"tolman-place-map\" of version 1 was expected"
     )]
     WrongFormat {
-        /// What it says it is.
+        /// Format that the file states.
         format: alloc::string::String,
         /// The version it says.
         version: u32,

@@ -13,42 +13,42 @@ pub enum FeatureGroup {
     Image(ImageFeature),
     /// The range of each sounding, m.
     Sonar,
-    /// Where the odometry has the robot, x and y, m. Its heading is left out, as in the paper.
+    /// Position of the robot by odometry, x and y, m. The heading is left out, as in the paper.
     Odometry,
 }
 
-/// How the values of a group are scaled before its weight counts. One factor serves a whole group,
-/// so x and y keep their ratio and so do the pixels.
+/// Scaling of the values of a group before its weight is applied. A whole group has one factor, so
+/// x and y keep their ratio, and so do pixels.
 ///
-/// The paper does not scale, or does not say so: "the (unmodified) sensor values". Then the unit of
-/// a sensor and the number of its values decide what it counts for, and no weight between 0 and 1
-/// mends it.
+/// The paper does not mention any scaling: "the (unmodified) sensor values". Then the unit of a
+/// sensor and the number of its values decide its influence, and no weight between 0 and 1 corrects
+/// that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum FeatureScaling {
-    /// The squared distance of a group has the same mean for all groups: the variances of its
-    /// values sum up to 1. So a group is one feature of equation 3.1, however many values it has:
-    /// "in the case of a matrix … the distance calculation is a Euclidean distance". The weights of
-    /// Table 3.1, 0.63 for images and 0.33 for odometry, make sense only so.
+    /// All groups have the same mean squared distance: the variances of a group's values add up to
+    /// one. So a group is one feature of equation 3.1, however many values it has: "in the case of
+    /// a matrix … the distance calculation is a Euclidean distance". Only so do the weights of
+    /// Table 3.1, 0.63 for images and 0.33 for odometry, make sense.
     #[default]
     Group,
-    /// The values of a group have a mean variance of 1, so a group counts for as much as it has
-    /// values: 3600 of an image, 2 of the odometry.
+    /// The values of a group have a mean variance of 1. A group's influence is then its number of
+    /// values: 3600 for an image, 2 for the odometry.
     Value,
     /// Values as they are: metres, and colours of 0 … 1.
     Raw,
 }
 
-/// What the features of a place are made of.
+/// Features that describe a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct FeatureChoice {
     /// The groups, in the order of their values; none twice.
     pub groups: Vec<FeatureGroup>,
-    /// How they are scaled.
+    /// Scaling of the groups.
     pub scaling: FeatureScaling,
 }
 
@@ -79,14 +79,13 @@ impl FeatureChoice {
 }
 
 impl Default for FeatureChoice {
-    /// Set 1, the best of Table 4.1.
+    /// Returns set 1, the best of Table 4.1.
     fn default() -> Self {
         Self::paper(ImageFeature::small(ColourSpace::Hsv))
     }
 }
 
-/// What each group counts for: the weights w of equation 3.1. Those of groups that are not chosen
-/// are not read.
+/// Weight of each group: the w of equation 3.1. Weights of groups that are not chosen are ignored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -14,7 +14,7 @@ use super::{FeatureError, FeatureGroup, FeatureWeights, ImageFeature, PlaceRecor
 pub struct FeatureSpace {
     pub(super) parts: Vec<Part>,
     pub(super) camera: Option<PinholeCamera>,
-    /// Where images are told by coordinates instead of by pixels.
+    /// Basis for images that are stored as coordinates instead of pixels.
     pub(super) span: Option<RecordSpan>,
 }
 
@@ -24,9 +24,9 @@ pub struct FeatureSpace {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct Part {
     pub(super) group: FeatureGroup,
-    /// How many values it has in the vector.
+    /// Number of its values in the vector.
     pub(super) len: usize,
-    /// What its values are multiplied by.
+    /// Factor of its values.
     pub(super) scale: f32,
 }
 
@@ -76,7 +76,7 @@ fn picture_of(of: &PlaceRecord, record: usize) -> Result<&Picture, FeatureError>
 }
 
 impl FeatureSpace {
-    /// Returns how many values a vector of features has.
+    /// Returns the number of values in a vector of features.
     #[must_use]
     pub fn dimension(&self) -> usize {
         self.parts.iter().map(|part| part.len).sum()
@@ -85,7 +85,7 @@ impl FeatureSpace {
     /// Returns the features of a record that is in no table.
     ///
     /// # Errors
-    /// If the record lacks what is to be told by, as [`FeatureError`] says; it is called record 0.
+    /// [`FeatureError`] if the record lacks a chosen feature; it is called record 0.
     pub fn features(&self, of: &PlaceRecord) -> Result<Vec<f32>, FeatureError> {
         let mut features = Vec::with_capacity(self.dimension());
         for part in &self.parts {
@@ -169,7 +169,7 @@ impl FeatureSpace {
         Some((feature, values))
     }
 
-    /// Returns the same space with images told by their pixels.
+    /// Returns the same space with images as pixels.
     #[cfg(feature = "serde")]
     pub(super) fn expanded(&self) -> Self {
         let part = |part: &Part| match part.group {
@@ -186,7 +186,7 @@ impl FeatureSpace {
         }
     }
 
-    /// Returns features as they are in the space with images told by their pixels.
+    /// Returns the features in the space with images as pixels.
     #[cfg(feature = "serde")]
     pub(super) fn expand(&self, features: &[f32]) -> Vec<f32> {
         let mut start = 0;

@@ -6,19 +6,19 @@ use super::feature_space::Part;
 use super::record_span::{RecordSpan, Spanned};
 use super::{FeatureChoice, FeatureError, FeatureGroup, FeatureScaling, FeatureSpace, PlaceRecord};
 
-/// How a table tells images.
+/// Form in which a table stores images.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum ImageForm {
     /// By the values of their pixels.
     #[default]
     Pixels,
-    /// By orthonormal coordinates in the span of the images of the table: at most one a record,
-    /// instead of 3600 or 14400 a picture. All distances stay what they are, up to what is left
+    /// As orthonormal coordinates in the span of the table's images: at most one per record,
+    /// instead of 3600 or 14400 values per picture. All distances stay the same, up to what is left
     /// out, and so does every map.
     Span {
-        /// No image may be farther from the span than this share of the images' mean squared
-        /// distance from their mean. 0 leaves nothing out but the rounding of `f32`.
+        /// Maximum distance of an image from the span, as a share of the images' mean squared
+        /// distance from their mean. 0 leaves out only the rounding of `f32`.
         left_out: f64,
     },
 }
@@ -156,8 +156,7 @@ fn of_all(records: &[PlaceRecord], group: FeatureGroup) -> Result<Vec<Vec<f32>>,
     }
 }
 
-/// Returns what the values of a group are multiplied by. A group that does not vary says nothing
-/// and stays as it is.
+/// Returns the factor of a group's values; 1 for a group that does not vary.
 fn scale(values: &[Vec<f32>], scaling: FeatureScaling) -> f32 {
     let len = values.first().map_or(0, Vec::len);
     let variance: f64 = (0..len).map(|index| variance(values, index)).sum();

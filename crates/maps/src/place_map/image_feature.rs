@@ -4,8 +4,8 @@ use tolman_robot::Picture;
 
 use super::ColourSpace;
 
-/// How a picture becomes features: made smaller by averaging boxes of pixels, then converted
-/// (section 3.4, "Features").
+/// Conversion of a picture to features: it is made smaller by averaging boxes of pixels, then
+/// converted (section 3.4, "Features").
 ///
 /// The order is the paper's: "the camera images were reduced in size and converted to hsv". So
 /// boxes are averaged in red, green and blue.
@@ -17,7 +17,7 @@ pub struct ImageFeature {
     pub width: u32,
     /// Pixels down, at least 1.
     pub height: u32,
-    /// What each pixel is told by.
+    /// Colour space of the pixels.
     pub colours: ColourSpace,
 }
 
@@ -42,13 +42,13 @@ impl ImageFeature {
         }
     }
 
-    /// Returns how many values an image has: three a pixel.
+    /// Returns the number of values of an image: three per pixel.
     #[must_use]
     pub const fn len(self) -> usize {
         3 * self.width as usize * self.height as usize
     }
 
-    /// Returns whether an image has no pixels, and so nothing to be told by.
+    /// Returns whether an image has no pixels, and so no values.
     #[must_use]
     pub const fn is_empty(self) -> bool {
         self.len() == 0
@@ -96,7 +96,7 @@ fn boxes(source: u32, target: u32) -> Vec<Vec<Part>> {
     (0..target).map(parts).collect()
 }
 
-/// Red, green and blue of a box, 0 … 1.
+/// Returns the mean red, green and blue of a box, 0 to 1.
 fn mean_colour(picture: &Picture, columns: &[Part], rows: &[Part]) -> [f32; 3] {
     let mut mean = [0.0; 3];
     for (row, down) in rows {

@@ -8,8 +8,8 @@ use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Picture, Position}
 
 use super::{FeatureSpace, FeatureTable, PlaceMapConfig, PlaceMapError, PlaceRecord};
 
-/// A map of places: nodes of a growing neural gas, each the prototype of what was seen, heard and
-/// rolled at some place, and links between neighbours (section 3.4, "Learning").
+/// A map of places (section 3.4, "Learning"). Its nodes are those of a growing neural gas, each the
+/// prototype of what was seen, heard and rolled at some place; links join neighbours.
 ///
 /// It learns a whole table of records ([`learn`](Self::learn)), or one record at a time as a
 /// [`Mapper`].
@@ -134,11 +134,11 @@ impl PlaceMap {
         features + network.edges().count() * size_of::<Edge>()
     }
 
-    /// Returns the node nearest to a record: where the map takes it to have been recorded. O(nodes
-    /// × values).
+    /// Returns the node nearest to a record: the place where the map thinks it was recorded.
+    /// O(nodes × values).
     ///
     /// # Errors
-    /// If the record lacks what places are told by, or the map is empty.
+    /// If the record lacks a chosen feature, or the map is empty.
     pub fn nearest(&self, record: &PlaceRecord) -> Result<UnitId, PlaceMapError> {
         self.nearest_row(&self.space.features(record)?)
     }
@@ -152,9 +152,9 @@ impl PlaceMap {
         Ok(self.gng.nearest(features)?.id)
     }
 
-    /// Returns the node whose learned ranges are nearest to those that are known, m, by their
-    /// squared differences: a record of which only a part was sensed. `None` if no range is known,
-    /// or places are not told by ranges. O(nodes × ranges).
+    /// Returns the node with the learned ranges nearest to the `known` ones, m, by squared
+    /// differences. This serves records with ranges missing. `None` if no range is known, or if
+    /// ranges are not a chosen feature. O(nodes × ranges).
     #[must_use]
     pub fn nearest_by_ranges(&self, known: &[Option<f64>]) -> Option<UnitId> {
         let count = known.iter().flatten().count();
@@ -169,23 +169,23 @@ impl PlaceMap {
         nearest.filter(|_| count > 0).map(|(_, node)| node)
     }
 
-    /// Returns where a node lies, m, in the frame of the odometry: its learned odometry (section
-    /// 3.4, "Learning"). `None` of a node that is not there, or where places are not told by
-    /// odometry.
+    /// Returns the position of a node, m, in the frame of the odometry: its learned odometry
+    /// (section 3.4, "Learning"). `None` if the node does not exist, or odometry is not a chosen
+    /// feature.
     #[must_use]
     pub fn position(&self, node: UnitId) -> Option<Point> {
         self.space.position(&self.features(node)?)
     }
 
-    /// Returns what a node looks like, in red, green and blue: the image that was learned there.
-    /// `None` of a node that is not there, or where places are not told by images.
+    /// Returns the look of a node, in red, green and blue: the image that was learned there. `None`
+    /// if the node does not exist, or images are not a chosen feature.
     #[must_use]
     pub fn picture(&self, node: UnitId) -> Option<Picture> {
         self.space.picture(&self.features(node)?)
     }
 
-    /// Returns the ranges that were learned at a node, m. `None` of a node that is not there, or
-    /// where places are not told by ranges.
+    /// Returns the ranges that were learned at a node, m. `None` if the node does not exist, or
+    /// ranges are not a chosen feature.
     #[must_use]
     pub fn ranges(&self, node: UnitId) -> Option<Vec<f64>> {
         self.space.ranges(&self.features(node)?)

@@ -1,13 +1,12 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A change of basis for vectors that are many values long and few in number: the orthonormal
-/// coordinates of the span of some vectors. Distances between them stay what they are, up to what
-/// is left out.
+/// A change of basis for few vectors of many values: orthonormal coordinates in the vectors' span.
+/// Distances between vectors stay the same, up to what is left out.
 ///
-/// Found by Cholesky's factorization of the vectors' inner products, the vector that is farthest
-/// from the span of those chosen so far being chosen next. So no matrix of principal axes is
-/// needed, which would take ten times as long.
+/// Found by Cholesky's factorization of the vectors' inner products. Each step chooses the vector
+/// that is farthest from the span so far. This avoids a matrix of principal axes, which would take
+/// ten times as long.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RecordSpan {
     mean: Vec<f32>,
@@ -16,7 +15,7 @@ pub(super) struct RecordSpan {
     /// Lower triangle: row i has the coordinates of the i-th chosen vector. Rows follow each other,
     /// each one longer.
     factor: Vec<f64>,
-    /// How many vectors were chosen, and so how many coordinates there are.
+    /// Number of chosen vectors, which is the number of coordinates.
     rank: usize,
 }
 
@@ -29,8 +28,9 @@ pub(super) struct Spanned {
 }
 
 impl RecordSpan {
-    /// Spans vectors of one length, until none of them is farther from the span than the share
-    /// `left_out` of their mean squared distance from their mean. O(n² (length + n)).
+    /// Spans vectors of one length. Stops once the squared distance of each from the span is at
+    /// most the share `left_out` of their mean squared distance from their mean. O(n² (length +
+    /// n)).
     pub(super) fn of(vectors: &[Vec<f32>], left_out: f64) -> Spanned {
         let mean = mean(vectors);
         let centred: Vec<Vec<f32>> = vectors
@@ -185,7 +185,7 @@ fn mean(vectors: &[Vec<f32>]) -> Vec<f32> {
 /// everywhere.
 const LANES: usize = 8;
 
-/// Σ a b, summed in `f64`.
+/// Returns Σ a b, summed in `f64`.
 fn dot(a: &[f32], b: &[f32]) -> f64 {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
     let mut sums = [0.0_f64; LANES];

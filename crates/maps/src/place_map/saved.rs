@@ -11,10 +11,9 @@ use super::{FeatureSpace, PlaceMap, PlaceMapConfig, PlaceMapError};
 const FORMAT: &str = "tolman-place-map";
 const VERSION: u32 = 1;
 
-/// A place map as it lies in a file; any format of serde's will do. Images lie there by their
-/// pixels.
+/// Contents of a place map's file; works with any format of serde's. Images are stored as pixels.
 ///
-/// [`PlaceMap`] itself is serialized as this, and refuses to be made of what is invalid.
+/// [`PlaceMap`] itself is serialized as this, and refuses invalid contents.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedPlaceMap {

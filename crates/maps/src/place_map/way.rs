@@ -5,13 +5,13 @@ use tolman_quantizers::UnitId;
 
 use super::PlaceMap;
 
-/// What a link costs where the map does not know how long it is, mm.
+/// Cost of a link of unknown length, mm.
 const UNKNOWN_LENGTH: u32 = 1000;
 
 impl PlaceMap {
-    /// Returns the shortest way between two nodes along links, both ends included; `None` where no
-    /// links lead there, or a node is not there. A link is as long as its nodes lie apart, to the
-    /// millimetre; where places are not told by odometry, all are equally long.
+    /// Returns the shortest way between two nodes along links, both ends included. `None` if no
+    /// links lead there, or a node does not exist. A link's length is the distance of its nodes, to
+    /// the millimetre. If odometry is not a chosen feature, all links are equally long.
     ///
     /// Dijkstra's algorithm, O(links log nodes).
     #[must_use]

@@ -3,7 +3,7 @@ use tolman_geom::{Heading, Pose};
 
 use crate::tangent::difference;
 
-/// What was measured between two poses.
+/// A measurement between two poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseEdge {
@@ -11,7 +11,7 @@ pub struct PoseEdge {
     pub from: u32,
     /// The pose that was measured.
     pub to: u32,
-    /// Where `to` lies as seen from `from`.
+    /// Pose of `to` relative to `from`.
     pub measured: Pose,
     /// The inverse of the measurement's covariance: x and y in m, ahead and to the left of the
     /// measured pose, and the heading in rad.
@@ -30,7 +30,7 @@ pub enum PoseEdgeKind {
     Closure,
 }
 
-/// How an edge's error changes with the two poses, each moved in its own frame.
+/// Derivative of an edge's error by the two poses, each moved in its own frame.
 pub(super) struct Linearized {
     pub(super) error: Vector3<f64>,
     pub(super) by_from: Matrix3<f64>,
@@ -38,8 +38,7 @@ pub(super) struct Linearized {
 }
 
 impl PoseEdge {
-    /// Returns how far `to` lies from where the measurement has it: x and y, m, and the heading,
-    /// rad.
+    /// Returns the difference of `to` from its measured pose: x and y, m, and the heading, rad.
     #[must_use]
     pub fn error(&self, from: Pose, to: Pose) -> Vector3<f64> {
         difference(self.measured, from.between(to))

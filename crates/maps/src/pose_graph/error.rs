@@ -5,7 +5,9 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum PoseGraphError {
     /// There is no such pose.
-    #[error("the edge from {from} to {to} needs a pose that is not there: the graph has {poses}")]
+    #[error(
+        "the edge from {from} to {to} names a pose that does not exist: the graph has {poses} poses"
+    )]
     NoPose {
         /// The pose it leaves.
         from: u32,

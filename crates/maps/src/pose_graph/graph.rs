@@ -51,7 +51,7 @@ impl PoseGraph {
         &self.poses
     }
 
-    /// Returns what was measured, in the order it was added.
+    /// Returns the edges, in the order they were added.
     #[must_use]
     pub fn edges(&self) -> &[PoseEdge] {
         &self.edges
@@ -95,8 +95,8 @@ impl PoseGraph {
         Ok(())
     }
 
-    /// Moves a pose to where it is believed to be now. Nothing happens if there is none, or it is
-    /// the first, which never moves.
+    /// Moves a pose to `pose`. Does nothing if `id` does not exist, if it is the first, which never
+    /// moves, or if `pose` is not finite.
     pub fn move_pose(&mut self, id: u32, pose: Pose) {
         if id > 0
             && pose.is_finite()
@@ -106,8 +106,8 @@ impl PoseGraph {
         }
     }
 
-    /// Takes every closure for measured as the poses lie now, since what they were measured by has
-    /// been looked at again. O(edges).
+    /// Replaces the measurement of every closure by the present poses, after its source was
+    /// corrected. O(edges).
     pub fn measure_closures_anew(&mut self) {
         for edge in &mut self.edges {
             if edge.kind == PoseEdgeKind::Closure {

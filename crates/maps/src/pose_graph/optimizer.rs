@@ -6,7 +6,7 @@ use super::system::LinearSystem;
 use super::{PoseEdge, PoseEdgeKind, PoseGraph};
 use crate::tangent::moved;
 
-/// How a graph of poses is optimized.
+/// Parameters of the optimization of a graph of poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OptimizerConfig {
@@ -62,7 +62,7 @@ impl OptimizerConfig {
     }
 }
 
-/// What optimizing came to.
+/// Result of an optimization.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Optimized {
     /// Steps made.
@@ -80,8 +80,8 @@ const FIRST_DAMPING: f64 = 1e-6;
 const MOST_DAMPING: f64 = 1e6;
 
 impl PoseGraph {
-    /// Moves all poses but the first to where the edges want them, and returns what came of it. The
-    /// result does not depend on where the first pose lies.
+    /// Moves all poses but the first to agree with the edges, and returns the result. It does not
+    /// depend on where the first pose lies.
     ///
     /// # Complexity
     /// O(steps · iterations · edges).
@@ -109,7 +109,8 @@ impl PoseGraph {
         optimized
     }
 
-    /// Returns one step down, as long as the damping allows; `None` if there is none.
+    /// Takes one step that reduces the error, and returns the new error; `None` if the damping
+    /// allows no such step.
     fn step(&mut self, config: &OptimizerConfig, before: f64, damping: &mut f64) -> Option<f64> {
         let weight = |edge: &PoseEdge, squared| config.weight(edge, squared);
         let system = LinearSystem::about(&self.poses, &self.edges, weight);

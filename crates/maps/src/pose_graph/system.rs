@@ -55,9 +55,9 @@ impl<'a> LinearSystem<'a> {
         self.information.push(information);
     }
 
-    /// Returns how far to move each pose, with the diagonal made larger by the share `damping`:
-    /// conjugate gradients, with the blocks on the diagonal inverted as their preconditioner.
-    /// O(edges) an iteration, of which there are at most `iterations`.
+    /// Returns the step of each pose, with the diagonal enlarged by the share `damping`. Uses
+    /// conjugate gradients; the preconditioner is the inverse of the diagonal's blocks. O(edges)
+    /// per iteration, at most `iterations` of them.
     pub(super) fn solve(&self, damping: f64, iterations: usize) -> Vec<Vector3<f64>> {
         let inverse: Vec<Matrix3<f64>> = (self.diagonal.iter())
             .map(|block| damped(block, damping).try_inverse().unwrap_or_default())

@@ -7,30 +7,29 @@ use tolman_robot::Scan;
 use super::Standpoints;
 use super::evidence::{Evidence, Explanation};
 
-/// What a robot believes of where it is: a Bayes filter over the [`Standpoints`] of its map.
+/// Belief of a robot about its position: a Bayes filter over the [`Standpoints`] of its map.
 #[derive(Clone, Debug)]
 pub struct StandpointBelief {
     /// The probability of each standpoint.
     mass: Vec<f32>,
-    /// How often in a row nothing has fitted what it saw.
+    /// Number of looks in a row that nothing has fitted.
     surprises: u32,
 }
 
 /// Standpoints less probable than that are not followed.
 const NEGLIGIBLE: f32 = 1e-9;
-/// What the probability of a way through a wall is worth.
+/// Factor on the probability of a move through a wall.
 const THROUGH_A_WALL: f64 = 0.01;
-/// What it sees is suspect where it was less likely than that by what it believed.
+/// Likelihood of a look, by the belief, below which it is suspect.
 const SUSPECT: f64 = 1e-3;
-/// How probable it is at each look that the robot was lifted since the look before.
+/// Probability, at each look, that the robot was lifted since the look before.
 const LIFTED: f64 = 1e-7;
-/// How probable it is at each look that a wall is in sight that was not there when the map was
-/// learned.
+/// Probability, at each look, that a wall is in sight that was not there when the map was learned.
 const NEW_WALLS: f64 = 1e-2;
-/// It is sure where it is with so much of its belief so near to the likeliest standpoint, m.
+/// Share of the belief near the likeliest standpoint from which the robot is sure of its place.
 const SURE: f64 = 0.9;
 const SURE_WITHIN: f64 = 0.5;
-/// How likely the landmark of the goal is not sensed where the map has it: near its border.
+/// Probability that the landmark of the goal is not sensed where the map has it: near its border.
 const UNSENSED: f32 = 0.05;
 /// Number of such scans in a row after which it starts again.
 const MOST_SURPRISES: u32 = 3;
@@ -61,7 +60,7 @@ impl StandpointBelief {
         numbered.reduce(likelier).map(|(number, _)| number)
     }
 
-    /// Returns how much of the belief lies within `radius` m of its likeliest standpoint, 0 … 1.
+    /// Returns the share of the belief within `radius` m of its likeliest standpoint, 0 to 1.
     #[must_use]
     pub fn certainty(&self, on: &Standpoints, radius: f64) -> f64 {
         let Some(best) = self.likeliest() else {
@@ -118,10 +117,10 @@ impl StandpointBelief {
         self.mass = after;
     }
 
-    /// Weighs what it believes by what a scan shows; returns what explains it best. Where nothing
-    /// that it believes in fits, it reckons with walls that were not there when the map was
-    /// learned, and with having been lifted. O(standpoints believed in · beams · range);
-    /// O(standpoints · beams · range) where nothing fits.
+    /// Weighs the belief by a scan and returns its best explanation. If nothing believed fits, it
+    /// also considers walls that are newer than the map, and being lifted.
+    ///
+    /// O(standpoints believed in · beams · range); O(standpoints · beams · range) if nothing fits.
     pub fn saw(&mut self, on: &Standpoints, heading: Heading, scan: &Scan) -> Explanation {
         let Some(north) = on.northward(scan, heading) else {
             return Explanation::AsKnown;
@@ -152,8 +151,8 @@ impl StandpointBelief {
         evidence.explanation()
     }
 
-    /// Adds what a scan says if walls are new, and if the robot was lifted. `before` is the belief
-    /// before the scan.
+    /// Adds the explanations by new walls and by being lifted. `before` is the belief before the
+    /// scan.
     fn doubt(&mut self, on: &Standpoints, north: &[f64], before: &Self, evidence: &mut Evidence) {
         let anywhere = LIFTED / on.len().max(1) as f64;
         // Who is not sure where it is has no say in whether a wall is new.

@@ -14,15 +14,15 @@ pub(super) struct Branches {
     branches: Vec<Branch>,
 }
 
-/// Where lines meet or end.
+/// Point where lines meet or end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Knot {
     pub(super) at: GridIndex,
-    /// How far the nearest wall is, m.
+    /// Distance of the nearest wall, m.
     pub(super) clearance: f64,
 }
 
-/// A line between two knots, which may be one.
+/// A line between two knots, which may be the same.
 #[derive(Clone, Debug)]
 pub(super) struct Branch {
     pub(super) ends: [usize; 2],
@@ -32,10 +32,10 @@ pub(super) struct Branch {
     pub(super) narrowest: f64,
 }
 
-/// A spur of this length or less, in clearances where it begins, leads into a corner:
-/// it would be √2 less in a square room, and is 1.9 in a corridor of one more square.
+/// Maximum length of a spur that leads into a corner, in clearances where it begins. It would be √2
+/// less in a square room, and is 1.9 in a corridor of one more square.
 const SPUR: f64 = 1.5;
-/// Knots are one place that lie no farther apart than this share of their clearances together: two
+/// Maximum distance of knots that are one place, as a share of the sum of their clearances. Two
 /// junctions side by side are at least half of it apart.
 const SAME: f64 = 0.35;
 
@@ -49,7 +49,7 @@ impl Branch {
         }
     }
 
-    /// How long it is, m.
+    /// Returns its length, m.
     pub(super) fn length(&self) -> f64 {
         let step = |pair: &[GridIndex]| {
             let [x, y] = [0, 1].map(|axis| f64::from(pair[1][axis] - pair[0][axis]));
@@ -110,12 +110,12 @@ impl Branches {
         graph
     }
 
-    /// The knots, by number.
+    /// Returns the knots, by number.
     pub(super) const fn knots(&self) -> &BTreeMap<usize, Knot> {
         &self.knots
     }
 
-    /// The branches.
+    /// Returns the branches.
     pub(super) fn branches(&self) -> &[Branch] {
         &self.branches
     }
@@ -144,8 +144,8 @@ impl Branches {
         }
     }
 
-    /// Makes one knot of those that are one place: because they lie so near to each other, or
-    /// because no way between them is narrower than `open` m off the walls.
+    /// Merges knots that are one place: they lie near each other, or the way between them is
+    /// nowhere narrower than `open` m off the walls.
     pub(super) fn merge(&mut self, open: f64) {
         while let Some(link) = self.shortest(|graph, degrees, branch| {
             let [a, b] = branch.ends;
@@ -173,8 +173,8 @@ impl Branches {
         }
     }
 
-    /// Returns the knot nearest to a cell, of those within `reach` cells; makes one on the nearest
-    /// branch if there is none. `None` of a graph without branches.
+    /// Returns the knot nearest to a cell within `reach` cells. If there is none, makes one on the
+    /// nearest branch. `None` if the graph has no branches.
     pub(super) fn knot_at(&mut self, at: GridIndex, reach: f64) -> Option<usize> {
         let far =
             |cell: GridIndex| libm::hypot(f64::from(cell[0] - at[0]), f64::from(cell[1] - at[1]));
@@ -198,7 +198,8 @@ impl Branches {
         }
     }
 
-    /// How many branches end at each knot; one that begins and ends there counts twice.
+    /// Returns the number of branches that end at each knot; one that begins and ends there counts
+    /// twice.
     fn degrees(&self) -> BTreeMap<usize, usize> {
         let mut degrees: BTreeMap<usize, usize> =
             self.knots.keys().map(|knot| (*knot, 0)).collect();
@@ -256,7 +257,8 @@ impl Branches {
         self.knots.remove(&knot);
     }
 
-    /// The shortest branch of those that are meant, which is asked with the degrees of all knots.
+    /// Returns the index of the shortest branch for which `is_meant` holds, given the degrees of
+    /// all knots.
     fn shortest(
         &self,
         is_meant: impl Fn(&Self, &BTreeMap<usize, usize>, &Branch) -> bool,
@@ -270,7 +272,7 @@ impl Branches {
     }
 }
 
-/// The cells of the line that leads from `at` by `way` to the next knot, both ends included.
+/// Returns the cells of the line from `at` by `way` to the next knot, both ends included.
 fn follow(
     beside: &BTreeMap<GridIndex, Vec<GridIndex>>,
     at: GridIndex,

@@ -8,8 +8,8 @@ use tolman_robot::{MapLink, MapPlace, MapView};
 
 use super::{Clearings, GroundPlan, ScanMap, ScanPlace, WallGrid};
 
-/// What is left of a [`ScanMap`] when nothing more is learned: its ground, its places, and the ways
-/// gone between them.
+/// The result of a [`ScanMap`] once learning is over: its ground, its places, and the ways gone
+/// between them.
 ///
 /// Navigation needs no more, and a file holds no more.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,13 +27,13 @@ pub struct ScanChart {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ChartParts {
-    /// The robot stands clear of walls by so much, m.
+    /// Distance that the robot keeps from walls, m.
     pub radius: f64,
     /// The places, by id.
     pub places: Vec<ScanPlace>,
     /// Links between places, each once, the lower id first, in order.
     pub links: Vec<[u32; 2]>,
-    /// Where the landmark of the goal was sensed, m.
+    /// Positions where the landmark of the goal was sensed, m.
     pub goal: Vec<Point>,
     /// By how much its walls contradicted one another, 0 … 1: [`ScanMap::surprise`]. Files from
     /// before it was kept have none.
@@ -52,9 +52,7 @@ pub struct ChartParts {
 #[non_exhaustive]
 pub enum ChartError {
     /// The radius cannot be a robot's.
-    #[error(
-        "the robot stands clear of walls by {radius} m, expected 0.01 to 10: learn the map again"
-    )]
+    #[error("its robot keeps {radius} m from walls, expected 0.01 to 10: learn the map again")]
     Radius {
         /// The radius, m.
         radius: f64,
@@ -77,9 +75,9 @@ pub enum ChartError {
     /// Places or the goal lie nowhere.
     #[error("{what} {number} lies at ({}, {}) m, which is nowhere: learn the map again", at.x, at.y)]
     Nowhere {
-        /// What lies there.
+        /// Kind of thing at the position.
         what: &'static str,
-        /// Which of them.
+        /// Its number, from 0.
         number: usize,
         /// The position, m.
         at: Point,
@@ -89,13 +87,13 @@ pub enum ChartError {
         "link {number} goes from place {from} to place {to} of {places}; expected the lower id first, and each link once and in order: learn the map again"
     )]
     Link {
-        /// Which link, from 0.
+        /// Number of the link, from 0.
         number: usize,
         /// Its lower end.
         from: u32,
         /// Its higher end.
         to: u32,
-        /// How many places there are.
+        /// Number of places.
         places: usize,
     },
     /// The cells lie too far from the origin.
@@ -109,9 +107,9 @@ pub enum ChartError {
     Row {
         /// The row, from 0.
         row: usize,
-        /// How many cells it has.
+        /// Number of cells in the row.
         found: usize,
-        /// How many the first one has.
+        /// Number of cells in the first row.
         expected: usize,
     },
     /// A letter means no ground.
@@ -123,7 +121,7 @@ pub enum ChartError {
         row: usize,
         /// The cell in it, from 0.
         column: usize,
-        /// What stands there.
+        /// The letter found.
         letter: char,
     },
 }
@@ -131,8 +129,9 @@ pub enum ChartError {
 /// Nothing lies farther from the origin, m.
 const FARTHEST: f64 = 5e4;
 
-/// A map is doubtful if more of the beams of two scans in a row contradicted it. Of 180 right maps
-/// of the arena the most contradicted one had 0.28, of 10 of kidnapped robots the least 0.64.
+/// Surprise above which a map is doubtful: the share of beams of two scans in a row that
+/// contradicted it. Among 180 right maps of the arena the highest was 0.28; among 10 maps of
+/// kidnapped robots the lowest was 0.64.
 const DOUBTFUL: f64 = 0.35;
 
 impl ScanChart {
@@ -145,7 +144,7 @@ impl ScanChart {
             + self.ground.bytes()
     }
 
-    /// Returns what a map has learned so far. O(cells + places + links).
+    /// Returns the chart of a map as learned so far. O(cells + places + links).
     #[must_use]
     pub fn of(map: &ScanMap) -> Self {
         Self {
@@ -252,7 +251,7 @@ impl ScanChart {
         )
     }
 
-    /// The robot stands clear of walls by so much, m.
+    /// Returns the distance that the robot keeps from walls, m.
     pub(super) const fn radius(&self) -> f64 {
         self.radius
     }
@@ -274,7 +273,7 @@ impl ScanChart {
     }
 }
 
-/// Places and links as any scorer and any drawing can read them; links lead both ways.
+/// Returns places and links in the form that scorers and drawings read; links lead both ways.
 pub(super) fn view(places: &[ScanPlace], links: impl Iterator<Item = [u32; 2]>) -> MapView {
     let place = |(id, place): (u32, &ScanPlace)| MapPlace {
         id,

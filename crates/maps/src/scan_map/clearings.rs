@@ -7,15 +7,15 @@ use tolman_geom::{Point, Vector};
 use super::WallGrid;
 use super::wall_grid::{GridIndex, index_of, middle};
 
-/// Where a robot can stand as far as a [`WallGrid`] knows, and where it has not been yet.
+/// Ground of a [`WallGrid`] where a robot can stand and has not been yet.
 #[derive(Debug)]
 pub struct Clearings<'a> {
     grid: &'a WallGrid,
     radius: f64,
 }
 
-/// How far it is from everywhere to the nearest place where the robot has not been, as far as it
-/// was worked out.
+/// Distances from everywhere to the nearest place where the robot has not been, as far as they were
+/// computed.
 #[derive(Debug)]
 pub struct WayToGap<'a> {
     clearings: &'a Clearings<'a>,
@@ -27,8 +27,8 @@ const UNREACHED: u32 = u32::MAX;
 
 /// Cells on either side of a point that a robot can stand at.
 const BY: i32 = 5;
-/// How many cells farther than the robot the way is worked out: as far as an action may lead it
-/// astray.
+/// Number of cells beyond the robot for which the way is computed: as far as an action may go
+/// wrong.
 const ASTRAY: u32 = 16;
 
 impl<'a> Clearings<'a> {
@@ -57,7 +57,7 @@ impl<'a> Clearings<'a> {
     }
 
     /// Returns the way from about `from` to the nearest ground where the robot could stand and has
-    /// not been; `None` where there is none. O(cells on the way).
+    /// not been; `None` if there is none. O(cells on the way).
     #[must_use]
     pub fn way_to_gap(&self, from: Point) -> Option<WayToGap<'_>> {
         let starts = self.stands_by(from);
@@ -131,8 +131,8 @@ impl<'a> Clearings<'a> {
         (None, cells)
     }
 
-    /// Returns the cells round a point in which the robot can stand, as far as no wall is between:
-    /// where it is, it stands, whatever the map says.
+    /// Returns the cells near a point in which the robot can stand and from which no wall separates
+    /// it. The robot's own cell is among them, whatever the map says.
     fn stands_by(&self, at: Point) -> Vec<GridIndex> {
         let centre = index_of(at);
         let cells = (-BY..=BY)
@@ -152,7 +152,7 @@ impl<'a> Clearings<'a> {
 }
 
 impl WayToGap<'_> {
-    /// Returns how far it is from a point, m; `None` where that was not worked out.
+    /// Returns the distance from a point to the gap, m; `None` if it was not computed.
     #[must_use]
     pub fn metres(&self, from: Point) -> Option<f64> {
         let stands = self.clearings.stands_by(from).into_iter();

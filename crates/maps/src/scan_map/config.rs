@@ -1,10 +1,10 @@
-/// What a [`ScanMap`](super::ScanMap) reckons with.
+/// Parameters of a [`ScanMap`](super::ScanMap).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ScanMapConfig {
-    /// The robot stands clear of walls by so much, m: its radius, less what the map's cells are
-    /// coarse.
+    /// Distance that the robot keeps from walls, m: its radius, minus the coarseness of the map's
+    /// cells.
     pub radius: f64,
     /// Places lie at least so far apart, m.
     pub spacing_of_places: f64,
@@ -12,8 +12,8 @@ pub struct ScanMapConfig {
     pub reach_of_visit: f64,
     /// Scans that walls are drawn from lie at least so far apart, m.
     pub spacing_of_scans: f64,
-    /// How far from where it is expected a scan is fitted to the walls at most, m; 0 leaves it
-    /// where it is expected.
+    /// Maximum distance between the expected and the fitted position of a scan, m; 0 keeps the
+    /// expected one.
     pub farthest_fit: f64,
 }
 

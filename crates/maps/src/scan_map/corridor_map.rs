@@ -9,8 +9,8 @@ use super::skeleton::Skeleton;
 use super::wall_grid::{GridIndex, index_of, middle};
 use super::{ScanChart, WallGrid};
 
-/// The places of a [`ScanChart`] where its corridors meet or end or a landmark stands, and the ways
-/// between them: what is left of the middle lines of its ground.
+/// The places of a [`ScanChart`] where corridors meet or end or a landmark stands, and the ways
+/// between them. They come from the middle lines of its ground.
 ///
 /// A room is one place from which ways lead through its gateways.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,9 +33,9 @@ pub struct CorridorPlace {
 /// A way of a [`CorridorMap`], which can be gone either way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorridorWay {
-    /// The places at its ends, by number, which may be one.
+    /// The places at its ends, by number; they may be the same.
     pub ends: [u32; 2],
-    /// How long it is, m.
+    /// Length, m.
     pub length: f64,
 }
 
@@ -160,7 +160,7 @@ impl CorridorMap {
     }
 }
 
-/// Where the robot was put down and where landmarks were sensed.
+/// Returns where the robot was put down and where landmarks were sensed.
 fn landmarks(
     chart: &ScanChart,
     width: f64,
@@ -180,8 +180,8 @@ fn landmarks(
     goals.chain(others)
 }
 
-/// Where the goal stands that was sensed at these points: as often as corridors lie side by side
-/// there.
+/// Returns the positions of the goal that was sensed at these points: one for each corridor side by
+/// side there.
 fn goals(sensed: &[Point], width: f64) -> Vec<Point> {
     let Some([low, high]) = bounds(sensed) else {
         return Vec::new();
@@ -202,7 +202,7 @@ fn goals(sensed: &[Point], width: f64) -> Vec<Point> {
     bounds.map(|[low, high]| low + 0.5 * (high - low)).collect()
 }
 
-/// The low and the high corner of the box round points.
+/// Returns the low and the high corner of the bounding box of points.
 fn bounds(points: &[Point]) -> Option<[Point; 2]> {
     let first = *points.first()?;
     Some(points.iter().fold([first, first], |[low, high], at| {

@@ -1,6 +1,6 @@
 use super::rays::{RANGE_UNIT, UNKNOWN};
 
-/// What explains best what a robot saw.
+/// The best explanation of what a robot saw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Explanation {
     /// Its map, about where it believed to be.
@@ -11,7 +11,7 @@ pub enum Explanation {
     Lifted,
 }
 
-/// How probable a scan is by each [`Explanation`].
+/// Probability of a scan by each [`Explanation`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Evidence {
     pub(super) as_known: f64,
@@ -25,14 +25,13 @@ pub(super) struct Evidence {
 /// deviations of a range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Misfit {
-    /// Of all beams, or `None` where the map does not say what is seen there.
+    /// Of all beams, or `None` if the map does not know what is seen there.
     all: Option<f64>,
-    /// Of the beams that do not end on new walls, or `None` where no new wall is in sight.
+    /// Of the beams that do not end on new walls, or `None` if no new wall is in sight.
     but_for_new_walls: Option<f64>,
 }
 
-/// By how much a range may differ from what is seen at the nearest standpoint, m (standard
-/// deviation).
+/// Standard deviation of a range from that at the nearest standpoint, m.
 const RANGE_SD: f64 = 0.075;
 /// A beam more than this many standard deviations off has met something else; how far off says no
 /// more.
@@ -43,13 +42,13 @@ const INDEPENDENT_BEAMS: f64 = 8.0;
 /// A better fit than that tells no more: the map's own errors are as large, and are met at every
 /// look.
 const GOOD: f64 = 0.6;
-/// What the map does not show fits as a place does that is not the right one, but like it.
+/// Misfit of a view that the map does not have: that of a wrong place which looks similar.
 const UNSHOWN: f64 = 2.0;
-/// A scan fits nowhere where it is off by so much, mean square.
+/// Mean square misfit from which a scan fits nowhere.
 const SURPRISE: f64 = 3.0;
 /// A scan fits well where it is off by less, mean square.
 const WELL: f64 = 1.5;
-/// As many beams side by side end before they should on a new wall, at least.
+/// Minimum number of adjacent beams that a new wall ends.
 const BEAMS_OF_A_WALL: u32 = 8;
 
 impl Default for Evidence {
@@ -115,18 +114,17 @@ impl Misfit {
         }
     }
 
-    /// Returns whether all of a scan fits that does not end on new walls, of which some are in
-    /// sight.
+    /// Returns whether a scan fits apart from new walls, of which some are in sight.
     pub(super) fn fits_but_for_new_walls(self) -> bool {
         self.but_for_new_walls.is_some_and(|misfit| misfit < WELL)
     }
 
-    /// Returns how likely the scan is.
+    /// Returns the likelihood of the scan.
     pub(super) fn likelihood(self) -> f64 {
         likelihood(self.all.unwrap_or(UNSHOWN))
     }
 
-    /// Returns how likely it is if what ends before its time ends on new walls.
+    /// Returns the likelihood of the scan if beams that end early end on new walls.
     pub(super) fn likelihood_with_new_walls(self) -> f64 {
         self.but_for_new_walls.map_or(0.0, likelihood)
     }
@@ -144,13 +142,13 @@ impl Sum {
         self.count += 1;
     }
 
-    /// None of fewer than `least`.
+    /// Returns the mean; `None` for fewer than `least` values.
     fn mean(&self, least: u32) -> Option<f64> {
         (self.count > 0 && self.count >= least).then(|| self.sum / f64::from(self.count))
     }
 }
 
-/// How many beams side by side have something in common, round the circle.
+/// Number of adjacent beams with something in common, round the circle.
 #[derive(Default)]
 struct Run {
     /// The run from the first beam on.

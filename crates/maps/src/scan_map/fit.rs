@@ -5,29 +5,29 @@ use tolman_robot::Scan;
 
 use super::WallGrid;
 
-/// Where a scan fits the walls, near where it was expected.
+/// Position at which a scan fits the walls, near where it was expected.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ScanFit {
     /// The position.
     pub(super) at: Point,
     /// Its variance along each axis, m²: as before along an axis on which the walls tell nothing.
     pub(super) variance: Vector,
-    /// How well the beams that could be compared meet walls, 0 … 1; 1 where none could.
+    /// How well the compared beams meet walls, 0 to 1; 1 if none could be compared.
     pub(super) agreement: f64,
 }
 
 /// A beam's end so far from every wall does not fit at all, m.
 const ELSEWHERE: f64 = 0.15;
-/// Beams see the same walls, so that each says no more than so much of one.
+/// Weight of one beam: beams see the same walls, so they are not independent.
 const SHARE_OF_A_BEAM: f64 = 0.3;
-/// A beam's end is compared where it is expected so near to a known wall, m. What is unknown
-/// neither pulls nor pushes.
+/// Maximum distance of a beam's expected end from a known wall for it to be compared, m. Unknown
+/// ground has no influence.
 const COMPARED_WITHIN: f64 = 0.08;
 /// Spacing of the positions tried, m.
 const STEP: f64 = 0.0125;
-/// Spacing of those tried first, m: less than what a beam's end may be off.
+/// Spacing of the positions tried first, m: less than the error of a beam's end.
 const COARSE: f64 = 0.05;
-/// How far from where it is expected a scan is tried along an axis at least, m.
+/// Minimum half-width of the tried positions along an axis, m.
 const LEAST_WINDOW: f64 = 0.1;
 /// An axis on which the walls leave more than this open tells nothing, m (standard deviation).
 const TELLS: f64 = 0.05;
@@ -36,8 +36,8 @@ const SUREST: f64 = 0.005;
 /// Fewest beams that can be compared.
 const FEWEST: usize = 10;
 
-/// Fits a scan to the walls of `grid`, expected at a position known to `variance` (along each axis,
-/// m²), no farther than `farthest` m from there. O(positions tried · beams).
+/// Fits a scan to the walls of `grid` and returns the position. It is expected with `variance`
+/// along each axis, m², and at most `farthest` m away. O(positions tried · beams).
 pub(super) fn fit(
     grid: &WallGrid,
     expected: Point,
@@ -93,8 +93,8 @@ fn best_of(centre: Vector, window: Vector, mesh: f64, total: impl Fn(Vector) -> 
     best.1
 }
 
-/// Returns the shift along one axis and its variance, the other shift given: the mean of the
-/// posterior, or the prior where the walls tell nothing.
+/// Returns the shift along one axis and its variance, given the other shift: the posterior's mean,
+/// or the prior's if the walls give no evidence.
 fn along(
     score: impl Fn(Vector) -> f64,
     best: Vector,
@@ -161,7 +161,7 @@ fn comparable(grid: &WallGrid, expected: Point, heading: Heading, scan: &Scan) -
     ends.collect()
 }
 
-/// A beam that passes a known wall so much before its end, m, cannot have come from there.
+/// Distance before its end by which a beam must pass a known wall to contradict the position, m.
 const PASSED: f64 = 0.15;
 /// Spacing of the points at which beams are tried for walls, m: no wall is passed unseen but at a
 /// corner.

@@ -21,7 +21,7 @@ pub struct GroundPlan {
     floor: Vec<u64>,
 }
 
-/// What a cell of a [`GroundPlan`] holds.
+/// State of a cell of a [`GroundPlan`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GroundKind {
     /// No beam has reached it.

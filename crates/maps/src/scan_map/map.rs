@@ -19,12 +19,12 @@ pub struct ScanMap {
     grid: WallGrid,
     places: Vec<ScanPlace>,
     links: BTreeSet<[u32; 2]>,
-    /// Where scans were taken that the walls are drawn from.
+    /// Positions of the scans from which the walls are drawn.
     stands: Vec<Point>,
-    /// Where the landmark of the goal was sensed.
+    /// Positions where the landmark of the goal was sensed.
     goal: Vec<Point>,
     position: Point,
-    /// Of the position, along each axis, m².
+    /// Variance of the position along each axis, m².
     variance: Vector,
     at: Option<u32>,
     agreement: f64,
@@ -44,22 +44,22 @@ const SPACING_OF_GOAL: f64 = 0.02;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ScanPlace {
-    /// Where the robot stood when it came there first.
+    /// Position of the robot on its first visit.
     pub position: Point,
     /// The landmark it sensed there.
     pub landmark: Option<Landmark>,
 }
 
-/// What a robot did and then sensed, as a [`ScanMap`] takes it in.
+/// A robot's move and what it sensed at its end: the input of a [`ScanMap`].
 #[derive(Clone, Copy, Debug)]
 pub struct Advance<'a> {
-    /// How far it came since the observation before, along the compass's axes, m.
+    /// Displacement since the observation before, along the compass's axes, m.
     pub moved: Vector,
-    /// How sure that is: standard deviation along each axis, m.
+    /// Standard deviation of the displacement along each axis, m.
     pub sd: Vector,
-    /// Which way it faces.
+    /// Heading of the robot.
     pub heading: Heading,
-    /// What its beams meet.
+    /// Ranges of its beams.
     pub scan: &'a Scan,
     /// The landmark it stands at.
     pub landmark: Option<Landmark>,
@@ -137,8 +137,8 @@ impl ScanMap {
         self.agreement
     }
 
-    /// Returns by how much it has been surprised, 0 … 1: the largest share of the beams of two
-    /// scans in a row that contradicted the walls which were known.
+    /// Returns the greatest surprise so far, 0 to 1: the largest share of the beams of two scans in
+    /// a row that contradicted known walls.
     #[must_use]
     pub const fn surprise(&self) -> f64 {
         self.surprise
@@ -184,7 +184,7 @@ impl ScanMap {
         view(&self.places, self.links())
     }
 
-    /// Returns what is left of it when nothing more is learned. O(cells + places + links).
+    /// Returns the chart, which is the map once learning is over. O(cells + places + links).
     #[must_use]
     pub fn chart(&self) -> ScanChart {
         ScanChart::of(self)
@@ -195,7 +195,7 @@ impl ScanMap {
         self.links.iter().copied()
     }
 
-    /// The robot stands clear of walls by so much, m.
+    /// Returns the distance that the robot keeps from walls, m.
     pub(super) const fn radius(&self) -> f64 {
         self.config.radius
     }

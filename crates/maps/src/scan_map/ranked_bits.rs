@@ -1,13 +1,13 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A set of slots, each of which has a number: how many come before it.
+/// A set of slots that gives each a number: the count of members before it.
 ///
-/// A bit a slot and 32 of every 64 slots.
+/// One bit per slot, and 32 bits per 64 slots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct RankedBits {
     words: Vec<u64>,
-    /// How many come before each word.
+    /// Number of members before each word.
     before: Vec<u32>,
     len: u32,
 }
@@ -34,7 +34,7 @@ impl RankedBits {
         Self { words, before, len }
     }
 
-    /// Returns how many are in it.
+    /// Returns the number of members.
     pub(super) const fn len(&self) -> usize {
         self.len as usize
     }

@@ -13,7 +13,7 @@ pub(super) struct Rays {
     cells: Vec<RayCell>,
     /// Past the last cell of each beam.
     ends: Vec<u32>,
-    /// What a beam says that meets nothing, in [`RANGE_UNIT`]s.
+    /// Reading of a beam that meets nothing, in [`RANGE_UNIT`]s.
     clear: u8,
 }
 
@@ -22,11 +22,11 @@ pub(super) struct Rays {
 struct RayCell {
     /// Columns and rows from where the beam begins.
     offset: [i8; 2],
-    /// How far the beam has gone there, in [`RANGE_UNIT`]s.
+    /// Distance of the cell along the beam, in [`RANGE_UNIT`]s.
     range: u8,
 }
 
-/// Steps in which ranges are told, m.
+/// Resolution of ranges, m.
 pub(super) const RANGE_UNIT: f64 = 0.01;
 /// No range: the map does not say.
 pub(super) const UNKNOWN: u8 = u8::MAX;
@@ -64,8 +64,8 @@ impl Rays {
         Self { cells, ends, clear }
     }
 
-    /// Returns the ranges from a cell, beam by beam, in [`RANGE_UNIT`]s: as far as the nearest
-    /// wall, [`UNKNOWN`] where the beam leaves what is known before. O(beams · range).
+    /// Returns the ranges from a cell to the nearest wall, beam by beam, in [`RANGE_UNIT`]s;
+    /// [`UNKNOWN`] if the beam meets unknown ground first. O(beams · range).
     pub(super) fn ranges<'a>(
         &'a self,
         ground: &'a GroundPlan,

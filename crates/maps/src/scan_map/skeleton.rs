@@ -6,8 +6,8 @@ use core::cmp::Reverse;
 use super::WallGrid;
 use super::wall_grid::GridIndex;
 
-/// The middle lines of the ground where a robot can stand: what is left when cells are taken away
-/// from its border on that neither hold it together nor end a line.
+/// The middle lines of the ground where a robot can stand. Cells are removed from its border on,
+/// unless they hold the ground together or end a line.
 #[derive(Debug)]
 pub(super) struct Skeleton {
     first: GridIndex,
@@ -52,19 +52,20 @@ impl Skeleton {
         skeleton
     }
 
-    /// The cells of the lines, in rows.
+    /// Returns the cells of the lines, row by row.
     pub(super) fn cells(&self) -> impl Iterator<Item = GridIndex> + '_ {
         let slots = (0..self.is_line.len()).filter(|slot| self.is_line[*slot]);
         slots.map(|slot| self.index(slot))
     }
 
-    /// How far a cell is from the border of the ground, m.
+    /// Returns the distance of a cell from the border of the ground, m.
     pub(super) fn depth(&self, at: GridIndex) -> f64 {
         let depth = self.slot(at).map_or(0, |slot| self.depth[slot]);
         f64::from(depth) / PART * WallGrid::CELL
     }
 
-    /// The cells of the lines beside one; a diagonal step only where no other way is as short.
+    /// Returns the cells of the lines beside one; a diagonal neighbour only if no other way is as
+    /// short.
     pub(super) fn beside(&self, at: GridIndex) -> impl Iterator<Item = GridIndex> + '_ {
         let around = self.around(at);
         (0..8).filter_map(move |way| {
@@ -73,7 +74,7 @@ impl Skeleton {
         })
     }
 
-    /// Works out how far each cell is from the border, forth and back over all rows.
+    /// Computes the distance of each cell from the border, forth and back over all rows.
     fn measure(&mut self) {
         const BEFORE: [usize; 4] = [4, 5, 6, 7];
         const AFTER: [usize; 4] = [0, 1, 2, 3];
@@ -139,9 +140,9 @@ impl Skeleton {
     }
 }
 
-/// Whether a cell with these round it holds nothing together and ends no line: Yokoi's number of
-/// connections is 1, and more than two cells lie beside. Of two that a line of two cells' width
-/// ends with, one stays, or it would be taken away from its end on.
+/// Returns whether a cell with these neighbours can be removed. It holds nothing together (Yokoi's
+/// number of connections is 1) and ends no line (more than two cells lie beside it). At the end of
+/// a line two cells wide, one cell stays; otherwise the line would be removed from its end on.
 fn is_needless(around: [bool; 8]) -> bool {
     let connections = [0, 2, 4, 6].into_iter().filter(|way| {
         let [a, b, c] = [0, 1, 2].map(|next| around[(way + next) % 8]);

@@ -9,11 +9,10 @@ use super::rays::{RANGE_UNIT, Rays, UNKNOWN};
 use super::wall_grid::{GridIndex, index_of, middle};
 use super::{Clearings, ScanChart, WallGrid};
 
-/// A lattice of positions where a robot can stand on a map, and what its beams would meet from
-/// each.
+/// A lattice of positions where a robot can stand on a map, and the ranges of its beams from each.
 ///
-/// It takes about two bits for each position on the lattice. What is seen from one is worked out
-/// when it is asked for.
+/// It takes about two bits for each position on the lattice. The view from a position is computed
+/// when needed.
 #[derive(Clone, Debug)]
 pub struct Standpoints {
     chart: ScanChart,
@@ -30,7 +29,7 @@ pub struct Standpoints {
     sensing_goal: Vec<u32>,
 }
 
-/// What is seen from each standpoint: for whoever asks for all of it often. A byte a beam.
+/// Stored views from all standpoints, for callers that need all of them often. One byte per beam.
 #[derive(Clone, Debug)]
 pub struct StandpointViews {
     ring: Ring,
@@ -83,7 +82,7 @@ impl Standpoints {
         self.ring
     }
 
-    /// Returns how many there are.
+    /// Returns the number of standpoints.
     #[must_use]
     pub const fn len(&self) -> usize {
         self.stands.len()
@@ -182,8 +181,8 @@ impl Standpoints {
         self.stands.slots().map(|slot| self.index(slot))
     }
 
-    /// Returns by how much a scan differs from what is seen in a cell. `north` is the scan, beam 0
-    /// to the north. O(beams · range).
+    /// Returns the misfit of a scan with the view from a cell. `north` is the scan, beam 0 to the
+    /// north. O(beams · range).
     pub(super) fn misfit(&self, cell: GridIndex, north: &[f64]) -> Misfit {
         Misfit::of(north, self.rays.ranges(self.chart.ground(), cell))
     }
@@ -253,7 +252,7 @@ impl StandpointViews {
     }
 }
 
-/// The lattice over a grid. Where it lies does not depend on how far the grid reaches.
+/// The lattice over a grid. Its position does not depend on the grid's extent.
 struct Lattice {
     first: [i32; 2],
     columns: i32,

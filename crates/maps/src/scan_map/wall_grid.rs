@@ -7,11 +7,11 @@ use tolman_robot::Scan;
 
 use super::GroundKind;
 
-/// Where walls were met and where beams passed, on a square grid that grows.
+/// Counts of beams that ended and that passed, on a square grid that grows.
 ///
-/// A cell is a wall while beams ended in it often enough beside those that passed. Each cell knows
-/// how far the nearest wall is, up to [`REACH`](Self::REACH), so that a robot's clearance and the
-/// fit of a scan are look-ups.
+/// A cell is a wall while enough beams ended in it, relative to those that passed. Each cell stores
+/// the distance of the nearest wall, up to [`REACH`](Self::REACH). A robot's clearance and the fit
+/// of a scan are therefore look-ups.
 #[derive(Clone, Debug, Default)]
 pub struct WallGrid {
     /// Column and row of the first cell.
@@ -48,7 +48,7 @@ const PASSES_A_HIT: u32 = 3;
 impl WallGrid {
     /// Side of a cell, m.
     pub const CELL: f64 = 0.05;
-    /// How far from a wall its distance is known, m.
+    /// Greatest known distance from a wall, m.
     pub const REACH: f64 = 0.35;
 
     /// Returns how many bytes its cells take. O(1).
@@ -71,8 +71,8 @@ impl WallGrid {
         }
     }
 
-    /// Returns how far `at` is from the nearest wall, m, between cells in proportion; `None` where
-    /// none stands within reach.
+    /// Returns the distance of `at` from the nearest wall, m, interpolated between cells; `None` if
+    /// none stands within [`REACH`](Self::REACH).
     #[must_use]
     pub fn wall_distance(&self, at: Point) -> Option<f64> {
         let scaled = at.coords / Self::CELL - Vector::new(0.5, 0.5);
@@ -132,7 +132,8 @@ impl WallGrid {
         (known >= fewest).then(|| f64::from(elsewhere) / f64::from(known))
     }
 
-    /// How far it is to the first wall, up to `most` m; `None` where unknown ground lies before it.
+    /// Returns the distance to the first wall, up to `most` m; `None` if unknown ground lies before
+    /// it.
     fn range(&self, from: Point, unit: Vector, most: f64) -> Option<f64> {
         let steps = (most / (0.5 * Self::CELL)) as u32;
         for step in 1..=steps {
@@ -213,8 +214,8 @@ impl WallGrid {
         self.cells[slot].been
     }
 
-    /// Returns whether a body of this radius can stand with its middle in a cell that a beam has
-    /// passed, as far as walls are known.
+    /// Returns whether a body of this radius, m, can stand with its middle in the cell: a beam has
+    /// passed it, and known walls leave room.
     pub(super) fn stands(&self, index: GridIndex, radius: f64) -> bool {
         self.cell(index)
             .is_some_and(|cell| cell.passes > 0 && f64::from(cell.wall) * DISTANCE_UNIT >= radius)
@@ -233,7 +234,7 @@ impl WallGrid {
         inside.then(|| (row * self.columns + column) as usize)
     }
 
-    /// Returns how many cells there are.
+    /// Returns the number of cells.
     pub(super) fn len(&self) -> usize {
         self.cells.len()
     }
@@ -281,7 +282,7 @@ impl WallGrid {
         }
     }
 
-    /// Tells the cells round a wall how near it is.
+    /// Updates the distances of the cells round a new wall.
     fn stamp(&mut self, wall: GridIndex, reach: &[([i32; 2], u8)]) {
         for ([column, row], distance) in reach {
             if let Some(slot) = self.slot([wall[0] + column, wall[1] + row]) {
@@ -359,7 +360,7 @@ impl GridCell {
     }
 }
 
-/// Returns the cells round a wall, and how far they are from it.
+/// Returns the offsets of the cells round a wall, with their distances from it.
 fn reach_of_wall() -> Vec<([i32; 2], u8)> {
     let reach = (WallGrid::REACH / WallGrid::CELL) as i32;
     let row = |row: i32| (-reach..=reach).map(move |column| [column, row]);
@@ -371,8 +372,7 @@ fn reach_of_wall() -> Vec<([i32; 2], u8)> {
     near.collect()
 }
 
-/// Returns whether no wall stands on the straight line between two points, two of which are tried a
-/// cell.
+/// Returns whether no wall stands on the straight line between two points, sampled twice a cell.
 pub(super) fn sees(from: Point, to: Point, is_wall: impl Fn(Point) -> bool) -> bool {
     let way = to - from;
     let steps = libm::ceil(way.norm() / (0.5 * WallGrid::CELL)).max(1.0);

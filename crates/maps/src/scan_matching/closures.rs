@@ -12,7 +12,7 @@ use super::refine::{self, Prior};
 use super::{ClosureConfig, ClosureSites};
 use crate::pose_graph::{OptimizerConfig, PoseEdge, PoseEdgeKind, PoseGraph};
 
-/// What is known of closures while the robot drives.
+/// State of the search for closures while the robot drives.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Closing {
     /// Way at the last search.
@@ -30,7 +30,7 @@ struct Candidate {
     is_accepted: bool,
 }
 
-/// How far and how well a match is looked for.
+/// Window and threshold of the search for a match.
 #[derive(Clone, Copy, Debug)]
 struct Reach {
     window: f64,
@@ -39,7 +39,7 @@ struct Reach {
 
 /// Old stretches that are tried at most, the nearest first.
 const STRETCHES: usize = 3;
-/// Old keyframes are looked at that lie so much farther off than the window, m.
+/// Margin beyond the window within which old keyframes are considered, m.
 const SIGHT: f64 = 2.5;
 /// Points of the last keyframes with which poses are searched, and with which the best is refined.
 const SEARCHED_POINTS: usize = 200;
@@ -69,9 +69,9 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Holds the keyframes up to `here` against those about `there`, and takes them for the same
-    /// place if they match and an earlier or later match agrees; returns whether they match at all.
-    /// Nothing matches if no closures are looked for, or there are no such keyframes.
+    /// Matches the keyframes up to `here` with those about `there`, and returns whether they match.
+    /// They are taken for the same place if an earlier or later match agrees. Returns `false` if
+    /// the configuration has no closures, or there are no such keyframes.
     ///
     /// # Errors
     /// If a measurement does not fit the graph.
@@ -94,8 +94,8 @@ impl ScanMatching {
         Ok(matches)
     }
 
-    /// Returns how far from where the map has it a keyframe may be, m: as far as places are looked
-    /// for.
+    /// Returns how far a keyframe may be from its pose on the map, m: the window in which places
+    /// are searched.
     #[must_use]
     pub fn doubt(&self, keyframe: usize) -> f64 {
         let config = self.config.closures.as_ref();
@@ -103,7 +103,7 @@ impl ScanMatching {
         known.map_or(0.0, |config| self.reach(config, keyframe).window)
     }
 
-    /// Returns how far off places are looked for from a keyframe.
+    /// Returns the window in which places are searched from a keyframe.
     fn reach(&self, config: &ClosureConfig, keyframe: usize) -> Reach {
         let since = self.keyframes[keyframe].way - self.closing.closed_at;
         let since = since.max(0.0);
@@ -141,8 +141,8 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Looks for all closures again, on the map as it is, and makes it agree, until the same ones
-    /// are found twice or the rounds are over; then the map does not change any more.
+    /// Searches all closures again on the present map and makes it agree. It stops once the same
+    /// ones are found twice or the rounds are over; then the map does not change any more.
     ///
     /// # Errors
     /// If a measurement does not fit the graph.
@@ -257,7 +257,7 @@ impl ScanMatching {
         together
     }
 
-    /// Old keyframes near the last one, the nearest of each stretch of the way.
+    /// Returns old keyframes near the last one, the nearest of each stretch of the way.
     fn stretches(&self, config: &ClosureConfig, last: usize, reach: Reach) -> Vec<usize> {
         let poses = self.graph.poses();
         let here = poses[last].position;

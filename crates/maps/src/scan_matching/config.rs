@@ -1,6 +1,6 @@
-/// What a [`ScanMatching`](super::ScanMatching) reckons with.
+/// Parameters of a [`ScanMatching`](super::ScanMatching).
 ///
-/// Lengths are in m, angles in rad. Scores are the mean likelihood of beam ends on the map, 0 … 1.
+/// Lengths are in m, angles in rad. Scores are the mean likelihood of beam ends on the map, 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -9,23 +9,23 @@ pub struct ScanMatchingConfig {
     pub farthest: f64,
     /// Standard deviation of a beam's end from the surface that it met.
     pub kernel: f64,
-    /// Side of a cell of the map that scans are held against.
+    /// Side of a cell of the map that scans are compared with.
     pub cell: f64,
-    /// How far the robot comes until a scan is matched again.
+    /// Distance after which a scan is matched again.
     pub step: f64,
-    /// How far it turns until a scan is matched again.
+    /// Turn after which a scan is matched again.
     pub turn: f64,
-    /// How far it comes until a scan becomes a keyframe.
+    /// Distance after which a scan becomes a keyframe.
     pub keyframe_step: f64,
-    /// How far it turns until a scan becomes a keyframe.
+    /// Turn after which a scan becomes a keyframe.
     pub keyframe_turn: f64,
     /// A scan is matched to that many keyframes before it.
     pub local_keyframes: usize,
-    /// How far from where the odometry has it a scan is looked for, along each axis.
+    /// Half-width of the window about the odometry's pose, along each axis.
     pub window: f64,
     /// The same by heading.
     pub window_turn: f64,
-    /// What a candidate at the border of the window loses of its score, by position.
+    /// Loss of score of a candidate at the border of the window, by position.
     pub prior: f64,
     /// The same by heading.
     pub prior_turn: f64,
@@ -35,26 +35,27 @@ pub struct ScanMatchingConfig {
     pub odometry_turn_sd: f64,
     /// A scan that fits worse is left where the odometry has it.
     pub least_score: f64,
-    /// How places that are seen again are looked for; `None` to look for none.
+    /// Search for places that are seen again; `None` to find none.
     pub closures: Option<ClosureConfig>,
 }
 
-/// Where the robot looks round for places that it has seen.
+/// Where the robot searches for places that it has seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ClosureSites {
     /// All along its way.
     Everywhere,
-    /// Where somebody tells it to: see [`ScanMatching::recognize`](super::ScanMatching::recognize).
+    /// Only where the caller says so: see
+    /// [`ScanMatching::recognize`](super::ScanMatching::recognize).
     Named,
 }
 
-/// How places that are seen again are looked for.
+/// Parameters of the search for places that are seen again.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ClosureConfig {
-    /// Where they are looked for.
+    /// Where they are searched.
     pub sites: ClosureSites,
     /// Way from one search to the next.
     pub every: f64,
@@ -62,23 +63,23 @@ pub struct ClosureConfig {
     pub least_way: f64,
     /// Keyframes whose scans are put together and looked for.
     pub query_keyframes: usize,
-    /// Keyframes of the old place that they are held against.
+    /// Number of keyframes of the old place that they are compared with.
     pub old_keyframes: usize,
-    /// How far off an old place is looked for at least, along each axis.
+    /// Minimum half-width of the window for an old place, along each axis.
     pub window: f64,
-    /// How much that grows by metre of way since the last closure.
+    /// Growth of that half-width per metre of way since the last closure.
     pub window_growth: f64,
-    /// How far off an old place is looked for at most.
+    /// Maximum half-width of the window for an old place.
     pub most_window: f64,
-    /// How far off its heading is looked for at least.
+    /// Minimum half-width of the window for its heading.
     pub window_turn: f64,
-    /// How much that grows by metre of way since the last closure, rad/m.
+    /// Growth of that half-width per metre of way since the last closure, rad/m.
     pub window_turn_growth: f64,
-    /// How far off its heading is looked for at most.
+    /// Maximum half-width of the window for its heading.
     pub most_window_turn: f64,
     /// A worse fit is no closure.
     pub least_score: f64,
-    /// Two closures agree if they correct the pose alike to so much.
+    /// Maximum difference of the corrections of two closures that agree.
     pub agreement: f64,
     /// The same by heading.
     pub agreement_turn: f64,
@@ -90,8 +91,8 @@ pub struct ClosureConfig {
     pub turn_sd: f64,
     /// The squared error at which a closure counts a quarter.
     pub doubt: f64,
-    /// How often all closures are looked for again at the end at most, each time on the map that
-    /// they made.
+    /// Maximum number of rounds in which all closures are searched again at the end, each on the
+    /// map that the round before made.
     pub most_rounds: u32,
 }
 

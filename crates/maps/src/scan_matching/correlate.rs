@@ -12,14 +12,14 @@ use tolman_geom::{Point, Pose, Vector};
 use super::grid::LikelihoodGrid;
 use super::outline::ScanOutline;
 
-/// Which poses are tried.
+/// Poses that are tried.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
-    /// How far from the expected pose along each axis, m.
+    /// Half-width about the expected position, along each axis, m.
     pub(super) reach: f64,
-    /// How far from the expected heading, rad.
+    /// Half-width about the expected heading, rad.
     pub(super) turn: f64,
-    /// What a pose at the border loses of its score, by position.
+    /// Loss of score of a pose at the border, by position.
     pub(super) prior: f64,
     /// The same by heading.
     pub(super) prior_turn: f64,
@@ -27,7 +27,7 @@ pub(super) struct Window {
 
 /// Cells that the first candidates are apart.
 const WIDE: i32 = 16;
-/// How many cells of a level make one of the next.
+/// Number of cells of a level, along each axis, that make one of the next.
 const BRANCH: i32 = 4;
 /// Points that lie so far off must not pass by a cell between two headings, m.
 const TYPICAL_RANGE: f64 = 5.0;
@@ -54,7 +54,7 @@ struct Search<'a> {
     levels: Vec<(i32, &'a LikelihoodGrid)>,
 }
 
-/// Grids by which bounds are found, wide to narrow.
+/// Grids of upper bounds, from coarse to fine.
 #[derive(Clone, Debug)]
 pub(super) struct Pyramid {
     wide: Option<LikelihoodGrid>,

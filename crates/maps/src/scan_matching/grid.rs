@@ -4,8 +4,8 @@ use tolman_geom::{Point, Pose, Vector};
 
 use super::outline::ScanOutline;
 
-/// How likely a beam ends where, by beams that ended there before: a picture of surfaces, each as
-/// wide as beams err.
+/// Likelihood of a beam's end at each point, by beams that ended there before: a picture of
+/// surfaces, each as wide as the beams' errors.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LikelihoodGrid {
     cell: f64,
@@ -25,7 +25,7 @@ pub(super) struct Stamp {
     bells: Vec<u8>,
 }
 
-/// Places within a cell that are told apart along each axis.
+/// Number of positions within a cell that are distinguished along each axis.
 const PLACES: usize = 5;
 /// Standard deviations at which a bell is cut off.
 const BELL: f64 = 3.0;
@@ -35,7 +35,7 @@ const MOST_CELLS: i32 = 6000;
 /// Distance, in cells, up to which points of one surface are joined.
 const JOINED: f64 = 1.5;
 
-/// The points of an outline, and those between points of one surface.
+/// Adds the points of an outline, and points between those of one surface.
 fn surfaces(outline: &ScanOutline, from: Pose, apart: f64, points: &mut Vec<Point>) {
     let seen: Vec<Point> = (outline.points.iter())
         .map(|point| from.transform(point.at))

@@ -13,15 +13,15 @@ use super::outline::ScanOutline;
 use super::refine::{self, Prior, Refined};
 use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
 
-/// What came since the scan before.
+/// Input since the scan before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanStep {
-    /// How far the wheels came since the scan before: its pose as seen from there. Of the first
-    /// scan it means nothing.
+    /// Odometry since the scan before, as the present pose relative to that one. Ignored for the
+    /// first scan.
     pub moved: Pose,
     /// The scan.
     pub scan: Scan,
-    /// Where the laser sits on the robot.
+    /// Pose of the laser on the robot.
     pub robot_from_laser: Pose,
 }
 
@@ -46,7 +46,7 @@ pub enum ScanMatchingError {
         beams: u32,
     },
     /// An edge does not fit the graph.
-    #[error("what was measured does not fit the graph of poses")]
+    #[error("the measurement does not fit the pose graph")]
     Graph(#[from] PoseGraphError),
 }
 
@@ -60,7 +60,7 @@ pub struct ScanMatching {
     pub(super) closing: Closing,
     /// Each scan by the keyframe before it.
     scans: Vec<Anchored>,
-    /// What the wheels rolled since the last scan that was matched, and how much way that is.
+    /// Odometry since the last scan that was matched, and the length of that way, m.
     rolled: Pose,
     rolled_way: f64,
     matched: Anchored,
@@ -76,7 +76,7 @@ pub(super) struct Keyframe {
     pub(super) way: f64,
     /// Number of the scan.
     pub(super) scan: usize,
-    /// Which way its surfaces run, as seen from it: [`ScanOutline::axis`].
+    /// Direction of its surfaces in its own frame: [`ScanOutline::axis`].
     pub(super) axis: Vector,
 }
 
@@ -140,7 +140,7 @@ impl ScanMatching {
         &self.graph
     }
 
-    /// Returns how many closures the map has.
+    /// Returns the number of closures of the map.
     #[must_use]
     pub fn closures(&self) -> usize {
         self.graph.closures().count()

@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_robot::Scan;
 
-/// Where beams passed and where they ended, on a square grid of fixed bounds: the map that others'
-/// programs navigate on.
+/// Counts of beams that passed and that ended, on a square grid of fixed bounds: the kind of map on
+/// which other programs navigate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OccupancyGrid {
     /// Side of a cell, m.
@@ -65,7 +65,8 @@ impl OccupancyGrid {
         }
     }
 
-    /// One beam: every cell on the line is passed but the last, which is hit if it `ends` there.
+    /// Counts one beam: every cell on the line as passed, except the last, which is hit if it
+    /// `ends` there.
     fn pass(&mut self, from: Point, to: Point, ends: bool) {
         let way = to - from;
         let steps = libm::ceil(way.norm() / (0.5 * self.cell)).max(1.0);
@@ -85,9 +86,9 @@ impl OccupancyGrid {
         }
     }
 
-    /// Returns how many beams of a scan end on the map, and how many of these end where the map has
-    /// floor: in a cell that, like all beside it, was more often passed than hit, by a share of
-    /// hits below `wall`. Where walls stand twice, many do. O(beams).
+    /// Returns the number of beams of a scan that end on the map, and the number of these that end
+    /// on the map's floor. Floor is a cell whose share of hits, like that of all beside it, is
+    /// below `wall`. Where walls stand twice, many beams end on floor. O(beams).
     #[must_use]
     pub fn contradicted(
         &self,
@@ -128,8 +129,8 @@ impl OccupancyGrid {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// Returns how likely each cell is occupied, row by row from the south-west: the share of beams
-    /// that ended there; `None` where none has reached.
+    /// Returns the share of beams that ended in each cell, row by row from the south-west; `None`
+    /// if none has reached it.
     pub fn occupancy(&self) -> impl Iterator<Item = Option<f64>> + '_ {
         self.counts.iter().map(|(hits, passes)| {
             let all = u32::from(*hits) + u32::from(*passes);

@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_robot::Scan;
 
-/// Where the beams of a scan ended, as seen from the robot, and which way the surfaces there face.
+/// Points where the beams of a scan ended, in the robot's frame, with the normals of the surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ScanOutline {
     pub(super) points: Vec<SurfacePoint>,
@@ -96,7 +96,7 @@ fn beside(ends: &[(u32, f64, Point)], place: usize, other: usize, spacing: f64) 
     (beams <= 2.0 && (end - at).norm() < near).then_some(*end)
 }
 
-/// Across the line from one point to another; zero if they are one.
+/// Returns the unit normal of the line from one point to another; zero if they are one.
 fn across(from: Point, to: Point) -> Vector {
     let along = to - from;
     let length = along.norm();

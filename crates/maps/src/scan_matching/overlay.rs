@@ -1,5 +1,4 @@
-//! Where another map of the same building lies on this one, when nothing is known of how they are
-//! to each other.
+//! Position of another map of the same building on this one, without prior knowledge.
 
 use alloc::vec::Vec;
 use core::f64::consts::FRAC_PI_2;
@@ -16,12 +15,12 @@ use super::refine::{self, Prior};
 /// One map on another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapOverlay {
-    /// Where the other map's origin lies on this one.
+    /// Pose of the other map's origin on this one.
     pub pose: Pose,
-    /// How well its surfaces meet those of this one: the mean likelihood of its points, 0 … 1.
+    /// Mean likelihood of the other map's points on this one's surfaces, 0 to 1.
     pub score: f64,
-    /// The same of the best overlay that lies elsewhere; 0 if there is none. Near `score`, it is
-    /// not known which is right.
+    /// Score of the best overlay at another pose; 0 if there is none. If it is near `score`, the
+    /// overlay is ambiguous.
     pub rival: f64,
 }
 
@@ -29,19 +28,19 @@ pub struct MapOverlay {
 const STRETCHES: usize = 8;
 /// Keyframes to either side of a stretch's middle.
 const HALF: usize = 15;
-/// Points of a stretch that are looked for, and points of the whole map that are held against this
+/// Numbers of points of a stretch that is placed, and of the whole map that is compared with this
 /// one.
 const SEARCHED_POINTS: usize = 150;
 const REFINED_POINTS: usize = 1500;
-/// Axes of buildings are told so surely, rad.
+/// Standard deviation of the axes of buildings, rad.
 const AXIS_TURN: f64 = 0.07;
 /// Overlays nearer to each other than that are one, m and rad.
 const SAME: (f64, f64) = (1.0, 0.1);
 
 impl ScanMatching {
-    /// Looks for where another map of the same building lies on this one: stretches of its way, put
-    /// down anywhere and turned by any quarter, since both buildings' axes are known; the one is
-    /// kept on which the whole map lies best. `None` if a map is empty.
+    /// Returns the pose on this map of `other`, a map of the same building; `None` if a map is
+    /// empty. Stretches of its way are placed anywhere and turned by any quarter, since both
+    /// buildings' axes are known. The placement is kept on which the whole map fits best.
     ///
     /// O(stretches · cells of the grid), by branch and bound.
     #[must_use]
@@ -83,7 +82,7 @@ impl ScanMatching {
         })
     }
 
-    /// Lays an outline of a whole map from a pose near by, and tells how well it lies.
+    /// Returns the overlay of a whole map's outline from a nearby pose, with its score.
     fn weigh_overlay(&self, grid: &LikelihoodGrid, all: &ScanOutline, start: Pose) -> MapOverlay {
         let prior = Prior {
             pose: start,

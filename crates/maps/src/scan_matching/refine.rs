@@ -7,17 +7,17 @@ use super::grid::LikelihoodGrid;
 use super::outline::{ScanOutline, SurfacePoint};
 use crate::tangent::{difference, moved};
 
-/// Where an outline lies on a grid.
+/// Refined pose of an outline on a grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refined {
     pub(super) pose: Pose,
     /// The mean likelihood of the points, 0 … 1.
     pub(super) score: f64,
-    /// What the points alone say of the pose: ahead, left, heading.
+    /// Information of the points alone on the pose: ahead, left, heading.
     pub(super) information: Matrix3<f64>,
 }
 
-/// What is known of the pose before.
+/// Prior knowledge of the pose.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Prior {
     pub(super) pose: Pose,

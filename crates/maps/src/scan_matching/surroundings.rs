@@ -1,4 +1,4 @@
-//! What a laser that looks all round would see, by the scans of one that does not.
+//! Views of a laser that looks all round, computed from the scans of one that does not.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 use core::ops::Range;
@@ -14,17 +14,17 @@ const SHOWN: usize = 14;
 const ABOUT: usize = 20;
 
 impl ScanMatching {
-    /// Returns what a `ring` of beams that looks along the axes of the map would see from a
-    /// keyframe, by the keyframes before and after; `None` if there is no such keyframe. A beam
-    /// where none of them saw anything reads the ring's range. O(points of the keyframes).
+    /// Returns the view from a keyframe of a `ring` of beams aligned with the map's axes, by the
+    /// keyframes before and after. `None` if there is no such keyframe. A beam along which none of
+    /// them saw anything reads the ring's range. O(points of the keyframes).
     #[must_use]
     pub fn surroundings(&self, keyframe: usize, ring: Ring, ahead: Heading) -> Option<Scan> {
         let here = self.graph.poses().get(keyframe)?.position;
         self.surroundings_of(keyframe, here, ring, ahead)
     }
 
-    /// Returns what a `ring` of beams that looks along the axes of the map would see from a point,
-    /// by the keyframes about one; as [`surroundings`](Self::surroundings) else.
+    /// Returns the view from a point, by the keyframes about `keyframe`; otherwise as
+    /// [`surroundings`](Self::surroundings).
     #[must_use]
     pub fn surroundings_of(
         &self,
@@ -57,9 +57,9 @@ impl ScanMatching {
         self.axis_of(0..self.keyframes.len())
     }
 
-    /// Returns which way most surfaces run that were seen from about a keyframe, where the heading
-    /// of the map has drifted: the quarter turn next to the [axis](Self::axis) of the building.
-    /// `None` before a surface was seen. O(keyframes).
+    /// Returns the direction of most surfaces seen from about a keyframe, where the map's heading
+    /// has drifted. Of the four quarter turns it is the one nearest to the [axis](Self::axis) of
+    /// the building. `None` before a surface was seen. O(keyframes).
     #[must_use]
     pub fn axis_about(&self, keyframe: usize) -> Option<Heading> {
         let end = (keyframe + ABOUT + 1).min(self.keyframes.len());

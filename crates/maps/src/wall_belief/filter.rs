@@ -1,6 +1,7 @@
+use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
-use core::f64::consts::TAU;
+use core::f64::consts::{FRAC_PI_2, TAU};
 
 use rand::{Rng, RngExt};
 use thiserror::Error;
@@ -90,6 +91,24 @@ impl PoseFilter {
         self.particles.fill(Particle { pose, weight });
     }
 
+    /// Puts a particle at each of `poses`: somebody has carried the mouse to one of them. Nothing
+    /// happens without poses.
+    ///
+    /// As many particles stay until they agree, which [`gather`](Self::gather) is told.
+    pub fn spread(&mut self, poses: impl IntoIterator<Item = Pose>) {
+        let poses: Vec<Pose> = poses.into_iter().collect();
+        let weight = 1.0 / poses.len() as f64;
+        let particle = |pose| Particle { pose, weight };
+        if !poses.is_empty() {
+            self.particles = poses.into_iter().map(particle).collect();
+        }
+    }
+
+    /// Draws as many particles as the configuration says from those that there are. O(particles).
+    pub fn gather(&mut self, rng: &mut impl Rng) {
+        self.draw(self.config.particles as usize, rng);
+    }
+
     /// The mouse was told to drive `distance` metres and to turn by `turn` radians meanwhile.
     /// O(particles).
     pub fn drive(&mut self, distance: f64, turn: f64, rng: &mut impl Rng) {
@@ -129,12 +148,12 @@ impl PoseFilter {
         }
         let squares: f64 = self.particles.iter().map(|p| p.weight * p.weight).sum();
         if 2.0 < even.recip() * squares {
-            self.resample(rng);
+            self.draw(self.particles.len(), rng);
         }
     }
 
-    fn resample(&mut self, rng: &mut impl Rng) {
-        let count = self.particles.len();
+    /// Draws `count` particles, each by its weight.
+    fn draw(&mut self, count: usize, rng: &mut impl Rng) {
         let even = 1.0 / count as f64;
         let mut mark = uniform(rng) * even;
         let mut sum = 0.0;
@@ -159,13 +178,41 @@ impl PoseFilter {
     /// Returns the mean of the particles.
     #[must_use]
     pub fn estimate(&self) -> Pose {
-        let (mut position, mut direction) = (Vector::zeros(), Vector::zeros());
-        for Particle { pose, weight } in &self.particles {
-            position += pose.position.coords * *weight;
-            direction += pose.heading.unit() * *weight;
-        }
-        Pose::new(Point::from(position), Heading::of(direction))
+        mean(&self.particles, 1.0)
     }
+
+    /// Returns the mean of the particles about which most weight lies, and their weight, 0 … 1:
+    /// of those in one cell of a grid of `pitch` metres whose headings are nearest to one axis.
+    /// O(particles · log cells).
+    #[must_use]
+    pub fn likeliest(&self, pitch: f64) -> (Pose, f64) {
+        let cell = |along: f64| libm::floor(along / pitch) as i64;
+        let quarter = |heading: Heading| libm::round(heading.radians() / FRAC_PI_2) as i64;
+        let mut groups: BTreeMap<_, Vec<Particle>> = BTreeMap::new();
+        for particle in &self.particles {
+            let Pose { position, heading } = particle.pose;
+            let group = (
+                cell(position.x),
+                cell(position.y),
+                quarter(heading).rem_euclid(4),
+            );
+            groups.entry(group).or_default().push(*particle);
+        }
+        let weight = |group: &[Particle]| group.iter().map(|particle| particle.weight).sum();
+        let weighed = groups.values().map(|group| (weight(group), group));
+        let heaviest = weighed.max_by(|(a, _): &(f64, _), (b, _)| a.total_cmp(b));
+        heaviest.map_or_else(|| (self.estimate(), 1.0), |(w, group)| (mean(group, w), w))
+    }
+}
+
+/// Returns the mean pose of particles whose weights add up to `sum`.
+fn mean(particles: &[Particle], sum: f64) -> Pose {
+    let (mut position, mut direction) = (Vector::zeros(), Vector::zeros());
+    for Particle { pose, weight } in particles {
+        position += pose.position.coords * *weight;
+        direction += pose.heading.unit() * *weight;
+    }
+    Pose::new(Point::from(position / sum), Heading::of(direction))
 }
 
 /// Returns how likely a reading is for a mouse at `pose`, up to a factor; `nothing` is its density

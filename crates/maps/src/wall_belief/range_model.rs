@@ -2,7 +2,7 @@ use core::f64::consts::TAU;
 
 use super::RangeReading;
 
-/// How range sensors err.
+/// Error model of a range sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RangeModel {
     /// Standard deviation of a range, m. > 0.
@@ -23,8 +23,8 @@ impl RangeModel {
         libm::exp(-0.5 * off * off) / (sd * libm::sqrt(TAU))
     }
 
-    /// Returns the density of a reading that has the density `met` by the walls, or may be an
-    /// outlier.
+    /// Returns the density of a reading, given its density `met` by the walls and the rate of
+    /// outliers.
     pub(super) fn mixed(&self, reading: RangeReading, met: f64) -> f64 {
         self.outliers / reading.max_range + (1.0 - self.outliers) * met
     }

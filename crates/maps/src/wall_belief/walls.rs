@@ -8,12 +8,12 @@ use tolman_planners::TooLarge;
 
 use super::RangeModel;
 
-/// What speaks for and against every wall of a maze of at most `N` × `N` cells, drawn to scale.
+/// Evidence for and against every wall of a maze of at most `N` × `N` cells, drawn to scale.
 ///
-/// Every wall has its log-odds to stand. A reading that meets a wall speaks for it, one that passes
-/// speaks against it, each by as much as the sensor can be trusted at that range. A wall is
-/// believed in, or taken for open, beyond [`WallBelief::CONVINCED`]; it is unknown before and may
-/// be again.
+/// Every wall has its log-odds to stand. A reading that meets a wall raises them, one that passes
+/// lowers them, each by as much as the sensor can be trusted at that range. Beyond
+/// [`WallBelief::CONVINCED`] a wall counts as standing or open. It is unknown before, and may
+/// become unknown again.
 ///
 /// ```
 /// use tolman_geom::{Heading, Point, Pose};
@@ -42,21 +42,21 @@ pub struct WallBelief<const N: usize> {
     odds: Vec<f64>,
 }
 
-/// What one range sensor says.
+/// One reading of a range sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RangeReading {
-    /// Where it looks, rad counter-clockwise from ahead.
+    /// Direction in which it looks, rad counter-clockwise from ahead.
     pub bearing: f64,
-    /// How far it sees, m.
+    /// Distance of what it meets, m.
     pub range: f64,
-    /// What it reads where it meets nothing, m.
+    /// Reading if it meets nothing, m.
     pub max_range: f64,
 }
 
-/// Where a ray may end: at a wall.
+/// A wall at which a ray may end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// How far away, m.
+    /// Distance, m.
     pub range: f64,
     /// Whether the wall is believed in; else it is unknown.
     pub known: Knowledge,
@@ -70,13 +70,14 @@ impl<const N: usize> WallBelief<N> {
     pub const CONVINCED: f64 = 3.0;
     /// The log-odds grow no farther than this, so that a wrong belief can be given up.
     const MOST: f64 = 9.0;
-    /// What is left of the log-odds of a wall that is doubted.
+    /// Factor on the log-odds of a wall that is doubted.
     const DOUBT: f64 = 0.8;
-    /// What a single reading says at most: two of one stop err by the same pose.
+    /// Maximum change of log-odds by a single reading: two readings at one stop share the pose's
+    /// error.
     const MOST_AT_ONCE: f64 = 1.6;
 
-    /// Nothing is believed but the border. `pitch` is from the middle of a cell to the next,
-    /// `thickness` that of a wall, m.
+    /// Returns a belief in the border only. `pitch` is the distance from the middle of a cell to
+    /// the next, `thickness` that of a wall, m.
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
@@ -90,7 +91,7 @@ impl<const N: usize> WallBelief<N> {
         })
     }
 
-    /// From the middle of a cell to the next, m.
+    /// Returns the distance from the middle of a cell to the next, m.
     #[must_use]
     pub const fn pitch(&self) -> f64 {
         self.pitch
@@ -116,11 +117,11 @@ impl<const N: usize> WallBelief<N> {
         self.grid.contains(cell).then_some(cell)
     }
 
-    /// Takes in one reading that `sensor` made at `pose`. One that is far from parallel to both
-    /// axes says nothing. O(n²) for n cells along the ray.
+    /// Takes in one reading that `sensor` made at `pose`. A beam that is far from parallel to both
+    /// axes is ignored. O(n²) for n cells along the ray.
     ///
-    /// By Bayes' rule, each wall on the ray by itself: how likely is the reading if it stands, and
-    /// if it does not, where the others stand as likely as is believed so far?
+    /// By Bayes' rule, for each wall on the ray by itself: the likelihood of the reading if the
+    /// wall stands, against that if it does not, with the present belief in the others.
     pub fn observe(&mut self, pose: Pose, reading: RangeReading, sensor: &RangeModel) {
         let heading = pose.heading.turned(reading.bearing);
         let unit = heading.unit();
@@ -155,8 +156,8 @@ impl<const N: usize> WallBelief<N> {
         }
     }
 
-    /// Makes all walls that are believed in, or half so, less certain: something is wrong, and
-    /// nobody knows what.
+    /// Makes every wall that is likelier to stand than not less certain, after an error of unknown
+    /// cause.
     pub fn doubt_walls(&mut self) {
         for odds in self.odds.iter_mut().filter(|odds| **odds > 0.0) {
             *odds *= Self::DOUBT;
@@ -194,14 +195,13 @@ impl<const N: usize> WallBelief<N> {
         })
     }
 
-    /// Returns how far the face of a wall on a line is.
+    /// Returns the distance to the face of a wall on a line, m.
     fn face(&self, line: Axis) -> f64 {
         (line.distance - self.thickness / 2.0 / line.slope).max(0.0)
     }
 
-    /// Returns where a ray from `origin` may end that reaches `max_range`: at the lines of the grid
-    /// that it crosses where a wall may stand, the nearest first, up to the first that is believed
-    /// in.
+    /// Returns where a ray from `origin` that reaches `max_range` may end: at crossed grid lines
+    /// where a wall may stand, the nearest first, up to the first wall believed in.
     pub fn meetings(
         &self,
         origin: Point,
@@ -299,17 +299,17 @@ struct Axis {
 /// A wall that a reading may have ended at.
 #[derive(Clone, Copy)]
 struct Chance {
-    /// Its number, or `None` at the border, of which nothing is to be learned.
+    /// Number of the wall, or `None` at the border, which is known.
     wall: Option<usize>,
-    /// How likely it is to stand.
+    /// Probability that it stands.
     stands: f64,
-    /// How likely the reading is if it ended there.
+    /// Density of the reading if it ended there.
     density: f64,
 }
 
 impl Chance {
-    /// Returns how likely a reading is that ends at the first wall that stands, and with `nothing`
-    /// where none does.
+    /// Returns the density of a reading that ends at the first standing wall; `nothing` is its
+    /// density without one.
     fn met(ray: impl Iterator<Item = Self>, nothing: f64) -> f64 {
         let (density, passes) = ray.fold((0.0, 1.0), |(density, passes), wall| {
             let ends = passes * wall.stands;

@@ -1,19 +1,19 @@
 use tolman_maze::Direction;
 
-/// What a range sensor tells of the walls along one direction, in whole cells.
+/// Reading of a range sensor along one direction, in whole cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CellRay {
-    /// Where it looks.
+    /// Direction in which it looks.
     pub direction: Direction,
-    /// How many walls in a row, from the cell it looks from, do not stand.
+    /// Number of absent walls in a row, counted from the cell it looks from.
     pub open: u16,
     /// What comes after them.
     pub end: RayEnd,
 }
 
-/// What a ray ends at.
+/// End of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

@@ -4,7 +4,7 @@ use tolman_maze::{Cell, Direction, Knowledge, Walls};
 
 use super::WallMap;
 
-/// Draws the map as mazes are drawn, north first; a dot stands on every wall nobody has looked at.
+/// Draws the map as mazes are drawn, north first; a dot marks every unknown wall.
 impl<const N: usize, const LOG: usize> fmt::Display for WallMap<N, LOG> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let grid = self.grid();

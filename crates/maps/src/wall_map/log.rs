@@ -5,16 +5,17 @@ use tolman_maze::Wall;
 #[derive(Clone, Copy, Debug, Eq)]
 pub(super) struct Log<const LOG: usize> {
     entries: [Entry; LOG],
-    /// Where the next entry goes.
+    /// Index of the next entry.
     next: usize,
     len: usize,
 }
 
-/// One wall that an observation told of. Walls of a map of at most 32 × 32 have numbers below 2112.
+/// One wall that an observation revealed. Walls of a map of at most 32 × 32 have numbers
+/// below 2112.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Entry {
     wall: u16,
-    /// How many walls of the same observation come before it.
+    /// Number of walls of the same observation before it.
     place: u16,
 }
 

@@ -13,8 +13,7 @@ use super::{CellRay, RayEnd};
 /// WallMap::<33>::new(Grid::new(3, 1), ClosedCells::Possible).ok();
 /// ```
 ///
-/// The last `LOG` walls learned can be forgotten again. Cells that do not lie on the grid are
-/// walled in.
+/// The last `LOG` walls learned can be forgotten again. Cells outside the grid are walled in.
 ///
 /// ```
 /// use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
@@ -57,7 +56,7 @@ pub struct WallMap<const N: usize, const LOG: usize = 64> {
     visits: [[u8; N]; N],
 }
 
-/// What is known of the walls on one side of every cell: two bits each.
+/// State of the walls on one side of every cell: two bits each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Plane<const N: usize> {
     /// By y; bit x is set where the wall is known.
@@ -71,7 +70,7 @@ struct Plane<const N: usize> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum ClosedCells {
-    /// Some cell may be walled in: nothing is known that was not seen.
+    /// Some cell may be walled in: unseen walls stay unknown.
     Possible,
     /// No cell is walled in: where three walls are known to stand, the fourth does not.
     Impossible,
@@ -87,7 +86,7 @@ pub enum ObserveError {
         grid.width(), grid.height()
     )]
     Outside {
-        /// Where it would stand.
+        /// Cell beside the wall.
         cell: Cell,
         /// The size of the maze.
         grid: Grid,
@@ -103,7 +102,7 @@ pub enum ObserveError {
         cell: Cell,
         /// The side of it.
         direction: Direction,
-        /// What is known of it.
+        /// Its known state.
         known: Knowledge,
     },
 }
@@ -144,7 +143,7 @@ impl<const N: usize> Plane<N> {
 }
 
 impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
-    /// Returns a map of a maze nobody has seen: nothing is known but the border.
+    /// Returns a map of an unseen maze: only the border is known.
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
@@ -172,12 +171,12 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         })
     }
 
-    /// Takes in what is seen from `cell` at one moment, every ray along its whole length, and tells
-    /// how many walls that were unknown are known now. Of two rays in one direction the first
-    /// counts. O(cells along the rays).
+    /// Takes in all rays seen from `cell` at one moment, each along its whole length. Returns the
+    /// number of walls that became known. Of two rays in one direction the first counts. O(cells
+    /// along the rays).
     ///
     /// # Errors
-    /// If a ray says the contrary of what is known, or leaves the maze; then nothing is taken in.
+    /// If a ray contradicts what is known, or leaves the maze; then nothing is taken in.
     pub fn observe(&mut self, cell: Cell, rays: &[CellRay]) -> Result<u16, ObserveError> {
         let grid = self.grid;
         if !grid.contains(cell) {
@@ -204,8 +203,9 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         Ok(learned)
     }
 
-    /// Forgets what the last `observations` that told anything new have told, inferences included,
-    /// and says of how many: fewer where the map no longer remembers. Visits stay.
+    /// Forgets the walls of the last `observations` that told anything new, inferences included.
+    /// Returns the number of observations undone, which is smaller if the map no longer remembers
+    /// them. Visits stay.
     pub fn undo(&mut self, observations: usize) -> usize {
         for undone in 0..observations {
             if !self.log.holds_last() {
@@ -258,13 +258,13 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
             .count()
     }
 
-    /// Returns how many sides of a cell nobody has looked at, 0 to 4.
+    /// Returns the number of unknown sides of a cell, 0 to 4.
     #[must_use]
     pub fn uncertainty(&self, cell: Cell) -> u8 {
         self.count(cell, Knowledge::Unknown)
     }
 
-    /// Returns how many walls nobody has looked at.
+    /// Returns the number of unknown walls.
     #[must_use]
     pub fn unknown_count(&self) -> u32 {
         let (width, height) = (u32::from(self.grid.width()), u32::from(self.grid.height()));
@@ -323,7 +323,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         }
     }
 
-    /// Three walls known → the fourth open, where the maze's rules allow it.
+    /// Infers from three known walls that the fourth is open, if the maze's rules allow it.
     fn infer(&mut self, cell: Cell, learned: &mut u16) {
         if self.closed_cells == ClosedCells::Impossible && self.is_dead_end(cell) {
             for direction in Direction::ALL {

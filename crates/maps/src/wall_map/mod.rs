@@ -1,9 +1,8 @@
-//! The walls of a grid maze as a mouse gets to know them.
+//! The walls of a grid maze as a mouse learns them.
 //!
-//! After "Plot and Navigate a Virtual Maze" (Wang), section 3.3.1, the *Mapper*: of every wall it
-//! is known that it stands, that it does not, or nothing. Differences: a wall is one thing, so that
-//! both cells beside it always agree; the size is any rectangle; and what was observed can be taken
-//! back.
+//! After "Plot and Navigate a Virtual Maze" (Wang), section 3.3.1, the *Mapper*: every wall is
+//! known to stand, known to be absent, or unknown. There are three differences. Both cells beside a
+//! wall share it, so they always agree. The size is any rectangle. Observations can be undone.
 //!
 //! With the feature `serde` a map is saved and loaded as a `SavedWallMap`, whatever its `N` and
 //! `LOG`.

@@ -6,7 +6,7 @@ use tolman_maze::{Cell, Grid, Knowledge, Wall, Walls};
 
 use super::{ClosedCells, TooLarge, WallMap};
 
-/// A [`WallMap`] as it lies in a file. Any format of serde's will do.
+/// Contents of a [`WallMap`]'s file. Works with any format of serde's.
 ///
 /// ```
 /// use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
@@ -32,7 +32,7 @@ pub struct SavedWallMap {
     /// The walls known to stand, likewise. Those of the border are left out.
     pub standing: Vec<Wall>,
     /// The observations that can be forgotten again, the oldest first, each with the walls that it
-    /// told of. A map with a shorter memory drops the oldest.
+    /// revealed. A map with a shorter memory drops the oldest.
     pub remembered: Vec<Vec<Wall>>,
     /// Visits to each cell, row by row from the south; 255 stands for all greater numbers.
     pub visits: Vec<Vec<u8>>,
@@ -138,7 +138,7 @@ pub enum SavedWallMapError {
         /// Its number.
         wall: u32,
     },
-    /// An observation is remembered of a wall of which nothing is known.
+    /// The log remembers an observation of a wall that is unknown.
     #[error(
         "wall {wall} is remembered, but is neither open nor standing: name it there, or forget it"
     )]

@@ -84,7 +84,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     })
 }
 
-/// What was read of a drawing so far.
+/// Part of a drawing read so far.
 struct Reader {
     maze: Maze,
     places: Vec<Place>,
@@ -319,7 +319,7 @@ impl Row<'_> {
         }
     }
 
-    /// The border is closed, so no line may end before it.
+    /// Checks that a line reaches the border, which is closed.
     fn reaches(&self, width: usize) -> Result<(), MazeError> {
         let drawn = self.line.text.get(self.indent..).unwrap_or_default();
         let found = drawn.chars().count();
@@ -330,7 +330,7 @@ impl Row<'_> {
         Err(self.fault(found, MazeFault::TooShort { found, width }))
     }
 
-    /// Beyond the east border remarks may stand, but no walls: those belong to a wider maze.
+    /// Checks that only remarks stand beyond the east border: walls there belong to a wider maze.
     fn nothing_beyond(&self, width: u16) -> Result<(), MazeError> {
         let offset = post(width) + 1;
         match self.line.text.get(self.indent + offset..) {

@@ -25,7 +25,7 @@ impl MazeError {
     }
 }
 
-/// What can be wrong with a maze file. Every message names the offending value and the repair.
+/// Fault of a maze file. Every message names the offending value and the repair.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MazeFault {
@@ -104,9 +104,9 @@ pub enum MazeFault {
     /// Too few or too many lines or items.
     #[error("found {found} {what}, expected {expected}: {repair}")]
     Count {
-        /// How many there are; of lines and items beyond the last one, only the first is counted.
+        /// Number found; of lines and items beyond the last one, only the first is counted.
         found: usize,
-        /// How many there must be.
+        /// Number expected.
         expected: usize,
         /// What was counted.
         what: &'static str,
@@ -142,7 +142,7 @@ pub enum MazeFault {
     Duplicate {
         /// The cell.
         cell: Cell,
-        /// Where it is given first.
+        /// Line of its first mention.
         first_line: usize,
     },
     /// A cell that is not listed.
@@ -180,7 +180,7 @@ pub enum MazeFault {
     RepeatedKey {
         /// The key.
         key: &'static str,
-        /// Where it is given first.
+        /// Line of its first mention.
         first_line: usize,
     },
     /// A value its key cannot have.
@@ -190,7 +190,7 @@ pub enum MazeFault {
         key: &'static str,
         /// Its value.
         found: String,
-        /// What it may be.
+        /// Values it may have.
         expected: &'static str,
     },
     /// The header and the drawing tell different starts.
@@ -324,8 +324,8 @@ pub(super) fn too_large(grid: Grid) -> Option<u16> {
     Some(grid.width().max(grid.height())).filter(|side| *side > Grid::MAX_SIDE)
 }
 
-/// Enough of a text to recognize it by: files can have lines of any length, and control characters
-/// that a terminal would obey.
+/// Returns enough of a text to recognize it: files can have lines of any length, and control
+/// characters that a terminal would obey.
 pub(super) fn excerpt(text: &str) -> String {
     const LIMIT: usize = 40;
     let mut short = String::new();

@@ -40,7 +40,7 @@ use crate::{Cell, Direction, Maze};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct MazeFile {
-    /// What people call the maze.
+    /// Name of the maze.
     pub name: Option<String>,
     /// The side of a cell, m, within [`MazeFile::CORRIDOR_WIDTHS`]. `None` leaves it to the world
     /// that is built.
@@ -188,7 +188,7 @@ pub fn read(text: &str) -> Result<MazeFile, MazeError> {
     read_as(text, Format::detect(text)?)
 }
 
-/// [`read`] for a format known beforehand.
+/// Reads like [`read`] in a known format, and returns the maze.
 ///
 /// # Errors
 /// As [`read`].
@@ -205,7 +205,7 @@ pub fn parse(text: &str) -> Result<MazeFile, MazeError> {
     parse_as(text, Format::detect(text)?)
 }
 
-/// [`parse`] for a format known beforehand.
+/// Parses like [`parse`] in a known format, and returns the maze.
 ///
 /// # Errors
 /// As [`parse`].
@@ -246,12 +246,12 @@ fn parsed(text: &str, format: Format) -> Result<Parsed, MazeError> {
     }
 }
 
-/// What a text holds, and where in it each cell stands, for faults found only later.
+/// Contents of a text, with the place of each cell, for faults found only later.
 struct Parsed {
     file: MazeFile,
     /// By [`Grid::index`](crate::Grid::index).
     places: Vec<Place>,
-    /// Where the cells begin.
+    /// Place where the cells begin.
     begin: Place,
 }
 
@@ -300,5 +300,5 @@ fn expect_classic(maze: &Maze, format: Format) -> Result<(), WriteError> {
     }
 }
 
-/// Where runs begin in formats that leave it unsaid.
+/// Start of runs in formats that have none.
 const CLASSIC_START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);

@@ -3,7 +3,7 @@
 use super::{CLASSIC_START, MazeError, MazeFault, Parsed, Place};
 use crate::{Cell, CheckError, Direction, Grid, Maze};
 
-/// What a text says of one cell.
+/// Sides of one cell in a text.
 #[derive(Clone, Copy)]
 pub(super) struct Sides {
     /// Bit `1 << direction.index()` is set where the cell is open.

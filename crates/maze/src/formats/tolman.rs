@@ -69,7 +69,7 @@ pub(super) fn write(file: &MazeFile) -> Result<String, WriteError> {
 struct Entry<'a> {
     key: &'static str,
     value: &'a str,
-    /// Of the value.
+    /// Place of the value.
     place: Place,
 }
 

@@ -20,8 +20,8 @@ pub struct OneLoop {
     pub height: u16,
     /// The fewest dead ends.
     pub dead_ends: usize,
-    /// How long a corridor may be to count as short, cells from one bend, junction or dead end to
-    /// the next. Three quarters of all corridors are.
+    /// Maximum length of a short corridor, cells from one bend, junction or dead end to the next.
+    /// Three quarters of all corridors are short.
     pub short: u32,
 }
 

@@ -20,7 +20,7 @@ pub struct Rooms {
     pub width: u16,
     /// Rows.
     pub height: u16,
-    /// How often a room is tried.
+    /// Number of tries to place a room.
     pub attempts: u32,
     /// Shortest side of a room, cells.
     pub smallest: u16,

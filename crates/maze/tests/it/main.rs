@@ -2,8 +2,6 @@
 
 // `cfg(test)` tells clippy that helpers beside the tests may unwrap.
 #[cfg(test)]
-mod documentation;
-#[cfg(test)]
 mod drawings;
 #[cfg(test)]
 mod faults;

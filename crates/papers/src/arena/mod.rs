@@ -1,5 +1,6 @@
-//! Every system in every kind of world, judged by one truth: what each learns, whether it knows
-//! that, whether it finds out where it was put down, and whether it gets to the goal.
+//! Every system in every kind of world, judged by one truth. It measures what each learns and
+//! whether the system's own verdict on that is right. It also measures whether the system finds out
+//! where it was put down, and whether it gets to the goal.
 
 mod figures;
 mod records;
@@ -23,7 +24,7 @@ use crate::Film;
 pub use verdicts::{PoolJudgement, PoolRound, RungJudgement, VerdictPool};
 pub use worlds::{ArenaWorld, DrawnWorld};
 
-/// What the catalogue says of it.
+/// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
     name: "arena",
     title: "Arena: every system in every kind of world",
@@ -34,7 +35,7 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// What is asked of a contestant, and measured.
+/// Task of a contestant, and what is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ArenaTask {
     Learn,
@@ -181,8 +182,8 @@ fn no_row(job: &Job<'_>) -> BoxError {
     format!("there is no row {:?} of {}", job.row, job.table).into()
 }
 
-/// Returns which contest a row's run is, of `worlds` kinds of worlds: run n of the row of all is of
-/// kind n modulo their number.
+/// Returns the contest of a row's run if there are `worlds` kinds of worlds: run n of the row of
+/// all is of kind n modulo their number.
 const fn of_all(run: u32, worlds: u32) -> (u32, u32) {
     (run % worlds, run / worlds)
 }

@@ -7,7 +7,7 @@ use super::rows::{ALL, contestants, row_name};
 use super::{ArenaTask, TABLES};
 
 record! {
-    /// What a system learned of a world.
+    /// Map that a system learned of a world.
     pub(super) struct LearnRun {
         /// Whether it said, before it drove, that it cannot work there.
         abstained: bool => neither("abstained"),
@@ -16,40 +16,41 @@ record! {
         right: bool => higher("right"),
         /// Whether its map is one to one the graph of the true ways that it has gone and what it
         /// saw beside.
-        right_of_visited: bool => higher("right of visited"),
+        right_of_visited: bool => higher("right as far as visited"),
         /// Share of the visits of its places that were to the cell which that place was most often.
         purity: Option<f64> => higher("purity").share().decimals(3),
-        /// Places of its map over true places; what has two ways and no landmark is a part of a
-        /// way.
+        /// Places of its map over true places. A place with two ways and no landmark counts as part
+        /// of a way.
         places: Option<f64> => neither("places / true").decimals(2),
         /// Share of the links of its map that are true ways, each once.
         link_precision: Option<f64> => higher("link precision").share().decimals(3),
         /// Share of the true ways that are on its map; 0 of who abstained.
         link_recall: f64 => higher("link recall").share().decimals(3),
-        /// Of a wrong map: whether the system called it right.
-        false_right: Option<bool> => lower("false right"),
-        /// Of a right map: whether the system called it wrong.
-        false_alarm: Option<bool> => lower("false alarm"),
+        /// For a wrong map: whether the system called it right.
+        false_right: Option<bool> => lower("wrong maps called right"),
+        /// For a right map: whether the system called it wrong.
+        false_alarm: Option<bool> => lower("right maps called wrong"),
         /// Whether the system did not say whether its map is right.
         undecided: Option<bool> => lower("undecided"),
         /// Whether the map is right, where there is one.
         map_right: Option<bool> => higher("right maps"),
-        /// Squared error of how likely the system took its map to be right: what it says if it
-        /// weighs that, else 1, if it was done; 0 if it gave up; a half if it did not say.
+        /// Squared error of the system's probability that its map is right. That is its own
+        /// estimate if it has one; else 1 if it was done, 0 if it gave up, and a half if it did not
+        /// say.
         brier: Option<f64> => lower("Brier"),
         /// Metres driven over the length of all corridors.
         driven: Option<f64> => lower("metres / corridors"),
         /// Time steps in which it touched something.
         bumps: Option<u32> => lower("bumps"),
-        /// Bytes of its map for each of its places, without what it was learned from.
+        /// Bytes of its map for each of its places, without the data it was learned from.
         bytes_per_place: Option<f64> => lower("bytes / place").decimals(0),
-        /// How it ended, and why.
+        /// How it ended, with the reason.
         why: String => neither("end"),
     }
 }
 
 record! {
-    /// How a robot went to the goal from somewhere.
+    /// A robot's way to the goal.
     pub(super) struct HomeRun {
         /// Whether it said before it drove that it cannot work there.
         abstained: bool => neither("abstained"),
@@ -60,12 +61,12 @@ record! {
         /// Time steps in which it touched something.
         bumps: Option<u32> => lower("bumps"),
         /// Reason why it gave up.
-        why: String => neither("why not"),
+        why: String => neither("reason"),
     }
 }
 
 record! {
-    /// What a system said of where it was put down.
+    /// A system's answer to where it was put down.
     pub(super) struct LocateRun {
         /// Whether it said where it is, and was there.
         right: bool => higher("right"),
@@ -75,8 +76,8 @@ record! {
         abstained: bool => neither("abstained"),
         /// On a map that is right, or the true one: whether it said where it is, and was there.
         right_on_right_map: Option<bool> => higher("right on right maps"),
-        /// How likely an observer with the true map that mistakes nothing would be right about the
-        /// cell after the same drive.
+        /// Probability that an observer with the true map and without recognition errors would be
+        /// right about the cell after the same drive.
         ceiling: Option<f64> => neither("passive ceiling").percent().decimals(1),
         /// The same on maps that are right.
         ceiling_on_right_map: Option<f64> => neither("passive ceiling, on right maps").percent().decimals(1),
@@ -85,12 +86,12 @@ record! {
         /// so.
         with_true_map: Option<bool> => neither("active ceiling, on right maps"),
         /// Reason why it did not say.
-        why: String => neither("why not"),
+        why: String => neither("reason"),
     }
 }
 
 record! {
-    /// What it costs to learn a world.
+    /// Cost of learning a world.
     pub(super) struct SizeRun {
         /// Whether the map is right and whole.
         right: bool => higher("right"),
@@ -106,7 +107,7 @@ record! {
 }
 
 record! {
-    /// What becomes of a system under a condition.
+    /// Results of a system under a condition.
     pub(super) struct ConditionRun {
         /// Whether it said, before it drove, that it cannot work there.
         abstained: bool => neither("abstained"),
@@ -116,12 +117,12 @@ record! {
         purity: Option<f64> => higher("purity").share().decimals(3),
         /// Share of the true ways that are on its map; 0 of who abstained.
         link_recall: f64 => higher("link recall").share().decimals(3),
-        /// Of a wrong map: whether the system called it right.
-        false_right: Option<bool> => lower("false right"),
+        /// For a wrong map: whether the system called it right.
+        false_right: Option<bool> => lower("wrong maps called right"),
         /// Whether it found out where it was put down.
         located: bool => higher("located"),
         /// Whether it took itself to be elsewhere.
-        located_wrong: bool => lower("located wrong"),
+        located_wrong: bool => lower("located wrongly"),
         /// Whether it came to the goal.
         success: bool => higher("success"),
     }
@@ -337,7 +338,7 @@ pub(super) fn note(task: ArenaTask, robot: ContestRobot) -> String {
     }
 }
 
-/// Of each system the runs with the worst map on each robot, as many as there are, the worst first.
+/// Returns, for each system, the runs with the worst map on each robot, the worst first.
 pub(super) fn worst(runs: &[Run]) -> Result<Vec<Run>, BoxError> {
     let mut worst = Vec::new();
     for (table, task, _) in TABLES {

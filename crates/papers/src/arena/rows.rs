@@ -25,7 +25,7 @@ const NO_RUNS: u32 = 0;
 /// Between the system and the world in the name of a row.
 const BETWEEN: &str = " · ";
 
-/// What a row is of.
+/// Parts of a row's name.
 pub(super) struct RowName<'a> {
     pub(super) contestant: Contestant,
     pub(super) world: &'a str,
@@ -43,7 +43,8 @@ pub(super) fn row_name(contestant: Contestant, world: &str) -> String {
     format!("{}{BETWEEN}{world}", contestant.name())
 }
 
-/// Who has rows in a table: baselines learn no map, and one of them says where it is.
+/// Returns the contestants that have rows in a table: baselines learn no map, and only one of them
+/// localizes.
 pub(super) fn contestants(task: ArenaTask) -> impl Iterator<Item = Contestant> {
     let all = Contestant::ALL.into_iter();
     all.filter(move |contestant| match contestant {
@@ -81,7 +82,7 @@ pub(super) type Held = BTreeMap<HeldKey, Shared>;
 /// A contest: robot, contestant, world and drawing.
 pub(super) type HeldKey = (ContestRobot, &'static str, usize, u32);
 
-/// A contest that whoever comes first holds, while the others wait.
+/// A contest that the first caller plays, while the others wait.
 type Shared = Arc<Mutex<Option<Arc<ContestRecord>>>>;
 
 impl Arena {
@@ -153,8 +154,8 @@ impl Arena {
     }
 }
 
-/// Worlds of each kind for a contestant: as many as the caller asks for, else the experiment's own
-/// number, or `slow` for who takes seconds in each.
+/// Returns the number of worlds of each kind for a contestant: as many as the caller asks for, else
+/// the experiment's own number, or `slow` for a contestant that takes seconds in each.
 fn runs_of(contestant: Contestant, options: &Options, slow: u32) -> u32 {
     match contestant {
         Contestant::GngSlamBetter => options.runs_else(slow, slow),

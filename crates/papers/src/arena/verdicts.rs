@@ -1,5 +1,4 @@
-//! Maps by which a system's own verdict on them is judged: right and wrong ones, as many of each as
-//! it takes.
+//! Maps by which a system's own verdict on them is judged: enough right ones and enough wrong ones.
 
 use tolman_arena::contest::{Claim, Condition, ContestRecord};
 use tolman_arena::family::FamilySize;
@@ -7,7 +6,7 @@ use tolman_experiment::{BoxError, run_seed};
 
 use super::worlds::{ArenaWorld, DrawnWorld};
 
-/// How hard the worlds are that maps are learned in, the easiest first.
+/// Difficulties of the worlds in which maps are learned, the easiest first.
 const RUNGS: [Rung; 5] = [
     Rung::new("small", FamilySize::Small, Condition::AsMade),
     Rung::new("middle", FamilySize::Middle, Condition::AsMade),
@@ -39,8 +38,8 @@ impl Rung {
 /// Maps of one system, drawn until there are enough right and enough wrong ones.
 ///
 /// Each [round](Self::round) is a fresh world of every family. While there are more right maps than
-/// wrong ones the next round is harder, else easier; so both kinds grow alike, and the worlds
-/// depend on nothing but the seed and what came of the rounds before.
+/// wrong ones, the next round is harder, else easier. So both kinds grow alike. The worlds depend
+/// only on the seed and on the results of earlier rounds.
 #[derive(Clone, Debug)]
 pub struct VerdictPool {
     seed: u64,
@@ -55,10 +54,10 @@ pub struct VerdictPool {
     maps: Vec<OwnVerdict>,
 }
 
-/// What a system made of its map, and whether that is right.
+/// A system's verdict on its map, and whether the map is right.
 #[derive(Clone, Copy, Debug)]
 struct OwnVerdict {
-    /// How hard its world was.
+    /// Number of the difficulty of its world.
     rung: usize,
     is_right: bool,
     claim: Claim,
@@ -70,11 +69,11 @@ struct OwnVerdict {
 pub struct PoolRound {
     /// One of each family. Nobody is put down in them.
     pub worlds: Vec<DrawnWorld>,
-    /// What is otherwise than as made.
+    /// Condition of robot and world.
     pub condition: Condition,
 }
 
-/// What the maps of a [`VerdictPool`] say. Shares are in percent; `None` without a map of the kind.
+/// Summary of a [`VerdictPool`]. Shares are in percent; `None` without a map of the kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoolJudgement {
     /// Maps that are right.
@@ -83,33 +82,33 @@ pub struct PoolJudgement {
     pub wrong: usize,
     /// Worlds in which it abstained.
     pub abstained: u32,
-    /// Of the wrong maps, those that it called right.
+    /// Share of the wrong maps that it called right.
     pub false_right_percent: Option<f64>,
-    /// Of the right maps, those that it called wrong.
+    /// Share of the right maps that it called wrong.
     pub false_alarm_percent: Option<f64>,
-    /// Of all maps, those of which it said nothing.
+    /// Share of all maps on which it gave no verdict.
     pub undecided_percent: Option<f64>,
-    /// How much better it tells right maps from wrong ones than their share does: 1 always knows.
-    /// `None` if all are alike.
+    /// Brier skill of its verdicts over the share of right maps: 1 for perfect verdicts. `None` if
+    /// all maps are right, or all wrong.
     pub brier_skill: Option<f64>,
-    /// How hard the worlds were, the easiest first.
+    /// Results by difficulty, the easiest first.
     pub drawn: Vec<RungJudgement>,
 }
 
-/// What came of the worlds of one kind of a [`VerdictPool`].
+/// Results in the worlds of one difficulty of a [`VerdictPool`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RungJudgement {
-    /// How hard they were.
+    /// Name of the difficulty.
     pub name: &'static str,
     /// Worlds.
     pub worlds: u32,
     /// Maps that are right.
     pub right: usize,
-    /// Of these, those that it called wrong.
+    /// Number of these that it called wrong.
     pub false_alarms: usize,
     /// Maps that are wrong.
     pub wrong: usize,
-    /// Of these, those that it called right.
+    /// Number of these that it called right.
     pub false_right: usize,
 }
 
@@ -184,7 +183,7 @@ impl VerdictPool {
         right.min(wrong) >= self.enough as usize
     }
 
-    /// Right maps and wrong ones.
+    /// Returns the numbers of right and of wrong maps.
     fn counts(&self) -> (usize, usize) {
         let right = self.count(|map| map.is_right);
         (right, self.maps.len() - right)

@@ -27,13 +27,13 @@ pub enum ArenaWorld {
 /// A drawing with the seed of the contest that is held in it.
 #[derive(Clone, Debug)]
 pub struct DrawnWorld {
-    /// What it is called.
+    /// Name of the world.
     pub name: String,
     /// The drawing.
     pub maze: Maze,
     /// The seed of all random numbers.
     pub seed: u64,
-    /// How often a robot is put down in it for each task.
+    /// Number of times that a robot is put down in it for each task.
     pub starts: u32,
 }
 

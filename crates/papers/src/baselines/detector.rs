@@ -28,7 +28,7 @@ record! {
 /// Random poses in one run.
 const POSES: u32 = 200;
 
-/// How long the arms of a place are, cells: further than the laser sees.
+/// Length of the arms of a place, cells: farther than the laser sees.
 const ARM: u16 = 2;
 
 /// A kind of place and the directions it is open in.

@@ -1,4 +1,4 @@
-//! Where the runs went: for each maze and brain, the middle run over all others.
+//! Ways of the runs: for each maze and brain, the middle run over all others.
 
 use tolman_geom::Point;
 
@@ -7,7 +7,7 @@ use tolman_arena::cast::Agent;
 use tolman_draw::{Figure, Series};
 use tolman_experiment::{BoxError, Run};
 
-/// How many runs one plan shows at most.
+/// Maximum number of runs on one plan.
 const SHOWN: usize = 25;
 
 /// Width of a plan, user units.

@@ -1,8 +1,9 @@
 //! The baselines of MSLST: what wandering and wall-following reach without any map.
 //!
 //! Tables 2 and 3 of "Maze Solving by Learning State Topologies" for its two simple brains, with a
-//! random one as the floor and an oracle as the ceiling; competition mazes, or any others, as
-//! further tables; and how often the corridor detector takes each kind of place for a corridor.
+//! random one as the floor and an oracle as the ceiling. Competition mazes, or any others, are
+//! further tables. A last table shows how often the corridor detector takes each kind of place for
+//! a corridor.
 
 mod detector;
 mod figures;
@@ -28,7 +29,7 @@ const ROWS: [Agent; 4] = [
     Agent::Oracle,
 ];
 
-/// What the catalogue says of it.
+/// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
     name: "baselines",
     title: "Mazes without a map: MSLST's baselines",
@@ -90,7 +91,7 @@ fn table(venue: &Venue) -> Table {
 }
 
 impl Baselines {
-    /// Returns what a run is made of; `None` for one of the detector.
+    /// Returns the trial and the mind of a run; `None` for a run of the detector.
     fn cast(&self, job: &Job<'_>) -> Result<Option<(Trial<'_>, Mind)>, EpisodeError> {
         let mut venues = self.venues.iter();
         let venue = venues.find(|venue| venue.table == job.table);

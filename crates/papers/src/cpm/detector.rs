@@ -1,5 +1,5 @@
-//! How well junctions and dead ends are told by one sweep: section 4.1, with what each step of ours
-//! adds to it.
+//! Recognition of junctions and dead ends by one sweep: section 4.1, with the effect of each of our
+//! additions.
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -20,7 +20,7 @@ use tolman_experiment::{
 /// The name of the table.
 pub(super) const DETECTOR: &str = "detector";
 
-/// How a row looks.
+/// Settings of a row.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Setting {
     name: &'static str,
@@ -46,13 +46,13 @@ const SETTINGS: [Setting; 3] = [
     },
 ];
 
-/// How wide corridors are in the rows that do not take the mazes as they are drawn, m.
+/// Width of corridors in the rows that do not use that of the mazes, m.
 const WIDE: f64 = 0.30;
 
-/// How far from the middle of a cell the robot stands at most along either axis, m.
+/// Maximum offset of the robot from the middle of a cell along either axis, m.
 const OFF: f64 = 0.02;
 
-/// How far it looks askew at most, rad.
+/// Maximum error of its heading, rad.
 const ASKEW: f64 = 0.15;
 
 record! {
@@ -61,27 +61,27 @@ record! {
     struct DetectorRun {
         /// Looks at places.
         looks: u32 => neither("looks"),
-        /// Looks that counted the openings rightly.
+        /// Looks that counted the openings correctly.
         counted: u32 => higher("counted"),
-        /// Looks that took a junction for one.
-        junctions_right: u32 => higher("junctions told rightly"),
+        /// Looks that recognized a junction as one.
+        junctions_right: u32 => higher("junctions recognized correctly"),
         /// Looks that took a place for a junction.
-        junctions_told: u32 => neither("junctions told"),
-        /// Junctions to be told.
-        junctions_there: u32 => neither("junctions there"),
-        /// Looks that took a dead end for one.
-        dead_ends_right: u32 => higher("dead ends told rightly"),
+        junctions_told: u32 => neither("junctions reported"),
+        /// Junctions looked at.
+        junctions_there: u32 => neither("true junctions"),
+        /// Looks that recognized a dead end as one.
+        dead_ends_right: u32 => higher("dead ends recognized correctly"),
         /// Looks that took a place for a dead end.
-        dead_ends_told: u32 => neither("dead ends told"),
-        /// Dead ends to be told.
-        dead_ends_there: u32 => neither("dead ends there"),
-        /// Share of the junctions told that are junctions.
+        dead_ends_told: u32 => neither("dead ends reported"),
+        /// Dead ends looked at.
+        dead_ends_there: u32 => neither("true dead ends"),
+        /// Share of the reported junctions that are junctions.
         junction_precision: Option<f64> => higher("junctions: precision").share(),
-        /// Share of the junctions there that are told.
+        /// Share of the true junctions that are reported.
         junction_recall: Option<f64> => higher("junctions: recall").share(),
-        /// Share of the dead ends told that are dead ends.
+        /// Share of the reported dead ends that are dead ends.
         dead_end_precision: Option<f64> => higher("dead ends: precision").share(),
-        /// Share of the dead ends there that are told.
+        /// Share of the true dead ends that are reported.
         dead_end_recall: Option<f64> => higher("dead ends: recall").share(),
     }
 }
@@ -99,7 +99,7 @@ impl DetectorRun {
         require(shares, "precision or recall is not that of its counts")
     }
 
-    /// Returns the kinds of places, and how many were told rightly, were told, and are there.
+    /// Returns the kinds of places with their counts: recognized correctly, reported, and existing.
     const fn kinds(&mut self) -> [(PlaceKind, [&mut u32; 3]); 2] {
         let junctions = [
             &mut self.junctions_right,
@@ -124,7 +124,7 @@ impl DetectorRun {
         self.place(Some(place_of(openings)), place_of(truth));
     }
 
-    /// Nothing was told of a place.
+    /// Counts a place of which nothing was reported.
     fn missed(&mut self, truth: usize) {
         self.place(None, place_of(truth));
     }
@@ -138,7 +138,7 @@ impl DetectorRun {
         }
     }
 
-    /// With the shares that follow from the counts.
+    /// Returns the record with the shares that follow from the counts.
     fn finished(mut self) -> Self {
         self.junction_precision = share(self.junctions_right, self.junctions_told);
         self.junction_recall = share(self.junctions_right, self.junctions_there);
@@ -148,7 +148,7 @@ impl DetectorRun {
     }
 }
 
-/// Part of a whole; `None` of nothing.
+/// Returns the share of a part in the whole; `None` if the whole is 0.
 fn share(part: u32, whole: u32) -> Option<f64> {
     (whole > 0).then(|| f64::from(part) / f64::from(whole))
 }
@@ -177,7 +177,7 @@ pub(super) fn table() -> Table {
     let table = Table::of::<DetectorRun>(DETECTOR, "Junctions and dead ends told by one sweep")
         .metric(
             right
-                .titled("openings counted rightly")
+                .titled("openings counted correctly")
                 .better(Better::Higher),
         )
         .metrics_from(DetectorRun::junction_precision)
@@ -268,8 +268,8 @@ fn sweep_all(
     Ok(())
 }
 
-/// The robot walks every fragment both ways; what is told of the place at its end counts, and a
-/// place that it does not come to is missed.
+/// Counts the places at the ends of all fragments, each walked both ways. A place that the robot
+/// does not reach is missed.
 fn walk(course: &Course, seed: u64, tally: &mut DetectorRun) -> Result<(), BoxError> {
     let config = walker_config(&epuck(), course.corridor_width)?;
     for walk in survey(course, &epuck(), &config, seed)? {
@@ -282,7 +282,7 @@ fn walk(course: &Course, seed: u64, tally: &mut DetectorRun) -> Result<(), BoxEr
     Ok(())
 }
 
-/// Returns what a cell with `degree` ways out is.
+/// Returns the kind of a cell with `degree` ways out.
 const fn place_of(degree: usize) -> PlaceKind {
     match degree {
         0 => PlaceKind::Closed,

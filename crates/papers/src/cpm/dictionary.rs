@@ -1,4 +1,5 @@
-//! How many common patterns the robot learns: section 5, "31 clusters are obtained with 102 nodes".
+//! Number of common patterns that the robot learns: section 5, "31 clusters are obtained with 102
+//! nodes".
 
 use crate::tolerances::PROTOTYPES;
 use tolman_arena::course::Course;
@@ -10,7 +11,7 @@ use tolman_systems::cpm::CommonPatterns;
 pub(super) const DICTIONARY: &str = "dictionary";
 
 record! {
-    /// What was learned on a walk through the learning maze.
+    /// Patterns learned on a walk through the learning maze.
     #[check(DictionaryRun::relations)]
     pub(super) struct DictionaryRun {
         /// Units of SOINN, each a common pattern of ours.

@@ -44,8 +44,8 @@ const fn series(id: FragmentId) -> Series {
     Series(1 + id.0 % (Series::COLOURS - 1))
 }
 
-/// Returns a map over the maze it was learned in: each fragment along the corridor it stands for,
-/// in a colour of its own, with its name and its signs; junctions as squares. Dashed stubs are
+/// Returns a map over the maze in which it was learned. Each fragment is drawn along its corridor,
+/// in a colour of its own, with its name and its signs. Junctions are squares, dashed stubs
 /// unexplored ports.
 #[must_use]
 pub fn over_maze(map: &CpMap, course: &Course) -> Drawing {
@@ -106,7 +106,7 @@ fn plan_with(map: &CpMap, course: &Course) -> FloorPlan {
     plan
 }
 
-/// Returns the plan of a maze; what the robot cannot come to is solid.
+/// Returns the plan of a maze; cells that the robot cannot reach are solid.
 #[must_use]
 pub fn plan_of(course: &Course) -> FloorPlan {
     let world = &course.world;
@@ -137,9 +137,9 @@ fn add(graph: &mut GraphPicture, node: GraphNode) {
     }
 }
 
-/// Returns the map by itself, as the paper's figure 8: fragment nodes as discs, junction nodes as
-/// squares, each edge with the sign of the fragment's end and the port of the junction. Nodes lie
-/// as they do in the maze.
+/// Returns the map by itself, like the paper's figure 8. Fragment nodes are discs, junction nodes
+/// squares. Each edge has the sign of the fragment's end and the port of the junction. Nodes have
+/// their positions in the maze.
 #[must_use]
 pub fn graph(map: &CpMap, course: &Course) -> Drawing {
     let world = &course.world;
@@ -260,7 +260,7 @@ fn fragment_note(map: &CpMap, id: FragmentId, fragment: &Fragment) -> String {
     note.trim_end_matches("; ").to_owned()
 }
 
-/// Dashed stubs where nobody has been.
+/// Draws dashed stubs at unexplored ports.
 fn stubs(graph: &mut GraphPicture, layout: &Layout, world: &World) {
     for open in layout.open_ports() {
         let at = world.cell_centre(open.cell);
@@ -292,7 +292,7 @@ pub fn middle_of(cells: &[Cell], world: &World) -> Point {
 }
 
 /// Returns a point along a way from which straight lines to both its ends pass no node: the middle,
-/// or as near to it as may be.
+/// or the nearest such point.
 fn free(points: &[Point], graph: &GraphPicture) -> Point {
     let (Some(start), Some(end)) = (points.first(), points.last()) else {
         return Point::origin();
@@ -318,7 +318,7 @@ fn free(points: &[Point], graph: &GraphPicture) -> Point {
     candidates[0]
 }
 
-/// Returns how far a point lies from the line between two others.
+/// Returns the distance of a point from the line between two others.
 fn distance_to(point: Point, from: Point, to: Point) -> f64 {
     let along = to - from;
     let share = (point - from).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);

@@ -1,5 +1,5 @@
-//! One episode of CPM against many of Q-learning and of a random walk: what the paper claims over
-//! reinforcement learning, without a figure (sections 1 and 2).
+//! One episode of CPM against many of Q-learning and of a random walk. The paper claims an
+//! advantage over reinforcement learning, without figures (sections 1 and 2).
 
 use alloc::collections::BTreeMap;
 
@@ -30,7 +30,7 @@ record! {
         /// Cells of CPM's way in its second episode.
         cells: Option<u32> => lower("CPM's second way").unit("cells"),
         /// Cells of the shortest way.
-        shortest_cells: u32 => neither("the shortest").unit("cells"),
+        shortest_cells: u32 => neither("shortest way").unit("cells"),
         /// Episodes before CPM drives that way.
         cpm_episodes: Option<u32> => lower("CPM: episodes").at_most(MOST_EPISODES),
         /// Length of CPM's way in them.
@@ -64,7 +64,7 @@ impl EpisodesRun {
     }
 }
 
-/// `courses` one row each.
+/// Returns the table, with one row for each of `courses`.
 pub(super) fn table(courses: &[Course]) -> Table {
     let table = Table::of::<EpisodesRun>(EPISODES, "Episodes until the way is known")
         .metrics_from(EpisodesRun::cells)
@@ -119,7 +119,7 @@ pub(super) fn run(
     Ok(run.fields()?)
 }
 
-/// What it took, as counted on a graph.
+/// Episodes and metres counted on a graph.
 struct Walked {
     episodes: u32,
     cells: u64,

@@ -1,5 +1,5 @@
-//! Mazes explored to their end: how far from the best the robot's walk is, and Theorem 1's bound
-//! with the times it took.
+//! Mazes explored to their end: the robot's walk relative to the best one, and Theorem 1's bound
+//! with the measured times.
 
 use tolman_systems::cpm::Done;
 
@@ -11,11 +11,11 @@ use tolman_experiment::{BoxError, Fields, Options, Record, Table, record, requir
 /// The name of the table.
 pub(super) const EXPLORED: &str = "explored";
 
-/// Runs of a row: of a walk that is half as long again as the best one, the mean is known to within
-/// a thirtieth then.
+/// Runs of a row. For a walk half as long again as the best one, they give the mean to within a
+/// thirtieth.
 const RUNS: u32 = 40;
 
-/// As many for a first look.
+/// Runs of a row for a first look.
 const QUICK_RUNS: u32 = 3;
 
 record! {
@@ -38,11 +38,11 @@ record! {
         traversals_to_best: Option<f64> => lower("walked / best"),
         /// Time until the last fragment was walked.
         seconds: Option<f64> => lower("all walked after").unit("s").at_least(0),
-        /// Time by which Theorem 1 says that all are walked.
+        /// Time by which all are walked, by Theorem 1.
         bound: f64 => neither("Theorem 1").unit("s"),
         /// Whether the last fragment was walked by then.
         within_bound: bool => higher("within Theorem 1"),
-        /// What ended the exploration early.
+        /// Reason for an early end of the exploration.
         trouble: Option<String> => neither("trouble"),
     }
 }
@@ -65,7 +65,7 @@ impl ExploredRun {
     }
 }
 
-/// `papers`: the mazes are the paper's, and others are drawn beside them.
+/// Returns the trials. If the mazes are the `papers`, others are drawn as well.
 pub(super) fn explored(courses: &[Course], papers: bool, options: &Options) -> Trials {
     let mut settings = in_both_modes(courses);
     if papers {

@@ -1,4 +1,4 @@
-//! Every run another world of its kind: what a claim about maps is made on.
+//! Every run in another world of its kind, as claims about maps need.
 
 use rand::{Rng, RngExt};
 use serde::Serialize;
@@ -33,7 +33,7 @@ const CORRIDORS: [&str; 11] = [
 /// Those with openings of 2 × 2 cells.
 const OPEN: [&str; 3] = ["rooms", "braided rooms", "pillars"];
 
-/// One row: a kind of world, and what is otherwise than as robots are made.
+/// One row: a kind of world, and the deviations of the robots.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct FreshRow {
     pub(super) row: String,
@@ -56,7 +56,7 @@ impl FreshRow {
         }
     }
 
-    /// In corridors of any family, on wheels that are out of calibration.
+    /// Returns the row of corridors of any family, on wheels that are out of calibration.
     fn wheels(percent: u8) -> Self {
         Self {
             row: format!("wheels {percent} %"),
@@ -94,7 +94,7 @@ record! {
         /// Whether the goal is on the map, and the map right and whole.
         solved: bool => higher("solved"),
         /// Whether the map is one to one the true junctions, dead ends, start and goal and the ways
-        /// between them, with 95 % of all at least.
+        /// between them, with at least 95 % of all.
         right: bool => higher("map right"),
         /// Whether the goal is on the map.
         goal_found: bool => higher("goal found"),
@@ -102,24 +102,24 @@ record! {
         abstained: bool => neither("abstained"),
         /// Whether a place of the map stands for two true ones.
         false_merge: Option<bool> => lower("false merges"),
-        /// Whether what the system says of its own map is so: that it is done, of a right one, or
-        /// that it gave up, of another.
+        /// Whether the system's verdict on its own map is right: done with a right one, given up
+        /// with a wrong one.
         verdict_right: Option<bool> => higher("own verdict right"),
-        /// Of a wrong map: whether the system called it right.
+        /// For a wrong map: whether the system called it right.
         false_right: Option<bool> => lower("wrong maps called right"),
-        /// Of a right map: whether the system called it wrong.
+        /// For a right map: whether the system called it wrong.
         false_alarm: Option<bool> => lower("right maps called wrong"),
         /// Share of the visits of its places that were to the cell which that place was most often.
         purity: Option<f64> => higher("purity").share().decimals(4),
         /// Places of the map over true places.
-        places_over_true: Option<f64> => lower("places over true ones").at_least(0).decimals(2),
+        places_over_true: Option<f64> => lower("places / true places").at_least(0).decimals(2),
         /// Share of the true ways that are on the map; 0 of who abstained.
         link_recall: f64 => higher("link recall").share().decimals(3),
         /// Metres driven over the length of all corridors.
         driven: Option<f64> => lower("metres / corridors").at_least(0).decimals(2),
         /// Time steps in which it touched something.
         bumps: Option<u32> => lower("steps at a wall"),
-        /// How it ended, and why.
+        /// How it ended, with the reason.
         why: String => neither("end"),
     }
 }
@@ -135,7 +135,7 @@ impl FreshRun {
         require(self.abstained || either, told)
     }
 
-    /// Of who said before it drove that it cannot.
+    /// Returns the record of a system that abstained before it drove.
     fn of_abstained(why: String) -> Self {
         Self {
             abstained: true,

@@ -25,39 +25,39 @@ const RUNS: u32 = 100;
 /// Number of maps learned of each maze, which runs share in turn; aliased mazes have one each run.
 const MAPS: usize = 20;
 
-/// As many for a first look.
+/// Runs of a row for a first look.
 const QUICK_RUNS: u32 = 5;
 
-/// The row of mazes with fragments that look alike, another one each run, of which the robot knows
-/// that one alone.
+/// The row of mazes with fragments that look alike. Each run has another maze, the only one that
+/// the robot knows.
 const ALIASED: &str = "Aliased";
 
-/// What follows the name of a maze in a row of robots that turn round where they are not sure.
+/// Suffix of a maze's name in a row of robots that turn round when they are not sure.
 const TO_AND_FRO: &str = " to and fro";
 
 record! {
     /// A robot put down in mid-fragment.
     #[check(LocalizationRun::relations)]
     struct LocalizationRun {
-        /// Chance that the best guess is right of an observer that sees every bend of the corridor.
+        /// Probability that an observer who sees every bend of the corridor guesses correctly.
         bends_percent: f64 => neither("could be known by bends").percent().decimals(1),
-        /// The same of an observer that sees the places at the ends too.
-        places_percent: f64 => neither("and by the places at the ends").percent().decimals(1),
+        /// The same for an observer who also sees the places at the ends.
+        places_percent: f64 => neither("could be known by bends and places").percent().decimals(1),
         /// Whether the robot turned round.
         turned_round: bool => neither("turned round"),
         /// Whether it was right when the first place was in sight.
-        under_way: bool => higher("right before it enters a place"),
+        under_way: bool => higher("right before the first place"),
         /// Whether it was right in the middle of the first place.
-        first_place: bool => higher("right in the middle of the first"),
+        first_place: bool => higher("right in the first place"),
         /// Whether it was right within one further fragment.
         one_further: bool => higher("right within one further fragment"),
         /// Whether it was right at the last place.
-        last_place: bool => higher("right at the last"),
+        last_place: bool => higher("right in the last place"),
         /// Whether SOINN-AM recalled the maze by the first fragment walked whole.
         recalled: Option<bool> => higher("maze recalled by SOINN-AM"),
-        /// Places that the robot came to until it was sure.
-        places: usize => lower("places come to").at_least(1).at_most(MOST_PLACES),
-        /// Time that it took.
+        /// Number of places visited until the robot was sure.
+        places: usize => lower("places visited").at_least(1).at_most(MOST_PLACES),
+        /// Duration.
         seconds: f64 => lower("time").unit("s").at_least(0),
     }
 }
@@ -97,7 +97,7 @@ impl LocalizationRun {
     }
 }
 
-/// What the robot learned of each maze, several times, by whoever asks first.
+/// Maps of each maze, several of each, learned by the first caller.
 #[derive(Debug, Default)]
 pub(super) struct Known([OnceLock<Vec<TrialRecord>>; MAPS]);
 
@@ -109,7 +109,7 @@ fn cast(row: &str) -> (&str, Approach) {
     }
 }
 
-/// Names the maps that a run is by; `None` of a run in a maze of its own.
+/// Returns the name of the maps that a run uses; `None` for a run in a maze of its own.
 pub(super) fn maps_of(job: &Job<'_>) -> Option<String> {
     let (maze, _) = cast(job.row);
     (maze != ALIASED).then(|| format!("maps {}", job.run as usize % MAPS))

@@ -27,7 +27,7 @@ pub(super) fn papers() -> Result<Vec<Course>, BoxError> {
     .collect()
 }
 
-/// That of figure 11, drawn again.
+/// Returns the maze of figure 11, redrawn.
 pub(super) fn real() -> Result<Course, BoxError> {
     read(include_str!("../../mazes/cpm-real.maze"))
 }
@@ -41,8 +41,8 @@ fn read(text: &str) -> Result<Course, BoxError> {
     Ok(epuck_course("", tolman_maze::read(text)?)?)
 }
 
-/// Returns the mazes that the caller names; the later of two of one name gets a number, and so does
-/// one whose name is that of another's row.
+/// Returns the mazes of some files. The later of two with one name gets a number, and so does one
+/// whose name is that of another's row.
 pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Course>, BoxError> {
     let mut courses: Vec<Course> = Vec::new();
     for path in files {
@@ -58,9 +58,9 @@ pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Course>, BoxError> {
     Ok(courses)
 }
 
-/// Returns a random maze whose fragments are short and alike, without rooms: a way behind every
-/// other dead end opened, start in the south-west, goal in the dead end farthest from it. Drawn
-/// again until two fragments of it bend alike.
+/// Returns a random maze with short and similar fragments, without rooms. A way behind every other
+/// dead end is opened; the start is in the south-west, the goal in the dead end farthest from it.
+/// It is drawn until two of its fragments bend alike.
 pub(super) fn aliased(seed: u64) -> Result<Course, BoxError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     loop {

@@ -1,7 +1,9 @@
 //! CPM: figures 9 and 11 of "Reasoning on the Self-Organizing Incremental Associative Memory for
-//! Online Robot Path Planning" (Kawewong and others), the same with our own reading of loops, mazes
-//! that the paper's robot cannot tell apart, and what lies beneath: how well junctions are told,
-//! how many patterns there are, what other learners need.
+//! Online Robot Path Planning" (Kawewong and others).
+//!
+//! Further tables have the same with our own reading of loops, and mazes that the paper's robot
+//! cannot tell apart. Others show the parts: how well junctions are recognized, how many patterns
+//! there are, what other learners need.
 
 mod detector;
 mod dictionary;
@@ -44,7 +46,7 @@ use places::PLACES;
 use real::{FIGURE_11, Real};
 use trials::{Modes, Trials};
 
-/// What the catalogue says of it.
+/// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
     name: "cpm",
     title: "CPM: common-pattern maps on an e-puck",
@@ -65,18 +67,18 @@ struct Cpm {
     courses: Vec<Course>,
     real: Real,
     learning: Course,
-    /// What the robot learned in the learning maze.
+    /// Patterns learned in the learning maze.
     patterns: CommonPatterns,
     trials: Vec<Trials>,
-    /// What the robot learned of the courses.
+    /// Maps of the courses.
     known: Known,
     fresh: Vec<FreshRow>,
-    /// What robots learned before they are sent into fresh worlds.
+    /// Preparation of robots before they are sent into fresh worlds.
     schooling: Schooling,
     master_seed: u64,
 }
 
-/// What the runs depend on.
+/// Configuration of the runs.
 #[derive(Serialize)]
 struct Config<'a, R, D> {
     robot: EpuckConfig,
@@ -137,7 +139,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     Ok(Experiment::new(ENTRY, tables, cpm.config()?, cpm))
 }
 
-/// By how many percent of the first the second is less.
+/// Returns by how many percent of the first the second is less.
 fn less([first, second]: [f64; 2]) -> f64 {
     100.0 * (1.0 - second / first)
 }

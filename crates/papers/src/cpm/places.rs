@@ -30,7 +30,7 @@ record! {
         places: usize => neither("places on the map").decimals(1),
         /// True places where the robot was.
         visited: usize => neither("true places visited").decimals(1),
-        /// What ended the survey early.
+        /// Reason for an early end of the survey.
         trouble: Option<String> => neither("trouble"),
     }
 }

@@ -22,8 +22,8 @@ pub(super) const FIGURE_11: &str = "11";
 /// "The learning time of 90 min (5400 s) is provided" (section 7).
 const LESSON: Lesson = Lesson::Seconds(5400.0);
 
-/// How long the robot drives from one observation to the next, s: "20 CPs (*ca.* 121 s)" are 6 s
-/// each, of which a sweep takes 3.3.
+/// Duration of a drive between two observations, s: "20 CPs (*ca.* 121 s)" are 6 s each, and a
+/// sweep takes 3.3 s of them.
 const STRIDE_S: f64 = 2.7;
 
 /// The real robot's maze, and what such a robot learned before.
@@ -78,7 +78,8 @@ impl Real {
         Ok(self.patterns.get_or_init(|| patterns))
     }
 
-    /// There, back and there again. `see` is told of every fragment of the first two ways.
+    /// Plays the way there, back and there again, and returns it. Calls `see` with every fragment
+    /// of the first two ways.
     pub(super) fn play(
         &self,
         job: &Job<'_>,
@@ -124,7 +125,7 @@ record! {
         steps_reduction: Option<f64> => higher("observations saved").unit("%").at_most(100).tolerance(SAVED),
         /// Time that the second episode saves.
         time_reduction: Option<f64> => higher("time saved").unit("%").at_most(100).tolerance(SAVED),
-        /// Fragments that the robot looked into on its way back, since they may be shorter.
+        /// Fragments that the robot tried on its way back because they might be shorter.
         tried: u32 => neither("fragments tried on the way back").tolerance(COUNTED),
         /// Those of them that it gave up.
         given_up: u32 => neither("fragments given up").tolerance(COUNTED),

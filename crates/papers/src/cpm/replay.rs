@@ -71,7 +71,7 @@ fn track(path: &[Pose]) -> RobotTrack {
 /// Nodes that moved less than this are left where they are, m.
 const STILL: f64 = 1e-6;
 
-/// What is noted at the end of each fragment.
+/// Notes taken at the end of each fragment.
 struct Watch<'a> {
     course: &'a Course,
     nodes: Vec<MapNode>,
@@ -83,7 +83,7 @@ struct Watch<'a> {
     fragments: TimeSeries,
 }
 
-/// What a node stands for.
+/// Part of the map that a node stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Part {
     Junction(JunctionId),
@@ -137,7 +137,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// What has changed on the map.
+    /// Takes in the changes of the map.
     fn update(&mut self, map: &CpMap, now: u32) {
         let layout = Layout::of(map, &self.course.maze);
         let mut parts = Vec::new();
@@ -186,7 +186,7 @@ impl<'a> Watch<'a> {
         self.join(map, now);
     }
 
-    /// Edges from each fragment to the junctions at its ends.
+    /// Draws edges from each fragment to the junctions at its ends.
     fn join(&mut self, map: &CpMap, now: u32) {
         let mut wanted = BTreeMap::new();
         for (id, fragment) in map.fragments() {

@@ -17,20 +17,20 @@ pub(super) const FIGURE_9: &str = "9";
 /// Runs of the table of aliased mazes: one maze each.
 const ALIASED_MAZES: u32 = 200;
 
-/// As many for a first look.
+/// Runs of the row for a first look.
 const ALIASED_QUICK: u32 = 20;
 
 /// Fragments after which the paper's system gives up in an aliased maze, which has some seven. On a
 /// map that is wrong it may go round forever.
 const ALIASED_PATIENCE: u32 = 500;
 
-/// What follows the name of a maze in a row of the paper's offline system.
+/// Suffix of a maze's name in a row of the paper's offline system.
 const OFFLINE: &str = " offline";
 
 /// The same with f_S to the letter.
 const PAPERS_RULE: &str = " offline (paper's rule)";
 
-/// What follows the name of a maze in a row of our own reading.
+/// Suffix of a maze's name in a row of our own reading.
 pub(super) const BETTER: &str = " better";
 
 /// An episode is long from this many times the shortest path on.
@@ -45,7 +45,7 @@ pub(super) struct Trials {
     measure: fn(&CpmTrial<'_>) -> Result<Fields, BoxError>,
 }
 
-/// What a row tries.
+/// Setting of a row.
 #[derive(Debug)]
 pub(super) struct Setting {
     row: String,
@@ -56,7 +56,7 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    /// Another maze with fragments that look alike in each run.
+    /// Returns a setting with another maze of similar fragments in each run.
     pub(super) fn aliased(row: &str, mode: Mode) -> Self {
         Self {
             row: row.into(),
@@ -70,7 +70,7 @@ impl Setting {
     }
 }
 
-/// Online, as in section 6 of the paper.
+/// Returns the online mode of section 6 of the paper.
 pub(super) fn faithful() -> Mode {
     Mode::Paper(CpmConfig::online())
 }
@@ -83,12 +83,12 @@ fn papers_rule() -> Mode {
     })
 }
 
-/// Our own reading: dead reckoning beside the patterns.
+/// Returns our own reading: dead reckoning beside the patterns.
 pub(super) fn better() -> Mode {
     Mode::Reckoned(CpmConfig::robust())
 }
 
-/// Figure 9; `papers`: the mazes are the paper's.
+/// Returns the trials of figure 9; `papers` says that the mazes are the paper's.
 pub(super) fn figure_9(courses: &[Course], papers: bool) -> Trials {
     let modes = [
         ("", faithful()),
@@ -138,12 +138,12 @@ pub(super) fn figure_9(courses: &[Course], papers: bool) -> Trials {
     Trials::new(table, settings, row, measure)
 }
 
-/// Each maze with the paper's system and with ours.
+/// Returns each maze with the paper's system and with ours.
 pub(super) fn in_both_modes(courses: &[Course]) -> Vec<Setting> {
     in_modes(courses, [("", faithful()), (BETTER, better())])
 }
 
-/// Each maze in some modes, with what follows its name in their rows.
+/// Returns each maze in some modes, each with the suffix of its rows.
 fn in_modes<const N: usize>(courses: &[Course], modes: [(&str, Mode); N]) -> Vec<Setting> {
     let setting = |course: &Course, suffix: &str, mode| Setting {
         row: format!("{}{suffix}", course.name),
@@ -171,7 +171,7 @@ pub(super) fn offline(courses: &[Course]) -> Trials {
     Trials::new(table, settings, Setting::row, measure)
 }
 
-/// "The CPs must be learned incrementally" (section 8).
+/// Returns trials without a learning maze: "The CPs must be learned incrementally" (section 8).
 pub(super) fn unlearned(courses: &[Course]) -> Trials {
     let mode = Mode::Unlearned(CpmConfig::robust());
     let mut settings = in_modes(courses, [("", mode)]);
@@ -298,7 +298,7 @@ record! {
         contradictions: u32 => lower("contradictions"),
         /// Time steps in which the robot touched a wall.
         bumps: u32 => lower("steps at a wall"),
-        /// What ended the trial early.
+        /// Reason for an early end of the trial.
         trouble: Option<String> => neither("trouble"),
     }
 }
@@ -319,9 +319,9 @@ record! {
         /// Whether the goal was found again by a way as short as any that could be known.
         shortest_known: bool => higher("shortest that could be known"),
         /// Pairs of fragments that bend alike.
-        alike_pairs: u32 => neither("pairs alike").at_least(1),
+        alike_pairs: u32 => neither("pairs of similar fragments").at_least(1),
         /// Fragments that bend the same from both ends.
-        symmetrical: u32 => neither("symmetrical"),
+        symmetrical: u32 => neither("symmetrical fragments"),
     }
 }
 
@@ -461,7 +461,7 @@ pub(super) fn metres(record: &TrialRecord) -> f64 {
         .sum()
 }
 
-/// Part of a whole, or `None` of nothing.
+/// Returns the share of a part in the whole; `None` if the whole is 0.
 fn share(part: u32, rest: u32) -> Option<f64> {
     (part + rest > 0).then(|| f64::from(part) / f64::from(part + rest))
 }

@@ -8,9 +8,8 @@ use tolman_maps::diktiometry::{
 /// A change to the mapper.
 pub type Change = fn(&mut Config);
 
-/// Changes that leave a part out, or put another in its place: what a part is worth shows in what
-/// becomes of the map without it. The first changes nothing. The last is the paper's rule of
-/// identity with the merge that goes with it.
+/// Changes that remove a part, or replace it: the map without the part shows its effect. The first
+/// changes nothing. The last is the paper's rule of identity with the merge that goes with it.
 pub const ABLATIONS: [(&str, Change); 20] = [
     ("all", |_| {}),
     ("no CONTINUE", |config| {
@@ -62,8 +61,8 @@ pub const ABLATIONS: [(&str, Change); 20] = [
     ("boxes that meet are the same", papers_rule),
 ];
 
-/// Takes a place for a known one if their boxes meet, and merges by estims, as the paper has it,
-/// which knows nothing of straight corridors.
+/// Takes a place for a known one if their boxes meet, and merges by estims. This is the paper's
+/// rule, which ignores straight corridors.
 pub(super) fn papers_rule(config: &mut Config) {
     config.actions = Config::compass_actions();
     config.apart = Apart::Distance;

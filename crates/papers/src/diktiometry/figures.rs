@@ -11,7 +11,7 @@ use tolman_experiment::{BoxError, Record, Run};
 
 /// Width of a chart, user units.
 const WIDTH: f64 = 560.0;
-/// Tables of more rows get no curves: nobody could tell them apart.
+/// Maximum number of rows of a table that gets curves; more cannot be told apart.
 const MOST_CURVES: usize = 5;
 
 pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
@@ -36,7 +36,7 @@ pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError
 fn errors(trial: &Trial, runs: &[Run]) -> Result<Figure, BoxError> {
     let mut chart = Chart::new(
         Axis::linear("moves").from_zero(),
-        Axis::linear("squared error a move, m²").from_zero(),
+        Axis::linear("squared error per move, m²").from_zero(),
     )
     .sized(WIDTH, 340.0);
     for (series, setting) in (0..).map(Series).zip(&trial.settings) {

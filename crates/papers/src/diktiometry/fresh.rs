@@ -1,4 +1,4 @@
-//! Every run another world of its kind: what a claim about maps is made on.
+//! Every run in another world of its kind, as claims about maps need.
 
 use alloc::sync::Arc;
 
@@ -38,7 +38,7 @@ const WORLD_STREAM: u64 = 20;
 /// Walls of eight colours, no doorways.
 const PAINTED: OfficeConfig = OfficeConfig { colours: 8, ..BARE };
 
-/// How a row's worlds are drawn.
+/// Generator of a row's worlds.
 type Draw = fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>;
 
 /// One row: a kind of world, a robot and a mapper.
@@ -48,12 +48,12 @@ pub(super) struct FreshRow {
     draw: Draw,
     furniture: OfficeConfig,
     moves: u32,
-    /// How likely a script is begun when one is applicable.
+    /// Exploration probability.
     heed: f64,
     worlds: u32,
     /// Errors of the robot.
     robot: fn(&mut SurveyorConfig),
-    /// What the mapper does otherwise.
+    /// Change of the mapper.
     change: Change,
 }
 
@@ -88,7 +88,7 @@ impl FreshRow {
         }
     }
 
-    /// Returns what it sees of a place is which ways lead on, and that counts as evidence.
+    /// Returns the row with views that only show which ways lead on; they count as evidence.
     const fn by_exits(self) -> Self {
         Self {
             robot: |robot| robot.sight = PlaceCue::Exits,
@@ -179,6 +179,7 @@ pub(super) fn rows() -> Vec<FreshRow> {
         painted("spiral", |rng| spiral((8, 8), rng)),
         painted("ring", |rng| ring((8, 8), rng)),
         painted("office floor", |rng| office((8, 6), rng))
+            .heed(1.0)
             .furnished(BARE)
             .by_exits(),
     ]
@@ -192,11 +193,11 @@ record! {
         /// and 95 % of all at least.
         right: bool => higher("map right"),
         /// The same without asking how much was seen.
-        right_of_visited: bool => higher("right of what was visited"),
+        right_of_visited: bool => higher("right as far as visited"),
         /// Share of the visits that were to the true place for which their place on the map stands.
         purity: f64 => higher("purity").share().decimals(4),
         /// Places on the map for each true place that was visited.
-        places_over_true: f64 => lower("places over true ones").at_least(0).decimals(2),
+        places_over_true: f64 => lower("places / true places").at_least(0).decimals(2),
         /// Share of the true places that were visited.
         seen: f64 => higher("true places visited").share().decimals(3),
         /// Share of the true ways of the whole world that are on the map.
@@ -216,8 +217,8 @@ record! {
         /// Those of them that join two true places.
         false_looks: Option<usize> => lower("false proofs by looks"),
         /// Sum of the chances that those say they are false by.
-        stated_chances: Option<f64> => neither("false ones as stated").decimals(4),
-        /// Merges of which there is neither.
+        stated_chances: Option<f64> => neither("false proofs, as stated").decimals(4),
+        /// Merges with neither kind of proof.
         unproven: Option<usize> => lower("merges without proof"),
     }
 }
@@ -264,14 +265,14 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
             "Each run draws its own world from its seed, the same for all rows of a kind. 5x5, 7x7 and 20x20 are blocks with a quarter of \
              the ways walled up, all places alike; 700, 3000 and 6000 moves. Doorways: a fifth of the passages, walls of eight colours. Ladders \
              (corridors of that many cells), eights, spirals and rings have walls of eight colours, the office floor has one; 1000 moves with \
-             scripts. Scripts are begun with a chance of 30 %, in 20x20 always. Constant error: odometry and compass are wrong by the same \
+             scripts. Scripts are begun with a chance of 30 %, in 20x20 and in the office floor always. Constant error: odometry and compass are wrong by the same \
              all along. Paper's rule: a place is known again if boxes meet, and places merge by their estims. The row of all runs has those by \
              the paper's rule, too.",
         )
 }
 
 impl FreshRow {
-    /// Returns what the runs depend on, but for what the mapper is told of each drawing.
+    /// Returns the configuration of the runs, without what the mapper knows of each drawing.
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
         struct Settings {
@@ -337,8 +338,8 @@ impl FreshRow {
 }
 
 impl FreshRun {
-    /// Counts what is proven of the map's merges, once it has been checked, and what of that is
-    /// false.
+    /// Returns the record with the counts of proofs for the map's merges, and of false ones, after
+    /// checking them.
     fn certified(self, survey: &Survey) -> Result<Self, BoxError> {
         let config = survey.observer().config();
         let journal = survey.observer().journal().ok_or("no journal is kept")?;

@@ -22,7 +22,7 @@ pub use ablations::{ABLATIONS, Change};
 use fresh::{FRESH, FreshRow};
 use settings::{Rows, Setting, Subject, Trial};
 
-/// What the catalogue says of it.
+/// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
     name: "diktiometry",
     title: "Diktiometry: maps considered as adaptive planning resources",
@@ -66,47 +66,47 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
 }
 
 record! {
-    /// A walk through an office; of the row of odometry no more than its error.
+    /// A walk through an office. The row of odometry has only its error.
     pub(super) struct SurveyRun {
-        /// Mean squared error a move over the last moves.
+        /// Mean squared error per move over the last moves.
         ssd_asymptote: f64 =>
-            lower("squared error a move, at last").unit("m²").at_least(0).decimals(4),
+            lower("final squared error per move").unit("m²").at_least(0).decimals(4),
         /// The same by odometry alone.
         odometry: Option<f64> => lower("odometry's error").unit("m²").at_least(0),
         /// Moves until the run is near its own asymptote.
         moves_to_own_asymptote: Option<usize> => lower("moves to its own asymptote"),
-        /// Squared error a move, each the mean of a window of moves.
-        curve: Vec<f64> => lower("squared error a move").unit("m²").at_least(0),
+        /// Squared error per move, each the mean of a window of moves.
+        curve: Vec<f64> => lower("squared error per move").unit("m²").at_least(0),
         /// Share of the visits that were to the true place for which their place on the map stands.
         purity: Option<f64> => higher("purity").share().decimals(4),
         /// Share of the map's links that lead where their action truly leads.
         link_precision: Option<f64> => higher("link precision").share().decimals(4),
         /// Share of the links believed now that lead where they say.
         believed_precision: Option<f64> =>
-            higher("precision of links that are believed now").share().decimals(4),
+            higher("precision of links believed now").share().decimals(4),
         /// Share of the ways as they were last seen that lead where they say.
         remembered_precision: Option<f64> =>
-            higher("precision of ways as they were last seen").share().decimals(4),
+            higher("precision of ways as last seen").share().decimals(4),
         /// Share of the true ways of the whole world that are on the map.
         link_recall: Option<f64> => higher("link recall").share().decimals(4),
         /// Share of the true places visited for which exactly one place on the map stands.
         share_once: Option<f64> => higher("true places with one node").share().decimals(4),
         /// Share of the last moves that the map expected.
-        coverage: Option<f64> => higher("moves that were expected").share().decimals(4),
-        /// Share of the plans to places that are there that work.
+        coverage: Option<f64> => higher("expected moves").share().decimals(4),
+        /// Share of the plans to existing places that work.
         plans: Option<f64> =>
-            higher("plans that work, to places that are there").share().decimals(4),
-        /// Share of those plans that work by ways as they were last seen.
+            higher("working plans, to existing places").share().decimals(4),
+        /// Share of those plans that work by the ways as last seen.
         remembered_plans: Option<f64> =>
-            higher("plans by ways as they were last seen that work").share().decimals(4),
-        /// Share of all plans that lead to places that are gone.
-        plans_to_gone: Option<f64> => lower("plans to places that are gone").share().decimals(4),
+            higher("working plans, by ways as last seen").share().decimals(4),
+        /// Share of all plans that lead to places that no longer exist.
+        plans_to_gone: Option<f64> => lower("plans to vanished places").share().decimals(4),
         /// Places on the map.
         places: Option<usize> => neither("places on the map").decimals(1),
         /// True places where the robot was.
         visited: Option<usize> => neither("true places visited").decimals(1),
         /// Whether the map has the true places visited and the ways between them, and no others.
-        isomorphic: Option<bool> => higher("map is the world"),
+        isomorphic: Option<bool> => higher("map matches the world"),
     }
 }
 

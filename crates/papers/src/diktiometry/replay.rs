@@ -18,9 +18,9 @@ use tolman_systems::diktiometry::Reason;
 
 /// Time steps of the simulator per step of the replay.
 const COARSE: usize = 12;
-/// Nodes that moved less than this are left where they are, m: a quarter of a corridor's width.
-/// Most moves of the robot shift most of the map a little, which nobody could see and every replay
-/// would have to carry.
+/// Displacement below which nodes stay where they are, m: a quarter of a corridor's width. Most
+/// moves shift most of the map a little. Viewers could not see that, but every replay would have to
+/// store it.
 const STILL: f64 = 0.3;
 
 pub(super) fn of(
@@ -64,7 +64,7 @@ pub(super) fn of(
     .fact("purity", format!("{:.3}", score.purity)))
 }
 
-/// What is noted after each move.
+/// Notes taken after each move.
 #[derive(Debug)]
 struct Watch {
     start: Point,
@@ -136,7 +136,7 @@ impl Watch {
         self.reason.say(step, reason);
     }
 
-    /// What has changed on the map.
+    /// Takes in the changes of the map.
     fn map(&mut self, survey: &Survey, step: u32) {
         let map = survey.observer().map();
         for drawn in map.layout(self.home) {

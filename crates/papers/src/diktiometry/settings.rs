@@ -1,4 +1,4 @@
-//! Which office, which mapper, how many moves: every row of every table.
+//! Office, mapper and number of moves of every row of every table.
 
 use alloc::sync::Arc;
 
@@ -25,7 +25,7 @@ pub(super) struct Trial {
     pub(super) settings: Vec<Setting>,
 }
 
-/// What the rows of a table have in common.
+/// Common settings of a table's rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rows {
     /// One world: they are compared with the first.
@@ -74,17 +74,17 @@ impl Setting {
     }
 }
 
-/// What a row measures.
+/// Quantity that a row measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Subject {
     /// The map.
     Map,
-    /// What odometry alone would have said of the passive walk.
+    /// The error of odometry alone on the passive walk.
     Odometry,
 }
 
-/// The paper draws its worlds in figures that no text describes. Ours are corridors between blocks;
-/// a share of the passages is walled up.
+/// Returns an office. The paper draws its worlds in figures that no text describes. Ours are
+/// corridors between blocks; a share of the passages is walled up.
 fn office(side: u16, seed: u64, furniture: &OfficeConfig) -> Result<Arc<Office>, BoxError> {
     let maze = blocks(side, WALLED_UP, &mut ChaCha8Rng::seed_from_u64(seed));
     Ok(Arc::new(Office::new(&maze, furniture)?))

@@ -13,7 +13,7 @@ const LAST: f64 = 0.0099;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tried<T> {
     pub(super) parameters: Parameters,
-    /// What came of it.
+    /// Result of the step.
     pub(super) map: T,
     /// Its score, 0 of a useless map.
     pub(super) score: f64,
@@ -23,7 +23,7 @@ pub(super) struct Tried<T> {
 /// before.
 #[derive(Debug)]
 pub(super) struct Annealing<T> {
-    /// How many maps the window shrinks over.
+    /// Number of maps over which the window shrinks.
     steps: u32,
     tried: Vec<Tried<T>>,
 }
@@ -72,8 +72,8 @@ impl<T: Copy> Annealing<T> {
         }
     }
 
-    /// Returns how wide the window of a step is, as a share of the search space: each step narrows
-    /// it by the same factor.
+    /// Returns the width of a step's window, as a share of the search space: each step narrows it
+    /// by the same factor.
     fn share(&self, step: u32) -> f64 {
         let last = self.steps.saturating_sub(1).max(1);
         libm::pow(LAST, f64::from(step.min(last)) / f64::from(last))
@@ -91,7 +91,7 @@ mod tests {
         ChaCha8Rng::seed_from_u64(u64::from(step))
     }
 
-    /// Best where all parameters are in the middle of their search space.
+    /// Returns a score that is best with all parameters in the middle of their search space.
     fn learn(_: u32, parameters: &Parameters) -> Result<((), f64), BoxError> {
         let aim = Parameters([500.0, 500.0, 0.45, 0.5, 5000.0, 0.45, 0.45, 0.5, 0.5, 0.5]);
         let off = parameters.0.iter().zip(aim.0);

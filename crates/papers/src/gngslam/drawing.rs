@@ -9,8 +9,8 @@ use tolman_robot::{Landmark, MapView};
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
 
-/// Returns the places of a map over the world, where the map has them, with the ways between them;
-/// those where the goal was sensed are filled. Places that lie nowhere are left out.
+/// Returns the places of a map over the world, at their positions on the map, with the ways between
+/// them. Places where the goal was sensed are filled. Places without a position are left out.
 #[must_use]
 pub fn places_over_world(course: &Course, map: &MapView) -> Drawing {
     let mut graph = GraphPicture::new().radius(2.0);

@@ -16,14 +16,14 @@ use super::search_space::{COUNT, LAMBDA, Parameters, WINNER_RATE};
 use super::searches::Searches;
 use super::sets::{Setting, TABLE, settings};
 
-/// Where the appendix differs from the best parameters: the middle of "200 and 250", and 0.052.
+/// Differences of the appendix from the best parameters: the middle of "200 and 250", and 0.052.
 const MORE_NODES: f64 = 225.0;
 const SLOW: f64 = 0.052;
 
 /// The rows of figure 4.3, from 0. The text calls the second set 5, the caption 6.
 const SHOWN: [usize; 2] = [0, 5];
 
-/// How many maps are tried for a figure until one can be turned.
+/// Maximum number of maps tried for a figure until one can be turned.
 const TRIED: usize = 40;
 
 /// The most nodes of a map that is shown: of more, no image can be made out.
@@ -38,7 +38,7 @@ struct Best {
     setting: Setting,
     parameters: Parameters,
     seed: u64,
-    /// What the map is like, in words.
+    /// Description of the map.
     said: String,
 }
 
@@ -80,7 +80,7 @@ impl Searches {
         Ok(figures)
     }
 
-    /// Figure 4.3.
+    /// Returns figure 4.3.
     fn best_maps(&self, runs: &[Run]) -> Result<Figure, BoxError> {
         let mut tiles = Tiles::new(2);
         let mut caption = READ.to_owned();
@@ -152,7 +152,7 @@ impl Best {
     }
 }
 
-/// How the maps are to be read.
+/// Explanation of the maps.
 const READ: &str = "Each node's image has its middle where the node lies, in cells, turned so that the yellow goal is straight \
                     above the blue one; lines are links. On the pitch the windows are on the right. Images were converted to red, \
                     green and blue. Of each set the best map of at most 40 nodes, whose images can be made out.";

@@ -24,7 +24,7 @@ const POINTS: u32 = 10_000;
 const RESAMPLES: u32 = 1000;
 const LEVEL: f64 = 0.999;
 
-/// The scores of each row, useless maps left out; the last one has single guesses.
+/// Scores of each row, without useless maps; the last row has single guesses.
 struct Scores {
     rows: Vec<(&'static str, Vec<f64>)>,
 }
@@ -47,7 +47,7 @@ impl Scores {
         Ok(Self { rows })
     }
 
-    /// Figure 4.1: the best sets with the baseline, and the worst with the best one.
+    /// Returns figure 4.1: the best sets with the baseline, and the worst with the best one.
     fn histograms(&self) -> Figure {
         let mut tiles = Tiles::new(1);
         tiles.tile(
@@ -81,7 +81,7 @@ impl Scores {
         chart.drawing("Scores of maps and of guesses.")
     }
 
-    /// Figure 4.2: a dot for each row's bootstrapped mean, with its interval.
+    /// Returns figure 4.2: a dot for each row's bootstrapped mean, with its interval.
     fn means(&self, seed: u64) -> Result<Figure, BoxError> {
         let sets = Axis::linear("set").between(-0.5, 6.5).whole_numbers();
         let mut chart = Chart::new(sets, Axis::linear("mean score")).sized(720.0, 320.0);

@@ -34,7 +34,7 @@ const ASKED: usize = 201;
 /// Runs of each variant at most.
 const VARIANT_RUNS: u32 = 200;
 
-/// What the catalogue says of it.
+/// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
     name: "gngslam",
     title: "GNG-SLAM: maps of places from camera, sonar and odometry",
@@ -58,10 +58,10 @@ struct GngSlam {
     long: online::LongRuns,
 }
 
-/// What the runs depend on.
+/// Configuration of the runs.
 #[derive(Serialize)]
 struct Config {
-    /// How many maps the window of a search shrinks over.
+    /// Number of maps over which the window of a search shrinks.
     maps_of_a_search: u32,
     search_space: BTreeMap<&'static str, (f64, f64)>,
     sources: Vec<places::Config>,
@@ -102,18 +102,18 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
 record! {
     /// A map, or as many guesses as a map is asked for.
     pub(super) struct MapRun {
-        /// Mean over a random fifth of the records of 1 where the nearest node lies in the record's
-        /// cell, else 0.5 / distance to its middle, in cells (equation 3.2). None where both goals
-        /// are nearest to one node: those count as 0 in the search and are left out here, as in the
-        /// paper.
+        /// Mean over a random fifth of the records (equation 3.2). A record scores 1 if the nearest
+        /// node lies in its cell, else 0.5 / distance to the cell's middle, in cells. A map with
+        /// one node for both goals has no score: it counts as 0 in the search and is left out here,
+        /// as in the paper.
         score: Option<f64> => higher("score").share().decimals(3).tolerance(MAP_SCORE),
         /// The same with 0.5 / (0.5 + distance to the cell), which the paper wishes for.
         border_score: Option<f64> => higher("score to the border").share().decimals(3),
         /// Whether both goals are nearest to one node, so that the map cannot be turned and has no
         /// score.
         useless: bool => lower("useless maps"),
-        /// Whether the map is a mirror image of the pitch: what is counter-clockwise there is
-        /// clockwise in it.
+        /// Whether the map is a mirror image of the pitch, with counter-clockwise and clockwise
+        /// exchanged.
         mirrored: Option<bool> => lower("mirrored maps"),
         /// Nodes of the map.
         nodes: Option<usize> => neither("nodes").decimals(1),
@@ -167,7 +167,7 @@ fn variants(runs: u32) -> Table {
         )
 }
 
-/// As many guesses as a map is asked for.
+/// Returns a random map: as many guesses as records that a map is asked for.
 fn random_map(seed: u64) -> MapRun {
     let (mut centre, mut border) = (0.0, 0.0);
     for guess in guesses::guesses(seed, ASKED) {

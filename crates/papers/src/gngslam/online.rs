@@ -26,8 +26,7 @@ const WHEELS: &str = "wheels wrong by up to 10 %";
 const TAKEN_FOR_GOOD: &str = "taken for 3 %";
 const KNOWN_TO_BE_BAD: &str = "known to be 10 %";
 
-/// The arenas of that table begin with this one, and how far the wheels are out of calibration in
-/// them.
+/// Seed of the first arena of that table, and the calibration error of the wheels in its arenas.
 const FIRST_BAD: u64 = 101;
 const BAD_RUNS: u32 = 5;
 const BADLY: f64 = 0.1;
@@ -46,7 +45,7 @@ const QUICK_RUNS: u32 = 2;
 /// Looks of a run that learns: the paper's number of records.
 const LEARNED: u32 = 1006;
 
-/// How many times longer the long runs are.
+/// Factor of the long runs' length.
 const LONGER: u32 = 10;
 
 /// Looks of a run that finds itself on a map that another run has learned.
@@ -58,8 +57,8 @@ const CALIBRATION: f64 = 0.03;
 record! {
     /// A run in an arena.
     struct OnlineFields {
-        /// Mean over the looks of a run that the map was not learned from, of 0.5 / (0.5 + distance
-        /// to the true cell), in cells of 8 × 8.
+        /// Mean of 0.5 / (0.5 + distance to the true cell), in cells of 8 × 8, over the looks of a
+        /// run from which the map was not learned.
         score: Option<f64> => higher("score to the border").share().decimals(3),
         /// Root-mean-square distance of that run's positions from the true ones.
         tried_error_m: Option<f64> => lower("error on a run not learned from").unit("m").decimals(3),
@@ -84,7 +83,7 @@ record! {
 #[derive(Debug, Default)]
 pub(super) struct LongRuns(Mutex<BTreeMap<u32, Shared>>);
 
-/// A run that whoever comes first makes, while the others wait.
+/// A run that the first caller makes, while the others wait.
 type Shared = Arc<Mutex<Option<Arc<OnlineRun>>>>;
 
 /// Returns the tables.
@@ -132,7 +131,7 @@ pub(super) fn has(table: &str) -> bool {
     [ONLINE, OTHERS, BY_SEED, WHEELS].contains(&table)
 }
 
-/// Names the long run that a job looks at; `None` if it looks at none.
+/// Returns the name of the long run that a job uses; `None` if it uses none.
 pub(super) fn long_run_of(job: &Job<'_>) -> Option<String> {
     let looks = job.table == ONLINE && [RAW, CORRECTED].contains(&job.row);
     looks.then(|| format!("long run {}", job.run))
@@ -158,7 +157,7 @@ pub(super) fn run(long: &LongRuns, job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(fields.fields()?)
 }
 
-/// As many guesses as a map of the paper is asked for.
+/// Returns the score of as many guesses as records that a map of the paper is asked for.
 fn guessed(seed: u64) -> OnlineFields {
     let scores = guesses::guesses(seed, ASKED).map(|score| score.by_border);
     OnlineFields {
@@ -222,7 +221,7 @@ fn trajectory(run: &OnlineRun, position: impl Fn(&LookedFrom) -> Point) -> Onlin
     }
 }
 
-/// Root-mean-square distance from the truth, m.
+/// Returns the root-mean-square distance from the truth, m.
 fn error(looks: &[LookedFrom], position: impl Fn(&LookedFrom) -> Point) -> f64 {
     let off = |look: &LookedFrom| (position(look) - look.truth.position).norm_squared();
     let sum: f64 = looks.iter().map(off).sum();

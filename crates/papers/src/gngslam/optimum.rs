@@ -10,7 +10,7 @@ use super::sets::SETS;
 pub(super) const NAME: &str = "3.1";
 
 record! {
-    /// Where a search ended.
+    /// End of a search.
     struct OptimumRun {
         /// Value of the parameter at the search's last map, or `None` of a weight that does not
         /// count.

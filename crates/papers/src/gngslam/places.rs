@@ -13,7 +13,7 @@ use super::sets::{IMAGES, Source, Stretch};
 /// The paper's number of records.
 const RECORDS: usize = 1006;
 
-/// Images are told by coordinates of their span, of which nothing is left out.
+/// Images are stored as coordinates in their span, with nothing left out.
 const FORM: ImageForm = ImageForm::Span { left_out: 0.0 };
 
 /// One data run of the robot: "for the experiments, one data run was used".
@@ -32,7 +32,7 @@ struct Gathered {
     data: DataSet,
 }
 
-/// What the records depend on but the seed.
+/// Configuration of the records, without the seed.
 #[derive(Serialize)]
 pub(super) struct Config {
     count: usize,
@@ -41,7 +41,7 @@ pub(super) struct Config {
     robot: Pioneer2dxConfig,
 }
 
-/// What is made once, or why it could not be.
+/// A value made once, or the reason why it could not be made.
 type Once<T> = OnceLock<Result<T, String>>;
 
 fn once<T>(cell: &Once<T>, make: impl FnOnce() -> Result<T, BoxError>) -> Result<&T, BoxError> {

@@ -23,7 +23,7 @@ const fn parameter(name: &'static str, optimal: (f64, f64), space: (f64, f64)) -
     }
 }
 
-/// How many parameters there are.
+/// Number of parameters.
 pub(super) const COUNT: usize = 10;
 
 /// Table 3.1, row by row.
@@ -75,8 +75,8 @@ impl Parameters {
         self
     }
 
-    /// Returns the map's configuration; counts are rounded. Where the sonar is no feature, it has
-    /// no weight.
+    /// Returns the map's configuration; counts are rounded. The sonar has weight 0 if it is not a
+    /// feature.
     pub(super) fn config(&self, with_sonar: bool) -> PlaceMapConfig {
         let [
             age,

@@ -32,7 +32,7 @@ pub(super) struct Searches {
 
 type Shared = Arc<Mutex<Annealing<Learned>>>;
 
-/// What came of a map.
+/// Result of a map.
 #[derive(Clone, Copy, Debug)]
 struct Learned {
     nodes: usize,

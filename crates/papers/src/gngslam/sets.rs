@@ -67,10 +67,10 @@ impl Set {
     }
 }
 
-/// Where records come from and how they become features.
+/// Source of the records, and their features.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Source {
-    /// How far each wheel may be out of calibration, as a share.
+    /// Maximum calibration error of each wheel, as a share.
     pub(super) calibration: f64,
     pub(super) scaling: FeatureScaling,
 }
@@ -99,7 +99,7 @@ pub(super) const SOURCES: [Source; 4] = [
     },
 ];
 
-/// What a map is stretched over before it is scored.
+/// Rectangle over which a map is stretched before it is scored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stretch {
     /// The cells where records were taken.
@@ -119,7 +119,7 @@ pub(super) struct Setting {
     pub(super) stretch: Stretch,
 }
 
-/// How many rows have maps.
+/// Number of rows with maps.
 pub(super) const SETTINGS: usize = 10;
 
 /// Returns all rows whose maps are learned, those of Table 4.1 first.

@@ -1,4 +1,4 @@
-//! What the paper compares in words (section 3.2): the ways to search a known maze, and Q-learning.
+//! The paper's comparisons in words (section 3.2): the ways to search a known maze, and Q-learning.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -18,7 +18,7 @@ pub(super) const Q_LEARNING: &str = "q-learning";
 
 /// When to give up on Q-learning, steps.
 const MOST_STEPS: u32 = 1_000_000;
-/// How often to look at what it has learned, steps.
+/// Number of steps between two tests of what it has learned.
 const LOOK: u32 = 100;
 
 const ROWS: [&str; 4] = ["breadth-first", "Dijkstra", "A*", "best-first"];

@@ -1,4 +1,4 @@
-//! The competition model: sets of mazes explored for the speed run. Of it the paper says nothing.
+//! The competition model: sets of mazes explored for the speed run. Not in the paper.
 
 use tolman_maze::Maze;
 use tolman_planners::speed_run::SpeedRunConfig;
@@ -40,7 +40,7 @@ impl CompetitionRun {
     }
 }
 
-/// A run is a maze of the set.
+/// Returns the table; a run is a maze of the set.
 pub(super) fn table(sets: &[MazeSet]) -> Table {
     Table::of::<CompetitionRun>(COMPETITION, "Explorations for the speed run")
         .metrics_from(CompetitionRun::certified)

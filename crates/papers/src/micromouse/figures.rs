@@ -1,4 +1,4 @@
-//! The paper's pictures: what a mouse knows and where it has been, on maze 2.
+//! The paper's pictures: the mouse's knowledge and its visits, on maze 2.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -97,8 +97,7 @@ fn dead_ends(map: &WallMap<SIDE>) -> Figure {
         .table(TABLE)
 }
 
-/// Returns the moment in our search when the run that can be hoped for differs most from the one
-/// that is certain.
+/// Returns the moment in our search when the open path and the closed path differ most.
 fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     let Some((start, _)) = maze.start() else {
         return Ok(None);

@@ -1,10 +1,10 @@
 //! The micromouse of "Plot and Navigate a Virtual Maze" (Wang): its tables 1 to 4, and our search
 //! on whole sets of mazes.
 //!
-//! The searches of tables 1 to 3 that leave things to chance have as many runs as the caller asks
-//! for, all others make the same run each time and have one. In the tables `sets` and `competition`
-//! a run is a maze of the set; the latter is of the competition model, which the paper does not
-//! know. The table `noise` is the paper's outlook.
+//! Random searches of tables 1 to 3 have as many runs as the caller asks for. All others make the
+//! same run each time and have one. In the tables `sets` and `competition` a run is a maze of the
+//! set. The latter is of the competition model, which the paper does not have. The table `noise` is
+//! the paper's outlook.
 
 mod comparisons;
 mod competition;
@@ -36,7 +36,7 @@ use noise::NOISE;
 use paper::PaperTable;
 use sets::{HALF_SIZE, MazeSet};
 
-/// What the catalogue says of it.
+/// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
     name: "micromouse",
     title: "A micromouse in a virtual maze",
@@ -57,7 +57,7 @@ struct Micromouse {
     sets: Vec<MazeSet>,
 }
 
-/// What the runs depend on.
+/// Configuration of the runs.
 #[derive(Serialize)]
 struct Config {
     search: MoveExplorerConfig,
@@ -200,7 +200,7 @@ impl MouseRun {
         require(best, "what is certified is the optimum")
     }
 
-    /// Refuses a score, from which so much is subtracted, that is not that of the runs.
+    /// Refuses a score that, with `subtracted`, is not that of the runs.
     fn check_score(&self, score: Option<f64>, subtracted: f64) -> Result<(), String> {
         let finished = "a run that finished has a score, another has none";
         require(self.finished == score.is_some(), finished)?;

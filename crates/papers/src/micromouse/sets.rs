@@ -19,7 +19,7 @@ pub(super) struct MazeSet {
     pub(super) name: String,
     /// Names of files and mazes, by name.
     pub(super) mazes: Vec<(String, Maze)>,
-    /// How many files were left out, by the reason.
+    /// Number of files left out, by the reason.
     pub(super) left_out: LeftOut,
 }
 
@@ -82,7 +82,7 @@ impl MazeSet {
         Ok(set)
     }
 
-    /// Its row, of one run for each maze.
+    /// Returns its row, with one run for each maze.
     pub(super) fn row(&self) -> Row {
         Row::new(&self.name).run_each(self.mazes.len() as u32)
     }
@@ -138,7 +138,7 @@ const OTHERS: [(&str, &str); 7] = [
     ("generated 20", "mazes/generated/20"),
 ];
 
-/// How many mazes we make ourselves.
+/// Number of mazes that we make ourselves.
 const OURS: u64 = 20;
 
 pub(super) fn all(folder: Option<&Path>, named: &[PathBuf]) -> Result<Vec<MazeSet>, BoxError> {

@@ -13,7 +13,7 @@ use super::sets::MazeSet;
 /// The set whose mazes they are.
 pub(super) const SET: &str = "classic";
 
-/// How often each maze is run, with other random numbers.
+/// Number of runs in each maze, with different random numbers.
 const SEEDS: u32 = 3;
 
 const ROWS: [(&str, Until); 2] = [
@@ -35,7 +35,7 @@ pub(super) fn rows(table: Table, sets: &[MazeSet]) -> Table {
     table.rows(rows).note(note)
 }
 
-/// When the mouse of a row stops, if the row says so.
+/// Returns when the mouse of a row stops, if the row says so.
 pub(super) fn of_row(row: &str) -> Option<Until> {
     let found = ROWS.into_iter().find(|(name, _)| *name == row);
     found.map(|(_, until)| until)

@@ -1,4 +1,4 @@
-//! What is wrong with a robot or its world.
+//! Deviations of a robot or its world.
 
 use tolman_arena::episode::{Lifted, random_start};
 use tolman_arena::pioneer::{ENCODER_SD, body, with_sensor_noise};
@@ -8,7 +8,7 @@ use tolman_sim::robots::{LaserPioneerConfig, StuckBeam};
 
 use crate::venue::Venue;
 
-/// What is wrong with a robot or its world while the better system drives, and but for the last two
+/// Deviation of a robot or its world while the better system drives. All but the last two also hold
 /// while it learns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Condition {
@@ -110,7 +110,7 @@ impl Condition {
         robot
     }
 
-    /// When a run's robot is lifted and put elsewhere, if it is.
+    /// Returns when a run's robot is lifted and where it is put, if it is.
     pub(super) fn lifted(self, venue: &Venue, seed: u64) -> Option<Lifted> {
         (self == Self::Lifted).then(|| Lifted {
             after: LIFTED_AFTER,

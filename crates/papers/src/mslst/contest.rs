@@ -27,7 +27,7 @@ record! {
         ..run: MazeRun,
         /// Actions that take back the one before, soon after another such.
         bounces: u32 => lower("bounces"),
-        /// Number of the map by which a learner navigates.
+        /// Number of the map with which a learner navigates.
         map: Option<u32> => neither("map").at_most(MAPS - 1),
     }
 }
@@ -41,7 +41,7 @@ impl ContestRun {
     }
 }
 
-/// What the runs in one world depend on.
+/// Configuration of the runs in one world.
 #[derive(Serialize)]
 pub(super) struct ContestConfig<'a> {
     #[serde(flatten)]
@@ -56,13 +56,13 @@ pub(super) struct ContestConfig<'a> {
 pub(super) struct Contest {
     pub(super) venue: Venue,
     pub(super) competitors: Vec<Competitor>,
-    /// How many maps each learner has.
+    /// Number of maps of each learner.
     pub(super) maps: u32,
     /// Runs of each row, whatever the caller asks for.
     runs: Option<u32>,
 }
 
-/// An entrant, and what it has learned so far.
+/// An entrant, and its maps so far.
 #[derive(Debug)]
 pub(super) struct Competitor {
     pub(super) row: String,
@@ -86,12 +86,12 @@ const PAPER_P: [(&str, &str, f64); 6] = [
 ];
 
 impl Contest {
-    /// With [`MAPS`] maps of each learner.
+    /// Returns the contest with [`MAPS`] maps of each learner.
     pub(super) fn new(venue: Venue, master_seed: u64) -> Self {
         Self::with_maps(venue, master_seed, MAPS, None)
     }
 
-    /// As the paper's own table must have been made: 25 runs by one map.
+    /// Returns the contest with 25 runs by one map, as the paper's own table must have been made.
     pub(super) fn with_one_map(venue: Venue, master_seed: u64) -> Self {
         let table = format!("{}, one map", venue.table);
         let title = format!("{}, 25 runs by one map", venue.title);
@@ -217,7 +217,7 @@ impl Contest {
         }
     }
 
-    /// Who learns a map.
+    /// Returns the competitors that learn a map.
     pub(super) fn learners(&self) -> impl Iterator<Item = &Competitor> {
         let competitors = self.competitors.iter();
         competitors.filter(|one| one.entrant.learns())
@@ -229,7 +229,7 @@ impl Contest {
         competitor.ok_or_else(|| format!("there is no brain {row:?}").into())
     }
 
-    /// Names the map that a run of a learner is by; `None` of who learns none.
+    /// Returns the name of the map that a learner's run uses; `None` for those that learn none.
     pub(super) fn map_of(&self, job: &Job<'_>) -> Option<String> {
         let competitor = self.competitor(job.row).ok()?;
         let map = job.run % self.maps;
@@ -249,7 +249,7 @@ impl Contest {
         Ok(run.fields()?)
     }
 
-    /// Returns where a run takes place, who drives, and what it has learned.
+    /// Returns the trial of a run, its mind, and what that has learned.
     fn cast(&self, job: &Job<'_>) -> Result<(Trial<'_>, Mind, &Ready), BoxError> {
         let competitor = self.competitor(job.row)?;
         let ready = competitor.ready(&self.venue, job.run)?;
@@ -280,7 +280,7 @@ impl Contest {
 }
 
 impl Competitor {
-    /// Returns what it has learned for this run, by whoever asks first.
+    /// Returns what it has learned for this run; the first caller lets it learn.
     pub(super) fn ready(&self, venue: &Venue, run: u32) -> Result<&Ready, BoxError> {
         let number = run as usize % self.ready.len();
         let cell = &self.ready[number];
@@ -293,7 +293,7 @@ impl Competitor {
         Ok(cell.get_or_init(|| ready))
     }
 
-    /// Map 0 of MSLST, or `None` of who learns none.
+    /// Returns map 0 of MSLST, or `None` for those that learn none.
     pub(super) fn first_map(&self, venue: &Venue) -> Result<Option<&Learned>, BoxError> {
         if !self.entrant.learns() {
             return Ok(None);
@@ -305,9 +305,8 @@ impl Competitor {
 /// Counts how often a robot goes back and forth between two ways ("this process of bouncing between
 /// two possible routes").
 ///
-/// To turn back once is no bouncing: every dead end asks for it. What counts is an action that
-/// takes back the one before it, no more than [`Bounces::SOON`] completed actions after the last
-/// such.
+/// To turn back once is not bouncing, as every dead end requires it. An action counts if it takes
+/// back the one before it, at most [`Bounces::SOON`] completed actions after the last such.
 #[derive(Debug, Default)]
 struct Bounces {
     last: Option<Direction>,
@@ -316,7 +315,7 @@ struct Bounces {
 }
 
 impl Bounces {
-    /// As many as the brain remembers in the Large maze.
+    /// Number of actions that the brain remembers in the Large maze.
     const SOON: u32 = 8;
 
     fn moved(&mut self, action: Direction) {

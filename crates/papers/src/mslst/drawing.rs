@@ -25,11 +25,11 @@ pub fn states(learned: &Learned) -> Drawing {
     tiles.drawing(format!("The {count} states of a map."))
 }
 
-/// How many actions of Phase II the paper's picture of the graph shows.
+/// Number of actions of Phase II in the paper's picture of the graph.
 pub const SHOWN_ACTIONS: u32 = 500;
 
-/// Returns the paper's figure 4, over the maze: each node of the first [`SHOWN_ACTIONS`] where the
-/// robot truly was when it was made, those of the destination filled.
+/// Returns the paper's figure 4, over the maze: each node of the first [`SHOWN_ACTIONS`] at the
+/// robot's true position when it was made. Nodes of the destination are filled.
 #[must_use]
 pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
     let made_by = learned.survey.made_by.iter();
@@ -38,8 +38,8 @@ pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
     over_maze(course, learned, shown, 2.0)
 }
 
-/// Returns the whole graph over the maze, each node where the robot truly was when it was made,
-/// those of the destination filled and in a colour of their own.
+/// Returns the whole graph over the maze, each node at the robot's true position when it was made.
+/// Nodes of the destination are filled and in a colour of their own.
 #[must_use]
 pub fn whole_graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
     over_maze(course, learned, learned.map.graph.len(), 1.1)

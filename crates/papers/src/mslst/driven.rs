@@ -36,15 +36,15 @@ impl DrivenRun {
             .metric(Metric::mean(Self::success_percent).decimals(1))
             .metric(Metric::mean(Self::steps))
             .metric(over.titled("steps / Unlocalized oracle's").decimals(2))
-            .metric(least.titled("success, least").decimals(1))
+            .metric(least.titled("lowest success").decimals(1))
     }
 }
 
 /// Starts by a map at least.
 const LEAST_STARTS: u32 = 5;
 
-/// Shares `runs` starts out: returns how many maps are learned, at most `most`, and how many starts
-/// each has.
+/// Divides `runs` starts: returns the number of maps that are learned, at most `most`, and the
+/// number of starts of each.
 pub(super) fn shared_out(runs: u32, most: u32) -> (u32, u32) {
     let maps = (runs / LEAST_STARTS).clamp(1, most);
     (maps, (runs / maps).max(LEAST_STARTS))
@@ -61,8 +61,8 @@ pub(super) struct Driver<'a> {
 }
 
 impl Driver<'_> {
-    /// Drives from every start; `lifted` says of each whether the robot is put elsewhere on the
-    /// way, `watch` sees each episode and the oracle's.
+    /// Drives from every start and returns the result. `lifted` returns for each start whether the
+    /// robot is put elsewhere on the way. `watch` gets each episode and the oracle's.
     pub(super) fn drive(
         &self,
         lifted: impl Fn(u32) -> Option<Lifted>,

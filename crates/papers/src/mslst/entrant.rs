@@ -38,7 +38,7 @@ pub(super) enum Ready {
     Better(Box<BetterLearned>),
 }
 
-/// What a learner reckons with.
+/// Configuration of a learner.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(untagged)]
 pub(super) enum LearnerConfig {
@@ -47,7 +47,7 @@ pub(super) enum LearnerConfig {
 }
 
 impl Entrant {
-    /// Returns the paper's baselines before its system, what says how good they are after it.
+    /// Returns the entrants in order: the paper's baselines, `learners`, the oracles.
     pub(super) fn lineup(learners: impl IntoIterator<Item = Self>) -> Vec<Self> {
         let baselines = [Agent::Avoid, Agent::WallFollow].map(Self::Agent);
         let oracles = [Agent::Oracle, Agent::UnlocalizedOracle].map(Self::Agent);
@@ -139,7 +139,7 @@ impl Ready {
         }
     }
 
-    /// Returns what MSLST has learned, or `None` of others.
+    /// Returns what MSLST has learned, or `None` for others.
     pub(super) fn learned(&self) -> Option<&Learned> {
         match self {
             Self::Agent(_) | Self::Better(_) => None,

@@ -42,7 +42,7 @@ pub(super) struct Family {
     kind: Kind,
     /// Starts in each maze.
     starts: u32,
-    /// How many mazes there are.
+    /// Number of mazes.
     mazes: u32,
     limit: Option<u32>,
     entrants: Vec<Entrant>,
@@ -58,7 +58,7 @@ enum Kind {
     Random,
 }
 
-/// What the runs in a family depend on.
+/// Configuration of the runs in a family.
 #[derive(Serialize)]
 pub(super) struct FamilyConfig {
     starts: u32,
@@ -94,7 +94,8 @@ impl Family {
         )
     }
 
-    /// Perfect and braided mazes, new ones for every master seed, with at least five starts each.
+    /// Returns perfect and braided mazes, new ones for every master seed, with at least five starts
+    /// each.
     pub(super) fn random(runs: u32, limit: Option<u32>) -> Self {
         let learner = Entrant::Mslst(MslstConfig::large(50.0));
         Self::new(
@@ -264,7 +265,7 @@ pub(super) fn random(job: &Job<'_>) -> Result<Venue, BoxError> {
     Venue::of_maze(job.table, &name, maze)
 }
 
-/// Median, quartiles and range of a field over all mazes.
+/// Returns metrics for median, quartiles and range of a field over all mazes.
 fn spread(name: &str, field: &str, unit: &str) -> [Metric; 5] {
     let named = |which: &str| format!("{name}_{which}{unit}");
     let titled =

@@ -13,7 +13,7 @@ use tolman_experiment::{BoxError, Run};
 use tolman_stats::wilson_interval;
 use tolman_systems::mslst::Learned;
 
-/// How many runs one plan shows at most.
+/// Maximum number of runs on one plan.
 const SHOWN: usize = 25;
 
 /// Width of a plan, user units.
@@ -79,7 +79,7 @@ fn ways_from(node: &Node) -> usize {
     node.edges.iter().filter(|edge| edge.head.is_some()).count()
 }
 
-/// How many runs a map must have for its success to be drawn.
+/// Minimum number of runs of a map for its success to be drawn.
 const LEAST_RUNS: u64 = 5;
 
 /// Returns how success differs from map to map, or `None` while the maps have too few runs to tell.

@@ -35,7 +35,7 @@ const MOST_MAPS: u32 = 50;
 /// An episode is drawn as a detour from this multiple of the Unlocalized oracle's time on.
 const DETOUR: u32 = 2;
 
-/// The worlds, and how many maps and starts each is tried with.
+/// The worlds, and the numbers of maps and starts for each.
 #[derive(Debug)]
 pub(super) struct Hardest {
     maps: u32,
@@ -43,7 +43,7 @@ pub(super) struct Hardest {
     worlds: Vec<Venue>,
 }
 
-/// What the runs depend on.
+/// Configuration of the runs.
 #[derive(Serialize)]
 pub(super) struct HardestConfig<'a> {
     starts: u32,
@@ -52,7 +52,7 @@ pub(super) struct HardestConfig<'a> {
 }
 
 impl Hardest {
-    /// `runs` starts a world.
+    /// Returns the experiment with `runs` starts per world.
     pub(super) fn new(runs: u32, limit: Option<u32>) -> Result<Self, BoxError> {
         let (maps, starts) = shared_out(runs, MOST_MAPS);
         let worlds = WORLDS.iter().map(|(family, seed)| {

@@ -1,4 +1,4 @@
-//! How large the map of the better system is beside the true places, and whether it stops growing.
+//! Size of the better system's map relative to the true places, and whether it stops growing.
 
 use super::families::random;
 use tolman_arena::mslst::learn_better;
@@ -45,7 +45,7 @@ pub(super) fn table(runs: u32) -> Table {
     let of_ratio = MapSizeRun::nodes_over_true_places;
     Table::of::<MapSizeRun>(MAP_SIZE, "How large a map grows, in random mazes of 10 to 20 cells a side")
         .metric(Metric::mean(of_ratio).decimals(3))
-        .metric(Metric::greatest("most_nodes_over_true_places", of_ratio).titled("nodes / true places, most").decimals(3))
+        .metric(Metric::greatest("most_nodes_over_true_places", of_ratio).titled("highest nodes / true places").decimals(3))
         .metric(Metric::mean(MapSizeRun::nodes))
         .metric(Metric::percent("finished_percent", MapSizeRun::finished))
         .metric(Metric::mean(MapSizeRun::covered_percent).decimals(1))

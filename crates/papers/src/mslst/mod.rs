@@ -30,10 +30,10 @@ use families::Family;
 use hardest::{HARDEST, Hardest};
 use robustness::{ABLATION, ROBUSTNESS, Robustness};
 
-/// How many maps are learned of each world and threshold.
+/// Number of maps learned of each world and threshold.
 const MAPS: u32 = 50;
 
-/// What the catalogue says of it.
+/// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
     name: "mslst",
     title: "MSLST: maze solving by learning state topologies",

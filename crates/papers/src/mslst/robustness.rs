@@ -50,17 +50,18 @@ pub(super) struct Robustness {
     venues: Vec<[OnceLock<Arc<Venue>>; 2]>,
 }
 
-/// What the runs depend on.
+/// Configuration of the runs.
 #[derive(Serialize)]
 pub(super) struct RobustnessConfig {
     starts: u32,
     limit: Option<u32>,
-    /// What it reckons with in all rows; those of the ablation go without a part each.
+    /// Configuration of the better system in all rows; rows of the ablation leave out a part each.
     better: Option<LearnerConfig>,
 }
 
 impl Robustness {
-    /// `runs` starts in all, in drawings with at least five starts each.
+    /// Returns the experiment with `runs` starts in all, in drawings with at least five starts
+    /// each.
     pub(super) fn new(runs: u32, limit: Option<u32>) -> Self {
         let (mazes, starts) = shared_out(runs, LARGE_DRAWINGS.len() as u32);
         Self {
@@ -79,7 +80,7 @@ impl Robustness {
         }
     }
 
-    /// Its two tables.
+    /// Returns its two tables.
     pub(super) fn tables(&self) -> [Table; 2] {
         let conditions = Condition::ALL.map(Condition::name);
         let parts = PARTS.map(|(name, _)| name);
@@ -168,7 +169,7 @@ fn with_a_door_shut(drawing: u32) -> Result<Venue, BoxError> {
     Ok(venue::large_like(course))
 }
 
-/// Who drives in a row: under which condition, and without which part.
+/// Returns the condition of a row, and the part that it leaves out.
 fn row(job: &Job<'_>) -> Result<(Condition, Option<BetterPart>), BoxError> {
     let found = match job.table {
         ROBUSTNESS => Condition::named(job.row).map(|condition| (condition, None)),

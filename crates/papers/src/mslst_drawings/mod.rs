@@ -1,4 +1,4 @@
-//! The drawings of MSLST's mazes: which of a seeded sequence are kept, and for what the others are
+//! The drawings of MSLST's mazes: which ones of a seeded sequence are kept, and why the others are
 //! rejected.
 //!
 //! Run n is drawing n of the sequence, whatever the master seed. MSLST has no part in it.
@@ -10,7 +10,7 @@ use tolman_experiment::{
 
 use crate::venue::{Condition, Drawing, Judged};
 
-/// What the catalogue says of it.
+/// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
     name: "mslst-drawings",
     title: "The drawings of MSLST's mazes: which are kept",
@@ -27,8 +27,8 @@ const MOST_DRAWINGS: u32 = 2000;
 const DRAWINGS: [Drawing; 2] = [Drawing::J, Drawing::Large];
 
 record! {
-    /// A drawing and why it is kept or not. What no run was made for is not there: where the loop
-    /// alone rules a drawing out.
+    /// A drawing, and why it is kept or not. Values without a run are missing, if the loop alone
+    /// rules a drawing out.
     #[check(DrawingRun::relations)]
     struct DrawingRun {
         /// Whether it meets all conditions.
@@ -47,7 +47,7 @@ record! {
         misses_wall_follow_steps: bool => neither("× Wall-follow steps"),
         /// Whether the lists in the source say of it what was found; none beyond their end.
         as_listed: Option<bool> => neither("as listed"),
-        /// By how much the conditions are missed, summed, in shares of their bounds.
+        /// Sum of the excesses over the conditions' bounds, in shares of the bounds.
         excess: Option<f64> => lower("excess").at_least(0),
         /// Starts from which an exact right-hand tour never arrives.
         trapped_percent: Option<f64> => neither("trapped").percent(),

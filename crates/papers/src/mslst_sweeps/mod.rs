@@ -1,8 +1,8 @@
-//! What the paper had no time for: MSLST under other thresholds, training times, memories and
+//! Sweeps that the paper had no time for: MSLST with other thresholds, training times, memories and
 //! noises, and in other worlds.
 //!
-//! A run learns a map of its own and plays [`STARTS`] starts by it, so that the spread over runs is
-//! that between maps. All rows of a table share the seeds of maps and starts.
+//! A run learns a map of its own and plays [`STARTS`] starts by it. The spread over runs is
+//! therefore that between maps. All rows of a table share the seeds of maps and starts.
 
 mod figures;
 mod settings;
@@ -27,7 +27,7 @@ use settings::{Setting, Sweep};
 /// Starts for each map.
 const STARTS: u32 = 10;
 
-/// What the catalogue says of it.
+/// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
     name: "mslst-sweeps",
     title: "MSLST under other settings and in other worlds",

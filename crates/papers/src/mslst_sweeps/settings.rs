@@ -1,4 +1,4 @@
-//! What is varied: one thing at a time around MSLST 50 in the Large maze, then the worlds.
+//! Varied parameters: one at a time around MSLST 50 in the Large maze, then the worlds.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -19,7 +19,7 @@ use tolman_systems::mslst::ROBOT_UNIT;
 pub(super) struct Sweep {
     pub(super) name: &'static str,
     pub(super) title: &'static str,
-    /// What is varied, with its unit, or `None` if the settings have no order.
+    /// The varied parameter with its unit, or `None` if the settings have no order.
     pub(super) axis: Option<&'static str>,
     pub(super) settings: Vec<Setting>,
     pub(super) note: &'static str,
@@ -29,14 +29,14 @@ pub(super) struct Sweep {
 #[derive(Debug)]
 pub(super) struct Setting {
     pub(super) row: String,
-    /// Where it stands on the axis.
+    /// Value on the axis.
     pub(super) value: f64,
     pub(super) config: MslstConfig,
     pub(super) robot: LaserPioneerConfig,
     pub(super) world: World,
 }
 
-/// Where a run takes place.
+/// World of a run.
 #[derive(Clone, Debug)]
 pub(super) enum World {
     /// The same for all runs, with a step limit of its own.

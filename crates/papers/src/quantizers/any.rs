@@ -9,8 +9,8 @@ use tolman_experiment::BoxError;
 /// The rows of tables that compare quantizers.
 pub(super) const ROWS: [&str; 4] = ["GNG", "GNG-U", "equilibrium GNG", "SOINN"];
 
-/// Returns one of [`ROWS`] for inputs of `dimension` features: GNG grows to `units`, the
-/// equilibrium GNG until the mean error of its units is below `threshold`.
+/// Returns one of [`ROWS`] for inputs of `dimension` features. GNG grows to `units`; the
+/// equilibrium GNG grows until the mean error of its units is below `threshold`.
 pub(super) fn quantizer(
     row: &str,
     dimension: usize,

@@ -17,7 +17,7 @@ use tolman_draw::{
 use tolman_experiment::{BoxError, Record, Run};
 use tolman_stats::{ConfidenceInterval, quantile};
 
-/// How many data points a picture shows at most.
+/// Maximum number of data points in a picture.
 const SHOWN: usize = 700;
 
 /// The colour of data, the last one, which no cluster has.
@@ -93,7 +93,7 @@ fn model_scans(mazes: &Mazes, run: &Run, name: &str) -> Result<Figure, BoxError>
         .table(states::NAME))
 }
 
-/// Both layers of a SOINN over their data.
+/// Returns a figure of both layers of a SOINN over their data.
 fn layers(run: &Run, name: &str) -> Result<Figure, BoxError> {
     let learned = five::learn(&run.job())?;
     let mut tiles = Tiles::new(2);

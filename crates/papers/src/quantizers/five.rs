@@ -1,4 +1,4 @@
-//! Two Gaussians, two rings and a sine curve in noise: how often SOINN finds that there are five.
+//! Two Gaussians, two rings and a sine curve in noise: how often SOINN finds five clusters.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -66,7 +66,7 @@ record! {
         /// Whether the second layer has five clusters.
         five: bool => higher("five clusters"),
         /// Whether each of them holds the points of one region, but for 5 %.
-        right: bool => higher("each its region"),
+        right: bool => higher("each cluster in its region"),
         /// Clusters of the second layer.
         clusters: usize => neither("clusters").decimals(1),
         /// Clusters of the first layer.
@@ -102,7 +102,7 @@ fn measured(name: &str, title: &str) -> Table {
         .metric(Metric::mean(FiveRun::first_units))
 }
 
-/// What one run learned.
+/// Networks of one run.
 pub(super) struct Learned {
     pub(super) data: Vec<Point>,
     pub(super) first: Soinn<f64>,

@@ -24,7 +24,7 @@ use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Proce
 use sonar::Log;
 use states::Mazes;
 
-/// What the catalogue says of it.
+/// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
     name: "quantizers",
     title: "Quantizers: states out of scans, clusters out of noise",
@@ -46,7 +46,7 @@ struct Quantizers {
     log: Option<Log>,
 }
 
-/// What the runs depend on.
+/// Configuration of the runs.
 #[derive(Serialize)]
 struct Config<'a> {
     robot: LaserPioneerConfig,

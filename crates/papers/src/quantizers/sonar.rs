@@ -14,7 +14,7 @@ use tolman_formats::SonarTable;
 /// The table's name.
 pub(crate) const NAME: &str = "sonar ring";
 
-/// Where the log lies in the folder of data.
+/// Path of the log in the folder of data.
 const FILE: &str = "logs/scitos-sonar24/sensor_readings_24.data.gz";
 
 const SONARS: usize = 24;
@@ -30,7 +30,7 @@ const PASSES: u32 = 5;
 #[derive(Debug)]
 pub(crate) struct Log {
     readings: Vec<([f64; SONARS], usize)>,
-    /// What it can do, in the order of the log.
+    /// Possible actions, in the order of the log.
     actions: Vec<String>,
 }
 
@@ -107,7 +107,7 @@ record! {
         /// Units of the network.
         units: usize => neither("units").decimals(0),
         /// Asked scans whose nearest unit tells the robot's action.
-        right_percent: f64 => higher("action told").percent().decimals(1),
+        right_percent: f64 => higher("action predicted").percent().decimals(1),
     }
 }
 

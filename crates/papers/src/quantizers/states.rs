@@ -100,7 +100,7 @@ const DECAYS: [f64; 9] = [
 record! {
     /// The networks of table 1 with another decay of errors, each from scans of its own.
     struct DecayRun {
-        /// States of the Large maze at threshold 50, by which the decay is chosen.
+        /// States of the Large maze at threshold 50, from which the decay is chosen.
         large_50: usize => neither("Large 50").decimals(1),
         /// States of the J maze at threshold 100.
         j_100: usize => neither("J 100").decimals(1),
@@ -109,8 +109,8 @@ record! {
     }
 }
 
-/// Returns what the decay is chosen by: it gives the paper's 26 states in Large 50, the median of
-/// runs; the others are predictions.
+/// Returns the table from which the decay is chosen: it gives the paper's 26 states in Large 50,
+/// the median of runs. The other mazes are predictions.
 pub(super) fn decay_table() -> Table {
     let fields = [DecayRun::large_50, DecayRun::j_100, DecayRun::large_20];
     let table = Table::of::<DecayRun>(DECAY, "Table 1 by the decay of errors, medians")

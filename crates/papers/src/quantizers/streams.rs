@@ -17,15 +17,15 @@ pub(super) enum Order {
     OneAfterAnother,
 }
 
-/// How many regions there are.
+/// Number of regions.
 pub(super) const REGIONS: u32 = 5;
 
 /// The sides of the square that the regions and the noise lie in.
 const SIDE: f64 = 10.0;
 
 /// Returns the artificial data of Shen and Hasegawa 2006: two Gaussians, two concentric rings and a
-/// sine curve, and noise evenly over the whole square, a share of all points. Their figure has no
-/// scales; the gaps here are a tenth of the square and more.
+/// sine curve. A share of all points is noise over the whole square. Their figure has no scales;
+/// the gaps here are at least a tenth of the square.
 pub(super) fn five_clusters(
     order: Order,
     noise: f64,
@@ -70,7 +70,7 @@ fn in_region(region: u32, from: f64, to: f64, rng: &mut ChaCha8Rng) -> Point {
     }
 }
 
-/// Evenly between −`half` and `half`.
+/// Returns a uniform random number between −`half` and `half`.
 fn spread(half: f64, rng: &mut ChaCha8Rng) -> f64 {
     half * (2.0 * rng.random::<f64>() - 1.0)
 }

@@ -23,10 +23,10 @@ use crate::data;
 /// The table's name.
 pub(super) const NAME: &str = "audit";
 
-/// How many false closures are added to the graphs of others.
+/// Number of false closures added to the graphs of others.
 const MANY: usize = 1000;
 
-/// How many are added to the project's own small graph.
+/// Number of false closures added to the project's own small graph.
 const FEW: usize = 40;
 
 /// The project's own graph and where its poses really are.
@@ -37,10 +37,10 @@ const ROOMS_TRUTH: &str = include_str!("../../mazes/graphs/rooms-truth.g2o");
 #[derive(Debug)]
 struct Known {
     name: &'static str,
-    /// What the stated standard deviations are multiplied by.
+    /// Factor of the stated standard deviations.
     scale: f64,
     false_closures: usize,
-    /// What of the file is right, its truth.
+    /// The right part of the file, and its true poses.
     graph: Option<(GraphFile, Vec<Pose>)>,
 }
 
@@ -59,9 +59,9 @@ record! {
         false_supported: u32 => lower("false supported").decimals(2),
         /// Right closures that are said to be refuted.
         true_refuted: u32 => lower("right refuted").decimals(2),
-        /// Certificates whose cycle is beyond its bound though all its closures but the one in
-        /// question are replaced by the truth: right closures that are refuted, and witnesses that
-        /// err by more than their bounds.
+        /// Certificates whose cycle exceeds its bound even if the closure in question is the only
+        /// one that is not replaced by the truth. These are refuted right closures, and witnesses
+        /// that err by more than their bounds.
         bounds_broken: u32 => lower("bounds broken").decimals(2),
         /// False closures that are refuted.
         false_refuted_percent: f64 => higher("false refuted").percent().decimals(1),
@@ -168,7 +168,7 @@ impl Graphs {
         })
     }
 
-    /// Returns what is left out, if anything is.
+    /// Returns the message about missing data, if anything is left out.
     pub(super) fn missing(&self) -> Option<String> {
         let missing = self.known.iter().any(|known| known.graph.is_none());
         missing.then(|| data::missing("the pose graphs of the Vertigo project"))
@@ -236,7 +236,7 @@ impl Graphs {
     }
 }
 
-/// How many closures are what.
+/// Counts of closures by verdict and truth.
 #[derive(Default)]
 struct Counts {
     right: u32,
@@ -247,7 +247,7 @@ struct Counts {
 }
 
 impl Counts {
-    /// Of an audit whose edges from `right` on are false.
+    /// Returns the counts of an audit whose edges from `right` on are false.
     fn of(audit: &Audit, right: u32) -> Self {
         let mut counts = Self::default();
         for closure in &audit.closures {
@@ -313,7 +313,7 @@ fn unpacked(path: &Path) -> Result<String, BoxError> {
     Ok(text)
 }
 
-/// Poses as lines of x, y and heading.
+/// Returns poses from lines of x, y and heading.
 fn poses_of_lines(text: &str) -> Result<Vec<Pose>, BoxError> {
     let pose = |line: &str| -> Result<Pose, BoxError> {
         let numbers: Vec<f64> = line

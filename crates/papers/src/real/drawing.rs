@@ -9,14 +9,14 @@ use tolman_sim::Bounds;
 
 use super::RobotLog;
 
-/// What a picture of a log shows: occupancy, the way found, and what the wheels say.
+/// Contents of a log's picture: occupancy, the way found, and the odometry.
 #[derive(Clone, Debug)]
 pub struct MapPicture {
-    /// Where beams ended and passed.
+    /// Counts of beams that ended and passed.
     pub occupancy: OccupancyGrid,
     /// The way found.
     pub corrected: Vec<Point>,
-    /// What the wheels say, laid over the start of the way found.
+    /// The odometry, aligned with the start of the way found.
     pub raw: Vec<Point>,
     /// Share of the beams that end where the map has floor, 0 … 1.
     pub contradicted: f64,
@@ -127,7 +127,7 @@ pub(super) fn is_wall(occupied: Option<f64>) -> bool {
     occupied.is_some_and(|occupied| occupied >= WALL)
 }
 
-/// Black for walls, white for floor, grey where nothing is known.
+/// Returns black for walls, white for floor and grey for unknown ground.
 fn shade(occupied: Option<f64>) -> u8 {
     occupied.map_or(205, |occupied| {
         let dark = (occupied / WALL).min(1.0);

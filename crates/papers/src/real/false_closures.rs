@@ -1,8 +1,8 @@
-//! False loop closures of the kinds of which the literature speaks, each from its seed.
+//! False loop closures of the kinds in the literature, each from its seed.
 //!
-//! Source of the kinds: N. Sünderhauf, P. Protzel: Towards a Robust Back-End for Pose Graph SLAM,
-//! 2012. Deviations: groups agree within themselves, since the pairs after the first follow from
-//! odometry, and *local* means near in the true map, not by number.
+//! Source of the kinds: N. Sünderhauf, P. Protzel: Towards a Robust Back-End for Pose Graph
+//! SLAM, 2012. There are two deviations. Groups agree within themselves, since the pairs after the
+//! first follow from odometry. *Local* means near in the true map, not by number.
 
 use alloc::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use tolman_geom::nalgebra::Matrix3;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
 
-/// How the poses of a false closure are chosen.
+/// Choice of the poses of a false closure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// Any two poses.
@@ -23,23 +23,22 @@ pub(super) enum Kind {
     RandomGroups,
     /// 10 to 20 consecutive pairs from two poses within 5 m on, which agree with each other.
     LocalGroups,
-    /// Two poses of which the measurement is off by less than 1 m and 20°, but by more than its
-    /// bound.
+    /// Two poses whose measurement is off by less than 1 m and 20°, but by more than its bound.
     Near,
 }
 
-/// Where the poses of a false closure may lie, m.
+/// Maximum distance of a false closure's poses, m.
 const RADIUS: f64 = 5.0;
 
 /// A closure that is off by more is false, m and degrees.
 const FALSE_M: f64 = 1.0;
 const FALSE_DEG: f64 = 20.0;
 
-/// How a place matcher's measurement near zero spreads, m and degrees.
+/// Spread of a place matcher's measurement near zero, m and degrees.
 const JITTER_M: f64 = 0.3;
 const JITTER_DEG: f64 = 10.0;
 
-/// How the measurements of a group spread about those that follow from the first, m and rad.
+/// Spread of a group's measurements about those that follow from the first, m and rad.
 const GROUP_M: f64 = 0.02;
 const GROUP_RAD: f64 = 0.01;
 
@@ -77,11 +76,11 @@ pub(super) fn is_false(measured: Pose, truth: Pose) -> bool {
     off.position.coords.norm() > FALSE_M || off.heading.degrees().abs() > FALSE_DEG
 }
 
-/// A graph, its true poses, and what false closures are drawn from.
+/// A graph and its true poses, from which false closures are drawn.
 pub(super) struct Spoiler<'a> {
     graph: &'a PoseGraph,
     truth: &'a [Pose],
-    /// What odometry says of the way from each pose to the next.
+    /// Odometry from each pose to the next.
     steps: Vec<Option<Pose>>,
     /// The information of the right closures.
     information: Vec<Matrix3<f64>>,
@@ -189,7 +188,7 @@ impl<'a> Spoiler<'a> {
         }
     }
 
-    /// Any pose within reach of another in the true map.
+    /// Returns a random pose within reach of another in the true map.
     fn near(&self, one: u32, rng: &mut ChaCha8Rng) -> Option<u32> {
         let place = self.truth[one as usize].position;
         let near = (0..)

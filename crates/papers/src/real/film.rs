@@ -18,7 +18,7 @@ const SHOWN_BEAMS: u32 = 90;
 const MOST_NODES: usize = 400;
 
 impl MappedLog {
-    /// Returns the replay of a log of which this was found. A step is a scan.
+    /// Returns the replay of a log. A step is a scan.
     #[must_use]
     pub fn replay(&self, log: &RobotLog, picture: &MapPicture, title: &str) -> Replay {
         let body = Body::Circle { radius: RADIUS };
@@ -100,7 +100,7 @@ impl MappedLog {
         }
     }
 
-    /// Places and the ways between them.
+    /// Returns places and the ways between them.
     fn place_map(&self) -> MapGrowth {
         let born = |id: u32| self.founded.get(&id).map_or(0, |scan| *scan as u32);
         let places = self.places.places.iter();
@@ -128,7 +128,7 @@ fn pace(log: &RobotLog) -> f64 {
     pace.clamp(0.01, 1.0)
 }
 
-/// Occupied cells that lie beside each other, as walls.
+/// Returns adjacent occupied cells as walls.
 fn walls(grid: &OccupancyGrid) -> Vec<[Point; 2]> {
     let occupied: Vec<bool> = grid.occupancy().map(super::drawing::is_wall).collect();
     let is_wall = |column: usize, row: usize| occupied[row * grid.columns + column];

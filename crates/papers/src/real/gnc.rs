@@ -30,9 +30,9 @@ pub(super) struct Gnc {
     python: String,
 }
 
-/// What came of it.
+/// Result of the optimizer.
 pub(super) struct GncRun {
-    /// How long it took; how long it had when it was ended.
+    /// Duration, or the time limit if it was ended.
     pub(super) seconds: f64,
     pub(super) false_kept: Option<u32>,
     pub(super) true_dropped: Option<u32>,
@@ -94,7 +94,7 @@ impl Gnc {
         })
     }
 
-    /// Returns what the script writes; `None` if it had to be ended.
+    /// Returns the script's output; `None` if it had to be ended.
     fn answer(&self, arguments: &[&str; 4]) -> Result<Option<String>, BoxError> {
         let mut command = Command::new(&self.python);
         command.args(["-c", SCRIPT]).args(arguments);

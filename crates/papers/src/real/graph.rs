@@ -12,10 +12,10 @@ use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError}
 /// order of ids; edge n is edge n.
 #[derive(Clone, Debug)]
 pub struct GraphFile {
-    /// What the file says.
+    /// Contents of the file.
     pub file: G2o,
-    /// The same as a graph: an edge between neighbours in the order of ids is odometry, the first
-    /// of each pair, and any other is a closure.
+    /// The same as a graph. The first edge of each pair of neighbours in the order of ids is
+    /// odometry; any other edge is a closure.
     pub graph: PoseGraph,
 }
 
@@ -26,15 +26,15 @@ pub enum GraphFileError {
     /// It cannot be read.
     #[error("cannot read {}; give a pose graph as g2o writes it, plain or gzipped", path.display())]
     File {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         source: SourceError,
     },
     /// It holds nothing of use.
     #[error("{}", path.display())]
     G2o {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
         /// What is wrong with it.
         source: G2oError,
@@ -42,9 +42,9 @@ pub enum GraphFileError {
     /// One of its edges is refused.
     #[error("{}: line {line}", path.display())]
     Edge {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Which line.
+        /// Number of the line.
         line: usize,
         /// What is wrong with it.
         source: PoseGraphError,

@@ -13,17 +13,17 @@ use tolman_robot::{TimedPose, Trajectory};
 const STEP_S: f64 = 1.0;
 /// Poses between two times that all are made to agree.
 const ROUND: usize = 60;
-/// A range errs by so much, m, and a bearing by so much, rad (standard deviations).
+/// Standard deviations of a range, m, and of a bearing, rad.
 const RANGE_ERROR: f64 = 0.15;
 const BEARING_ERROR: f64 = 0.05;
-/// Dead reckoning errs in each step by so much, m and rad, and by a share of the way and of the
-/// turn.
+/// Standard deviations of dead reckoning in each step, m and rad, and as a share of the way and of
+/// the turn.
 const STEP_ERROR: [f64; 2] = [0.01, 0.01];
 const WAY_ERROR: f64 = 0.1;
-/// Which way a landmark looks means nothing.
+/// Information of a landmark's heading, which is meaningless.
 const NO_HEADING: f64 = 1e-6;
 
-/// Where a robot was, and where landmarks are, in the frame of its first pose.
+/// Poses of a robot and positions of landmarks, in the frame of its first pose.
 #[derive(Clone, Debug)]
 pub(super) struct LandmarkMap {
     /// The robot's poses, one a second.
@@ -33,8 +33,8 @@ pub(super) struct LandmarkMap {
 }
 
 impl LandmarkMap {
-    /// Maps what a robot noted: poses and landmarks are those of a pose graph that agree best with
-    /// wheels and sightings.
+    /// Returns the map of a robot's records: poses and landmarks of a pose graph that agree best
+    /// with wheels and sightings.
     pub(super) fn of(
         odometry: &[LogVelocity],
         sightings: &[BarcodeSighting],
@@ -149,8 +149,7 @@ fn see(
     })
 }
 
-/// Returns the information of what errs by so much: ahead and left, m, and heading, rad (standard
-/// deviations).
+/// Returns the information matrix for standard deviations: ahead and left, m, and heading, rad.
 pub(super) fn information(errors: [f64; 3]) -> Matrix3<f64> {
     Matrix3::from_diagonal(&Vector3::from(errors).map(|error| 1.0 / (error * error)))
 }

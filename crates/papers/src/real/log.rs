@@ -22,11 +22,11 @@ const DOUBLED_M: f64 = 1.0;
 pub struct RobotLog {
     /// The scans.
     pub scans: Vec<LogScan>,
-    /// How the file was read.
+    /// Report on reading the file.
     pub report: LogReport,
 }
 
-/// What finds the way of a robot in its log.
+/// System that finds the way of a robot in its log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LogSystem {
     /// The wheels alone.
@@ -78,7 +78,7 @@ impl LogSystem {
     }
 }
 
-/// What was found in a log.
+/// Result of mapping a log.
 #[derive(Clone, Debug)]
 pub struct MappedLog {
     /// The pose of each scan, in the order of the file.
@@ -96,7 +96,7 @@ pub struct MappedLog {
     /// The places that the robot came to, each by the keyframe in its middle and, if the map knows
     /// it, its id.
     pub visits: Vec<(usize, Option<u32>)>,
-    /// How likely the mapper takes its map to be right; `None` if it does not weigh that.
+    /// The mapper's probability that its map is right; `None` if it gives none.
     pub certainty: Option<f64>,
 }
 
@@ -107,7 +107,7 @@ pub struct FoundClosure {
     pub earlier: usize,
     /// The number of the later one.
     pub later: usize,
-    /// Where the later one lies as seen from the earlier, as it was measured.
+    /// Measured pose of the later one relative to the earlier.
     pub measured: Pose,
 }
 
@@ -181,8 +181,8 @@ impl RobotLog {
         odometry.iter().map(|pose| over.compose(*pose)).collect()
     }
 
-    /// Finds the way of the robot by `system`, with `odometry` for what the wheels say; `see` is
-    /// told after each scan how many there were.
+    /// Finds the way of the robot by `system`, with the poses of `odometry`, and returns it. Calls
+    /// `see` after each scan with the number of scans so far.
     ///
     /// # Errors
     /// If a scan is invalid.

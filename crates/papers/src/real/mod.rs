@@ -1,5 +1,5 @@
-//! Logs and graphs of real robots, and a small log of the project's own simulator: how right the
-//! ways are that are found in logs, and audits of pose graphs with false closures.
+//! Logs and graphs of real robots, and a small log of the project's own simulator. The tables show
+//! the errors of the ways found in logs, and audits of pose graphs with false closures.
 
 mod audit;
 mod drawing;
@@ -33,7 +33,7 @@ pub use drawing::{MapPicture, ros_map};
 pub use graph::{GraphFile, GraphFileError};
 pub use log::{FoundClosure, LogSystem, MappedLog, RobotLog};
 
-/// What the catalogue says of it.
+/// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
     name: "real",
     title: "Logs and graphs of real robots",
@@ -57,7 +57,7 @@ struct Real {
     sonar: Option<sonar::Log>,
 }
 
-/// What the runs depend on.
+/// Configuration of the runs.
 #[derive(Serialize)]
 struct Config {
     scan_matching: ScanMatchingConfig,
@@ -124,7 +124,7 @@ impl Procedure for Real {
         }
     }
 
-    /// The rows of a table read the same log.
+    /// Returns the name of the table, whose rows read the same log.
     fn shares(&self, job: &Job<'_>) -> Option<String> {
         Some(job.table.to_owned())
     }

@@ -1,4 +1,4 @@
-//! The Intel lab: how far relative poses are from those that were verified by hand.
+//! The Intel lab: errors of relative poses against those verified by hand.
 
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -19,13 +19,13 @@ const LOG: &str = "logs/mrpt-intel/intel_raw_every5th.clf.gz";
 const RELATIONS: &str = "logs/intel-relations/intel.relations.gz";
 const PUBLISHED: &str = "logs/radish/intel-corrected.log.gz";
 
-/// What the times of the published log lack to those of the relations, s.
+/// Difference between the times of the relations and those of the published log, s.
 const PUBLISHED_TIMES: f64 = 976_052_857.34;
 
 /// A closure is wrong if the dense map has it farther off, m.
 const WRONG_M: f64 = 0.5;
-/// Two visits that a map takes for the same place are not if the dense map has them farther apart,
-/// m. A room or a crossing of corridors is as wide, and a robot stands anywhere in it.
+/// Distance in the dense map beyond which two visits are not to the same place, m. A room or a
+/// crossing of corridors is as wide, and a robot stands anywhere in it.
 const ELSEWHERE_M: f64 = 4.0;
 /// The row whose wheels are made worse.
 const MADE_WORSE: &str = "intel dense, wheels made worse";
@@ -46,7 +46,7 @@ pub(super) const ROWS: [(&str, Option<LogSystem>); 9] = [
 #[derive(Debug, Default)]
 pub(super) struct Intel {
     log: OnceLock<RobotLog>,
-    /// The dense map, a row of its own and what places are held against.
+    /// The dense map: a row of its own, and the reference for places.
     dense: OnceLock<MappedLog>,
 }
 
@@ -62,7 +62,7 @@ fn is_here() -> bool {
         .all(|name| file(name).is_some())
 }
 
-/// Returns what to tell where it is not here.
+/// Returns the message for missing data.
 pub(super) fn missing() -> Option<String> {
     (!is_here()).then(|| data::missing("the logs of the Intel lab and their relations"))
 }
@@ -84,11 +84,11 @@ record! {
         wrong_closures: Option<usize> => lower("wrong closures").decimals(0),
         /// Places of a map of places.
         places: usize => neither("places").decimals(0),
-        /// How often the robot came to a place.
+        /// Number of visits to places.
         visits: usize => neither("visits").decimals(0),
-        /// How often it took a place for one where it had been.
+        /// Number of times that it took a place for a known one.
         recognized: usize => neither("recognized").decimals(0),
-        /// How often the dense map says that it was elsewhere.
+        /// Number of these at which the robot was elsewhere, by the dense map.
         wrongly_recognized: Option<usize> => lower("wrongly recognized").decimals(0),
     }
 }

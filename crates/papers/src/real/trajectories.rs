@@ -1,4 +1,4 @@
-//! Other buildings: how far positions are from those of the corrected log.
+//! Other buildings: distances of positions from those of the corrected log.
 
 use core::f64::consts::TAU;
 
@@ -33,25 +33,25 @@ pub(super) const ROWS: [(&str, &str, bool); 5] = [
     ("edmonton", "logs/radish/edmonton-corrected.log.gz", false),
 ];
 
-/// How much worse the wheels of a log are made.
+/// Errors added to the wheels of a log.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wear {
     /// A constant turn a metre to one side, drawn for each run, degrees.
     turn_a_metre_deg: f64,
     /// A random turn each step, degrees (standard deviation).
     turn_a_step_deg: f64,
-    /// A constant share by which all ways are too long or too short, drawn for each run.
+    /// Constant share by which all ways are too long or too short, drawn for each run.
     length: f64,
 }
 
 impl Wear {
-    /// Of a corrected log.
+    /// Errors for a corrected log.
     const OF_CORRECTED: Self = Self {
         turn_a_metre_deg: 2.0,
         turn_a_step_deg: 1.3,
         length: 0.0,
     };
-    /// Of raw odometry, which errs already.
+    /// Errors for raw odometry, which errs already.
     pub(super) const OF_RAW: Self = Self {
         turn_a_metre_deg: 2.0,
         turn_a_step_deg: 0.0,
@@ -76,7 +76,7 @@ record! {
     }
 }
 
-/// Returns what to tell where a log is not here.
+/// Returns the message for a missing log.
 pub(super) fn missing() -> Option<String> {
     let here = ROWS.iter().all(|(_, name, _)| file(name).is_some());
     (!here).then(|| data::missing("logs of buildings"))
@@ -157,7 +157,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(run.fields()?)
 }
 
-/// Returns how far poses are from the true ones.
+/// Returns the errors of poses against the true ones.
 pub(super) fn aligned(found: &[Pose], truth: &[Pose]) -> Result<AlignedScore, BoxError> {
     let pairs = found.iter().zip(truth);
     let pairs: Vec<(Point, Point)> = pairs.map(|(a, b)| (a.position, b.position)).collect();

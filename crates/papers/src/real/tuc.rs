@@ -32,7 +32,7 @@ const ROWS: [(&str, f64); 5] = [
 const TRUE_M: f64 = 2.0;
 /// A camera recognizes a place from so far off, m and rad (standard deviations).
 const SEEN: [f64; 3] = [0.5, 0.5, 0.1];
-/// Dead reckoning errs by so much in each stretch, m and rad, and by a share of the way.
+/// Standard deviations of dead reckoning in each stretch, m and rad, and as a share of the way.
 const STRETCH: [f64; 2] = [0.02, 0.005];
 const WAY_ERROR: f64 = 0.05;
 /// Poses near by lie at most so far off, m: places that look alike lie far from each other.
@@ -54,7 +54,7 @@ record! {
     }
 }
 
-/// Returns what to tell where the drive is not here.
+/// Returns the message for the missing drive.
 pub(super) fn missing() -> Option<String> {
     let here = [DRIVE, TRUTH].iter().all(|name| file(name).is_some());
     (!here).then(|| data::missing("the corridor of Chemnitz"))

@@ -1,5 +1,5 @@
-//! A place map of what one robot saw, by which others find where they are: the score of GNG-SLAM's
-//! paper on real robots.
+//! A place map of one robot's observations, on which others localize: the score of GNG-SLAM's paper
+//! on real robots.
 
 use std::path::PathBuf;
 
@@ -29,7 +29,7 @@ const FOLDER: &str = "logs/utias";
 const PLACE_MAP: &str = "place map";
 const RANDOM: &str = "random";
 
-/// Which robot learns, and which tries its map.
+/// Numbers of the robot that learns and of the robot that uses its map.
 const PAIRS: [[u32; 2]; 6] = [[1, 2], [1, 3], [2, 1], [2, 3], [3, 1], [3, 2]];
 
 /// A robot knows what it saw in so long a time, s.
@@ -47,7 +47,7 @@ record! {
         score: f64 => higher("score").decimals(3),
         /// Mean distance from where it truly was, m.
         error_m: f64 => lower("error").unit("m").at_least(0).decimals(2),
-        /// How far the learning robot's corrected way is from the true one, root mean square, m.
+        /// Root-mean-square distance of the learning robot's corrected way from the true one, m.
         map_error_m: f64 => lower("error of the map").unit("m").at_least(0).decimals(2),
         /// Records that were scored.
         records: usize => neither("records").decimals(0),
@@ -58,7 +58,7 @@ fn folder() -> Option<PathBuf> {
     file(FOLDER)
 }
 
-/// Returns what to tell where the set is not here.
+/// Returns the message for the missing set.
 pub(super) fn missing() -> Option<String> {
     folder()
         .is_none()
@@ -129,7 +129,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(run.fields()?)
 }
 
-/// Returns a map of where the robot was and how far the landmarks are from there.
+/// Returns a map of the robot's positions and their distances from the landmarks.
 fn place_map(known: &LandmarkMap, rng: &mut ChaCha8Rng) -> Result<PlaceMap, BoxError> {
     let record = |pose: Pose| {
         let landmarks = known.landmarks.values();
@@ -180,8 +180,8 @@ fn in_cells(cells: &CellGrid, point: Point) -> Point {
     Point::from(from_corner.component_div(&cells.size()))
 }
 
-/// At each second at which enough landmarks are known, how far each is, m: those seen a moment ago
-/// from where the robot is by now.
+/// Returns the distances of landmarks, m, for each second at which enough are known. Those seen a
+/// moment ago are corrected for the robot's motion since then.
 fn sensed(
     odometry: &[LogVelocity],
     sightings: &[BarcodeSighting],

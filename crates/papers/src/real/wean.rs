@@ -32,7 +32,7 @@ record! {
         places: usize => neither("places").decimals(0),
         /// Places that were seen again on the same day.
         closures: usize => neither("closures").decimals(0),
-        /// How well its surfaces meet those of the other day, 0 … 1.
+        /// Mean likelihood of its surfaces on those of the other day, 0 to 1.
         overlay_score: f64 => higher("overlay").decimals(2),
         /// The same where the map is laid elsewhere.
         rival_score: f64 => neither("best elsewhere").decimals(2),
@@ -43,7 +43,7 @@ record! {
     }
 }
 
-/// Returns what to tell where a log is not here.
+/// Returns the message for a missing log.
 pub(super) fn missing() -> Option<String> {
     let here = ROWS.iter().all(|(_, name)| file(name).is_some());
     (!here).then(|| data::missing("the logs of Wean Hall"))

@@ -1,9 +1,9 @@
-//! The rule by which the paper's two mazes are drawn: a sequence of random drawings with the
-//! features that it names, of which those are kept that meet what its own figures imply.
+//! The rule by which the paper's two mazes are drawn. From a sequence of random drawings with the
+//! features that it names, those are kept that meet what its own figures imply.
 //!
-//! MSLST has no part in the rule. The drawings of the paper are lost; what they must have been is
-//! that the two baselines came out as they did, and that a robot which knows the maze is faster
-//! than the paper's MSLST was.
+//! MSLST has no part in the rule. The drawings of the paper are lost. Two facts about them are
+//! known: the two baselines came out as they did, and a robot which knows the maze is faster than
+//! the paper's MSLST was.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -34,7 +34,7 @@ const Z: f64 = 1.96;
 /// paper's 28 % of 25.
 const TRAPPED: (f64, f64) = (12.0, 49.0);
 
-/// Which of the paper's mazes a drawing stands for.
+/// Maze of the paper that a drawing stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Drawing {
     /// "A simple J shape."
@@ -54,7 +54,7 @@ pub(crate) const LARGE_DRAWINGS: [u32; 50] = [
     341, 346, 347, 352, 367, 370, 372, 374, 376, 377,
 ];
 
-/// What was found of a drawing.
+/// Measurements of a drawing.
 #[derive(Clone, Debug)]
 pub(crate) struct Judged {
     /// Right-hand tours that never arrive.
@@ -72,15 +72,15 @@ pub(crate) struct Played {
     pub(crate) mean_steps: f64,
 }
 
-/// A condition and by how much it is missed.
+/// A condition and its excess.
 #[derive(Clone, Copy, Debug)]
 struct Judgement {
     condition: Condition,
-    /// As a share of the bound; 0 where it is met.
+    /// Excess as a share of the bound; 0 if the condition is met.
     excess: f64,
 }
 
-/// What a drawing must meet.
+/// Condition that a drawing must meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Condition {
     /// Right-hand tours arrive as often as the paper's Wall-follow may have.
@@ -146,8 +146,9 @@ impl Drawing {
         }
     }
 
-    /// Returns the most steps of the Oracle, on average. In Large those of the paper's MSLST 20 in
-    /// the runs in which it arrived; in J the upper end of what its MSLST 100 may have needed.
+    /// Returns the maximum average number of steps of the Oracle. In Large it is that of the
+    /// paper's MSLST 20 in the runs in which it arrived. In J it is the upper end of what its MSLST
+    /// 100 may have needed.
     const fn oracle_steps(self) -> f64 {
         match self {
             Self::J => 47.0,
@@ -233,8 +234,8 @@ impl Judged {
         conditions.any(|judgement| judgement.condition == condition && judgement.excess > 0.0)
     }
 
-    /// By how much it misses all conditions, in shares of their bounds; 0 of a drawing that is
-    /// kept.
+    /// Returns the sum of the excesses over all conditions, in shares of their bounds; 0 for a
+    /// drawing that is kept.
     pub(crate) fn summed_excess(&self) -> f64 {
         self.conditions
             .iter()
@@ -243,7 +244,7 @@ impl Judged {
     }
 }
 
-/// Returns how far a value lies outside an interval, as a share of the end that it is beyond.
+/// Returns the distance of a value from an interval, as a share of the nearer end.
 fn beyond(value: f64, (low, high): (f64, f64)) -> f64 {
     if value < low {
         (low - value) / low
@@ -254,7 +255,7 @@ fn beyond(value: f64, (low, high): (f64, f64)) -> f64 {
     }
 }
 
-/// Wilson's 95 % interval of the paper's success, per cent.
+/// Returns Wilson's 95 % interval of the paper's success, per cent.
 fn success_interval(paper: &PaperRow) -> Result<(f64, f64), BoxError> {
     let runs = f64::from(PAPER_RUNS);
     let successes = libm::round(paper.success_percent * runs / 100.0) as u64;
@@ -292,7 +293,7 @@ mod tests {
     use super::*;
     use crate::venue::paper::{TABLE_2, TABLE_3};
 
-    /// The intervals of the paper's 25 runs, as any table of them has it.
+    /// Checks that intervals are those of the paper's 25 runs.
     #[test]
     fn intervals_are_those_of_25_runs() {
         let check = |(low, high): (f64, f64), expect: (f64, f64)| {
@@ -323,7 +324,7 @@ mod tests {
         }
     }
 
-    /// The mazes are the first drawings that are kept, to the cell.
+    /// Checks that the mazes are the first drawings that are kept, to the cell.
     #[test]
     fn the_papers_mazes_are_the_first_that_are_kept() {
         let mazes = [
@@ -341,7 +342,7 @@ mod tests {
         }
     }
 
-    /// Some of each sequence are judged again; `tolman experiment mslst-drawings` judges all.
+    /// Judges some of each sequence again; `tolman experiment mslst-drawings` judges all.
     #[test]
     fn the_lists_agree_with_the_rule() {
         for (drawing, numbers) in [(Drawing::J, 4..5), (Drawing::Large, 0..2)] {

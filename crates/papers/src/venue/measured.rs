@@ -1,4 +1,4 @@
-//! What a run measures: an episode as the record of a table.
+//! Measurements of a run: an episode as the record of a table.
 
 use super::Venue;
 use tolman_arena::episode::Episode;
@@ -64,7 +64,7 @@ const fn outcome(reached: bool) -> &'static str {
 }
 
 impl Venue {
-    /// Returns the table of this world, of which each run has a [`MazeRun`] in its record.
+    /// Returns the table of this world, whose runs each have a [`MazeRun`] in their record.
     pub(crate) fn table<T: Record>(&self) -> Table {
         let table = Table::of::<T>(&self.table, &self.title)
             .at_most(MazeRun::steps, self.step_limit)

@@ -1,4 +1,4 @@
-//! Where MSLST and its baselines run, and what every run there measures.
+//! Worlds in which MSLST and its baselines run, and the measurements of every run there.
 
 mod drawings;
 mod files;
@@ -38,11 +38,11 @@ pub(super) struct Venue {
     pub(super) robot: LaserPioneerConfig,
     pub(super) step_limit: u32,
     cast: Cast,
-    /// What the paper says of it.
+    /// The paper's values.
     paper: &'static [PaperRow],
 }
 
-/// A world as it stands in a configuration.
+/// A world in the form that configurations have.
 #[derive(Debug, Serialize)]
 pub(super) struct World {
     maze: String,
@@ -92,8 +92,8 @@ pub(super) fn large_like(course: Course) -> Venue {
     Venue::new("3 (Large)", "The Large maze", course, paper::LARGE_STEPS).known(paper::TABLE_3)
 }
 
-/// Returns the first Large maze, drawn when steps per action still had a say in it: too long for
-/// the paper's figures, and a hard one for whoever navigates.
+/// Returns the first Large maze, drawn when steps per action were still a condition. It is too long
+/// for the paper's figures, and hard to navigate.
 pub(super) fn large_hard() -> Result<Venue, BoxError> {
     let course = built_in("Large, hard", include_str!("../../mazes/large-hard.maze"))?;
     let title = "The first Large maze, which is too long to be the paper's";
@@ -124,7 +124,7 @@ fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
 }
 
 impl Venue {
-    /// Returns a course of which the paper says nothing, for the calibrated robot.
+    /// Returns a course that is not in the paper, for the calibrated robot.
     pub(super) fn new(table: &str, title: &str, course: Course, step_limit: u32) -> Self {
         Self {
             table: table.to_owned(),
@@ -137,7 +137,7 @@ impl Venue {
         }
     }
 
-    /// Returns a maze of which the paper says nothing, with a limit in proportion to its corridors.
+    /// Returns a maze that is not in the paper, with a limit in proportion to its corridors.
     ///
     /// # Errors
     /// If the robot does not fit its corridors.
@@ -147,12 +147,13 @@ impl Venue {
         Ok(Self::new(table, name, course, limit))
     }
 
-    /// With what the paper says.
+    /// Returns the venue with the paper's values.
     fn known(self, paper: &'static [PaperRow]) -> Self {
         Self { paper, ..self }
     }
 
-    /// With a limit of the caller's; the paper says nothing of one that is not its own.
+    /// Returns the venue with the caller's limit. The paper's values are dropped if it differs from
+    /// the paper's.
     pub(super) fn limited(self, limit: Option<u32>) -> Self {
         match limit {
             Some(step_limit) if step_limit != self.step_limit => Self {
@@ -164,7 +165,7 @@ impl Venue {
         }
     }
 
-    /// Under another name, as a variant of a table.
+    /// Returns the venue under another name, as a variant of a table.
     pub(super) fn renamed(self, table: &str, title: &str) -> Self {
         Self {
             table: table.to_owned(),
@@ -178,7 +179,7 @@ impl Venue {
         !self.paper.is_empty()
     }
 
-    /// Returns the row of a brain, with what the paper says of it.
+    /// Returns the row of a brain, with the paper's values.
     pub(super) fn row(&self, name: &str) -> Row {
         let row = Row::new(name);
         match self.paper(name) {
@@ -190,7 +191,7 @@ impl Venue {
         }
     }
 
-    /// Returns what the paper says of a brain here.
+    /// Returns the paper's values for a brain here.
     pub(super) fn paper(&self, name: &str) -> Option<&'static PaperRow> {
         self.paper.iter().find(|paper| paper.row == name)
     }

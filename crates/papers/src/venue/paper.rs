@@ -1,4 +1,4 @@
-//! What the paper says of its two mazes.
+//! The paper's values for its two mazes.
 
 use tolman_experiment::BoxError;
 

@@ -1,6 +1,6 @@
 use tolman_maze::Cell;
 
-/// A set of cells of a maze of up to `N` × `N`, `N` ≤ 32: one word a row, so that a whole row is
+/// A set of cells of a maze of up to `N` × `N`, `N` ≤ 32. A row is one word, so that a whole row is
 /// moved or compared at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct CellSet<const N: usize> {
@@ -62,7 +62,7 @@ impl<const N: usize> CellSet<N> {
         set
     }
 
-    /// Gives the cells of the set a value; how many they are.
+    /// Gives the cells of the set a value, and returns their number.
     pub(super) fn fill(&self, values: &mut [[u16; N]; N], value: u16) -> u16 {
         let mut cells = 0;
         for (row, values) in self.rows.iter().zip(values) {
@@ -116,7 +116,8 @@ impl<const N: usize> CellSet<N> {
         self
     }
 
-    /// Row by row from the south, each from the west: in the order of [`tolman_maze::Grid::index`].
+    /// Returns the cells row by row from the south, each from the west: in the order of
+    /// [`tolman_maze::Grid::index`].
     pub(super) const fn iter(&self) -> Cells<N> {
         Cells {
             rows: self.rows,
@@ -128,7 +129,7 @@ impl<const N: usize> CellSet<N> {
 /// The cells of a [`CellSet`].
 #[derive(Clone, Debug)]
 pub(super) struct Cells<const N: usize> {
-    /// What is left.
+    /// The remaining cells.
     rows: [u32; N],
     y: u16,
 }

@@ -8,14 +8,14 @@ use super::sides::Sides;
 use super::{Leap, MoveMap};
 use crate::{TooLarge, Unknown};
 
-/// What is known of a maze, and how long runs through it can be.
+/// Knowledge of a maze, and bounds on the length of runs through it.
 ///
 /// Walls can be [learned](Self::look) one by one; the maps follow, and only as far as they change.
 #[derive(Clone, Debug)]
 pub(super) struct Chart<const N: usize> {
     pub(super) start: Cell,
     pub(super) goals: CellSet<N>,
-    /// The sides that may be open.
+    /// Sides that may be open.
     pub(super) hoped: Sides<N>,
     /// The sides known to be open.
     pub(super) certain: Sides<N>,
@@ -52,7 +52,7 @@ impl<const N: usize> Chart<N> {
         self.to_goal.moves(self.start)
     }
 
-    /// Returns the sides that nobody has looked at.
+    /// Returns the unknown sides.
     pub(super) fn unknown(&self) -> Sides<N> {
         self.hoped.minus(&self.certain)
     }
@@ -86,7 +86,7 @@ impl<const N: usize> Chart<N> {
     }
 
     /// Returns a way of fewest steps from `at` to `target` on known ground, or `None` if none leads
-    /// there. Of such ways it is one with much to see at its last stops.
+    /// there. Of equal ways it is one with much to see at its last stops.
     pub(super) fn course(&self, target: Cell, at: Cell) -> Option<Course> {
         let mut course = Course::to(target);
         if self.leap_to(target, at).is_some() {
@@ -142,8 +142,8 @@ impl<const N: usize> Chart<N> {
         Some(driven)
     }
 
-    /// Returns whether what is across a side is a goal, or leads on: a run over a side that is
-    /// certain only now has to go on from there.
+    /// Returns whether a goal is across a side, or the way leads on from there: a run over a newly
+    /// known side has to continue.
     fn joins(&self, at: Cell, side: Direction) -> bool {
         let Some(across) = at.beyond(side) else {
             return false;
@@ -191,7 +191,7 @@ impl<const N: usize> Chart<N> {
         news
     }
 
-    /// Cells by their distance from `at` on known ground, nearest first.
+    /// Returns cells by their distance from `at` on known ground, nearest first.
     pub(super) fn around(&self, at: Cell) -> impl Iterator<Item = (u16, CellSet<N>)> {
         let mut wave = Wave::new(CellSet::of([at]));
         core::iter::from_fn(move || {
@@ -201,11 +201,11 @@ impl<const N: usize> Chart<N> {
     }
 }
 
-/// Where the leaps of a way end: the first of them.
+/// A way, by the ends of its leaps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
     stops: [Cell; Self::MOST],
-    /// Of the whole way.
+    /// Number of steps of the whole way.
     steps: u16,
 }
 
@@ -234,7 +234,7 @@ impl Course {
     }
 }
 
-/// Where a drive ended.
+/// End of a drive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Driven {
     pub(super) steps: u16,

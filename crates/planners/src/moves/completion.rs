@@ -112,7 +112,7 @@ impl<'a, const N: usize> Completions<'a, N> {
         draw.certain
     }
 
-    /// By Fisher and Yates.
+    /// Shuffles the order, by Fisher and Yates.
     fn shuffle(&mut self) {
         let order = self.order.as_flattened_mut().as_flattened_mut();
         for last in (1..self.unknown as u32).rev() {

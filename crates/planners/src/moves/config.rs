@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-/// How a [`MoveExplorer`](super::MoveExplorer) weighs what it could do next.
+/// Weights by which a [`MoveExplorer`](super::MoveExplorer) chooses its next stop.
 ///
 /// None of this touches the proof: whatever the weights, the explorer stops only when no better run
 /// is possible.
@@ -8,8 +8,8 @@ use thiserror::Error;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct MoveExplorerConfig {
-    /// While no way to the goal is known: how much a step on known ground counts against a step of
-    /// the way that is hoped for beyond it. > 0.
+    /// Weight of a step on known ground relative to a step of the hoped-for way beyond it, while no
+    /// way to the goal is known. > 0.
     pub known_step: f32,
     /// While no way to the goal is known: steps that each unknown wall on the hoped-for way counts
     /// as. ≥ 0.
@@ -17,22 +17,22 @@ pub struct MoveExplorerConfig {
     /// While no way to the goal is known: steps that seeing one more unknown side of a cell is
     /// worth. ≥ 0.
     pub sight: f32,
-    /// While no way to the goal is known: what a stop must tell, divided by its distance, to come
-    /// before the way to the goal. ≥ 0.
+    /// Gain per distance from which a stop comes before the way to the goal, while no way to the
+    /// goal is known. ≥ 0.
     pub early_proof: f32,
-    /// Once a way is known: by how much less a wall counts for each step that the best run hoped
-    /// for through it is longer than the best of all. Within 0 … 1.
+    /// Discount of a wall's weight for each step by which the best hoped-for run through it is
+    /// longer than the best of all, once a way is known. Within 0 … 1.
     pub patience: f32,
-    /// What every wall on a run better than the known one counts at least, where those on the best
-    /// run count 1. ≥ 0.
+    /// Minimum weight of a wall on a run better than the known one; walls on the best run weigh 1.
+    /// ≥ 0.
     pub base: f32,
-    /// The power of the distance in steps that what a stop would tell is divided by. > 0.
+    /// Exponent of the distance in steps by which a stop's gain is divided. > 0.
     pub nearness: f32,
 }
 
 impl MoveExplorerConfig {
-    /// Returns the one configuration that all our figures are made with. How it was chosen:
-    /// `docs/micromouse.md`.
+    /// Returns the one configuration of all our figures. `docs/micromouse.md` says how it was
+    /// chosen.
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
@@ -75,8 +75,7 @@ pub struct MoveExplorerConfigError {
 }
 
 impl MoveExplorerConfigError {
-    /// Of fields with their values, and whether those are in range, the first that is not or is not
-    /// finite.
+    /// Returns an error for the first of the fields that is out of its range or not finite.
     pub(super) fn check(
         fields: impl IntoIterator<Item = (&'static str, f32, bool)>,
     ) -> Result<(), Self> {

@@ -10,10 +10,9 @@ use crate::TooLarge;
 
 /// Explores a maze until the best run is known for certain.
 ///
-/// The paper's *open path* takes all unknown walls for open, its *close path* for walls (section
-/// 3.3.2); when both are equally long nothing better can turn up. Here both are counted in steps of
-/// the run that will be made, so that the proof holds for that run; in the paper they are counted
-/// in cells.
+/// The paper's *open path* takes all unknown walls for open, its *closed path* for walls (section
+/// 3.3.2). When both are equally long, no better run is possible. Here both are counted in steps of
+/// the run that will be made, so that the proof holds for that run. The paper counts them in cells.
 ///
 /// Which wall to look at next is our own:
 ///
@@ -57,7 +56,7 @@ enum Goal {
     Visited,
 }
 
-/// What an explorer wants.
+/// Decision of an explorer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MoveDecision {
     /// Drive there, and look around.
@@ -65,7 +64,7 @@ pub enum MoveDecision {
     /// Turn right in place, to see what lies behind.
     Turn,
     /// The mouse was at a goal, and no run from the start takes fewer steps than the best known
-    /// one, whatever the walls nobody has looked at. Its length:
+    /// one, whatever the unknown walls are. Its length:
     Finished {
         /// Steps.
         moves: u16,
@@ -80,7 +79,7 @@ pub enum MoveDecision {
     Stuck,
 }
 
-/// What there is to do.
+/// Task of an explorer.
 pub(super) enum Task {
     /// Nothing to weigh.
     Decided(MoveDecision),
@@ -129,8 +128,8 @@ impl<const N: usize> MoveExplorer<N> {
         })
     }
 
-    /// Returns what to do in the cell `at`, once what is seen from there is in `walls`, to reach
-    /// one of `goals`. O(N²).
+    /// Returns what to do in the cell `at` to reach one of `goals`, once the view from there is in
+    /// `walls`. O(N²).
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
@@ -145,7 +144,7 @@ impl<const N: usize> MoveExplorer<N> {
         Ok(self.task(&chart, at).decide(&chart, at, prove))
     }
 
-    /// Returns what is known, from where the mouse is now.
+    /// Returns the chart of what is known, seen from the mouse's cell.
     pub(super) fn chart(
         &mut self,
         walls: &impl Walls,
@@ -262,8 +261,8 @@ impl<const N: usize> MoveExplorer<N> {
         told
     }
 
-    /// Returns what a stop tells at most: one of its four sides is known, by which the mouse gets
-    /// there.
+    /// Returns the maximum gain of a stop. One of its four sides is known: the one by which the
+    /// mouse gets there.
     fn most_told(&self) -> f32 {
         (Direction::ALL.len() - 1) as f32 * (self.config.base + 1.0)
     }

@@ -5,11 +5,11 @@ use crate::Passages;
 /// Up to three cells in a row, driven in one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Leap {
-    /// Where it leads.
+    /// Direction of the leap.
     pub direction: Direction,
-    /// How many cells, 1 to [`Leap::MOST_CELLS`].
+    /// Number of cells, 1 to [`Leap::MOST_CELLS`].
     pub cells: u8,
-    /// Where it ends.
+    /// Cell at its end.
     pub end: Cell,
 }
 

@@ -36,10 +36,10 @@ impl<const N: usize> MoveMap<N> {
         stale: None,
     };
 
-    /// Breadth-first search from `targets`, leap by leap; those outside of `N` × `N` cells are left
-    /// out. O(N²).
+    /// Returns the map of steps to `targets`, by breadth-first search leap by leap. Targets outside
+    /// of `N` × `N` cells are left out. O(N²).
     ///
-    /// A target counts only where a leap ends, as the goal does in the paper's rules.
+    /// A target counts only where a leap ends, like the goal in the paper's rules.
     #[must_use]
     pub fn new(passages: &Passages<N>, targets: impl IntoIterator<Item = Cell>) -> Self {
         Self::over(&Sides::from(passages), &CellSet::of(targets))
@@ -126,9 +126,8 @@ impl<const N: usize> MoveMap<N> {
         });
     }
 
-    /// Brings the map up to date with `sides`, if fewer than `limit` steps anywhere are in doubt;
-    /// what is farther away than that then may be as good as out of reach. O(levels that change ×
-    /// N).
+    /// Updates the map to `sides`, if fewer than `limit` steps anywhere are in doubt. Cells farther
+    /// away may then count as out of reach. O(levels that change × N).
     pub(super) fn mend(&mut self, sides: &Sides<N>, limit: u16) {
         let Some((first, _)) = self.stale.filter(|(first, _)| *first < limit) else {
             return;
@@ -143,7 +142,8 @@ impl<const N: usize> MoveMap<N> {
         self.spread(sides, wave, |wave| wave.moves >= limit);
     }
 
-    /// Steps from `cell` to the nearest target, or `None` if no way leads there.
+    /// Returns the number of steps from `cell` to the nearest target, or `None` if no way leads
+    /// there.
     #[must_use]
     pub fn moves(&self, cell: Cell) -> Option<u16> {
         let moves = self.moves_or_never(cell);
@@ -157,7 +157,7 @@ impl<const N: usize> MoveMap<N> {
     }
 
     /// Returns a way of fewest steps from `cell` to a target, on the passages the map was made for.
-    /// Nothing, where no way leads to one or the cell is one. Of equally good leaps the first of
+    /// It is empty if no way leads to one or the cell is one. Of equal leaps the first of
     /// [`Leap::all`] is taken.
     #[must_use]
     pub const fn way<'a>(&'a self, passages: &'a Passages<N>, cell: Cell) -> Way<'a, N> {
@@ -188,7 +188,7 @@ impl<const N: usize> Wave<N> {
         }
     }
 
-    /// Steps until one of some cells is reached.
+    /// Returns the number of steps until one of some cells is reached.
     pub(super) fn moves_to(mut self, targets: &CellSet<N>, sides: &Sides<N>) -> Option<u16> {
         while self.front.and(targets).is_empty() {
             if self.front.is_empty() {
@@ -199,7 +199,7 @@ impl<const N: usize> Wave<N> {
         Some(self.moves)
     }
 
-    /// One step farther.
+    /// Advances by one step.
     pub(super) fn advance(&mut self, sides: &Sides<N>) {
         self.front = sides.leaps_from(&self.front).minus(&self.reached);
         self.reached = self.reached.or(&self.front);
@@ -234,7 +234,7 @@ mod tests {
 
     const SIDE: u16 = 9;
 
-    /// Some of the sides within a square, each with the same chance.
+    /// Returns random sides within a square, each open with the same probability.
     fn sides(rng: &mut SplitMix, open_in_ten: u32) -> Sides<12> {
         let mut sides = Sides::NONE;
         for y in 0..SIDE {

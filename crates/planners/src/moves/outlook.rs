@@ -3,14 +3,13 @@ use tolman_maze::{Cell, Direction};
 use super::cell_set::CellSet;
 use super::chart::Chart;
 
-/// How many walls nobody has looked at the hoped-for way to the goal drives over, at least, from
-/// every cell.
+/// Minimum number of unknown walls on the hoped-for way to the goal, from every cell.
 pub(super) struct Outlook<const N: usize> {
     unknown: [[u8; N]; N],
 }
 
 impl<const N: usize> Outlook<N> {
-    /// Among the ways of fewest steps the one over fewest unknown walls. O(N²).
+    /// Returns the outlook on the ways of fewest steps with the fewest unknown walls. O(N²).
     pub(super) fn new(chart: &Chart<N>) -> Self {
         let mut outlook = Self {
             unknown: [[u8::MAX; N]; N],
@@ -33,7 +32,7 @@ impl<const N: usize> Outlook<N> {
         outlook
     }
 
-    /// The leaps that lead to `cell`, which is on the way, against `direction`.
+    /// Adds the leaps that lead to `cell`, which is on the way, against `direction`.
     fn look_back(
         &mut self,
         chart: &Chart<N>,
@@ -63,7 +62,8 @@ impl<const N: usize> Outlook<N> {
         }
     }
 
-    /// Unknown walls on the way from `cell`; the greatest number where there is no way.
+    /// Returns the number of unknown walls on the way from `cell`; the greatest number if there is
+    /// no way.
     pub(super) fn unknown_walls(&self, cell: Cell) -> u8 {
         let row = self.unknown.get(usize::from(cell.y));
         let unknown = row.and_then(|row| row.get(usize::from(cell.x)));

@@ -1,6 +1,6 @@
 use tolman_maze::Cell;
 
-/// How far a play has come: plays of one maze that are at the same stage go on alike.
+/// Stage of a play: plays of one maze that are at the same stage continue alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Stage {
     pub(super) at: Cell,
@@ -34,7 +34,7 @@ impl Play {
         }
     }
 
-    /// After how many steps it came to a stage, if it did.
+    /// Returns the number of steps after which it came to a stage, if it did.
     pub(super) fn steps_at(&self, stage: Stage) -> Option<f32> {
         let mut stages = self.stages.iter().map_while(|stage| *stage);
         stages

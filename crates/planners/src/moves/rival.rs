@@ -34,7 +34,7 @@ impl Rival {
     }
 }
 
-/// Of steps in few mazes that happen to be equal.
+/// Minimum variance, for steps in few mazes that happen to be equal.
 const LEAST_VARIANCE: f32 = 0.25;
 
 #[cfg(test)]

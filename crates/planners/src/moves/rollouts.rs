@@ -11,7 +11,7 @@ use super::worth::WorthConfig;
 use super::{MoveDecision, MoveExplorer, MoveExplorerConfigError};
 use crate::TooLarge;
 
-/// How [`Rollouts`] choose.
+/// Parameters of [`Rollouts`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -86,7 +86,7 @@ pub struct Rollouts<const N: usize> {
 #[derive(Clone, Copy, Debug)]
 struct Aim {
     stop: Cell,
-    /// How many walls were unknown then.
+    /// Number of walls that were unknown then.
     unknown: u32,
 }
 
@@ -94,7 +94,7 @@ struct Aim {
 const STOPS: usize = 5;
 
 impl<const N: usize> Rollouts<N> {
-    /// `base`, improved.
+    /// Returns `base`, improved by rollouts.
     ///
     /// # Errors
     /// If a value is out of its range.
@@ -207,8 +207,8 @@ impl<const N: usize> Rollouts<N> {
         Some(best.1)
     }
 
-    /// Mazes that agree with all that is known. Where as much is unknown as before, the same ones
-    /// are drawn.
+    /// Returns mazes that agree with all that is known. As long as the number of unknown walls is
+    /// the same, so are the mazes.
     pub(super) fn completions<'a>(&self, chart: &'a Chart<N>) -> Completions<'a, N> {
         let seed = self.config.seed ^ u64::from(chart.unknown().len()) << 32;
         Completions::new(chart, SplitMix::new(seed))
@@ -237,9 +237,9 @@ impl<const N: usize> Rollouts<N> {
         Some(())
     }
 
-    /// Steps from `at` over `stop` to the end of the proof, in a maze with the open sides `maze`.
-    /// After each drive `met` is told where the play is and after how many steps, and may know how
-    /// many there are in all.
+    /// Returns the number of steps from `at` over `stop` to the end of the proof, in a maze with
+    /// the open sides `maze`. Calls `met` after each drive with the stage of the play and its steps
+    /// so far; it may return the total.
     fn play(
         &self,
         chart: &Chart<N>,

@@ -6,8 +6,8 @@ use super::split_mix::SplitMix;
 use crate::passages::open_sides;
 use crate::{Passages, TooLarge, Unknown};
 
-/// A set of sides of cells: those that are open. A side is in it for both its cells. What
-/// [`Passages`] is for one cell at a time, this is for all cells at once.
+/// The set of all open sides of cells; a side is in it for both its cells. Like [`Passages`], but
+/// for all cells at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Sides<const N: usize> {
     /// The cells whose northern side is in the set.
@@ -157,8 +157,8 @@ impl<const N: usize> Sides<N> {
             .flat_map(move |direction| self.leaps_along(from, direction))
     }
 
-    /// All leaps over the `side` of `cell`, whether it is in the set or not: `visit` is told where
-    /// they begin and where they end. They can be driven the other way as well.
+    /// Calls `visit` with begin and end of all leaps over the `side` of `cell`, whether it is in
+    /// the set or not. They can be driven the other way as well.
     pub(super) fn leaps_over(
         &self,
         cell: Cell,

@@ -23,7 +23,7 @@ impl SplitMix {
         (((self.next() >> 32) * end as u64) >> 32) as u32
     }
 
-    /// Evenly within 0 … 1, without the ends.
+    /// Returns a uniform number between 0 and 1, without the ends.
     pub(super) const fn share(&mut self) -> f32 {
         ((self.next() >> 41) as f32 + 0.5) / 8_388_608.0
     }

@@ -2,7 +2,7 @@ use tolman_maze::Direction;
 
 use super::Leap;
 
-/// What the mouse does in one step: first the turn, then the movement (the paper, section 1.1).
+/// A mouse's move in one step: first the turn, then the movement (the paper, section 1.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MouseStep {
     /// The turn.

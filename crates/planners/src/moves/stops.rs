@@ -37,7 +37,7 @@ impl<const K: usize> Stops<K> {
         self.iter().next()
     }
 
-    /// Returns the best, if it scores more than so much.
+    /// Returns the best stop, if its score is above `score`.
     pub(super) fn best_above(&self, score: f32) -> Option<Cell> {
         let best = self.best.first().copied().flatten();
         best.filter(|(held, _)| *held > score).map(|(_, cell)| cell)

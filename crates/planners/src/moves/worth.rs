@@ -5,8 +5,8 @@ use super::rival::Rival;
 use super::sides::Sides;
 use super::{MoveExplorerConfigError, Rollouts};
 
-/// When [`Rollouts`] stop although the best run is not proven: when to look on costs more than it
-/// is expected to gain.
+/// Condition on which [`Rollouts`] stop although the best run is not proven: when looking on costs
+/// more than the expected gain.
 ///
 /// Mazes are drawn that agree with all that is known, and the rest of the proof is played in each.
 /// By how much the best run of the drawn maze is shorter than the one known is the gain; the steps
@@ -28,13 +28,13 @@ pub struct WorthConfig {
     pub most_gap: u16,
     /// Factor on the expected gain. > 0.
     pub gain: f32,
-    /// What a step of the exploration costs, in steps of the run. > 0; the rules have a thirtieth.
+    /// Price of a step of the exploration, in steps of the run. > 0; the rules have a thirtieth.
     pub step_price: f32,
 }
 
 impl WorthConfig {
-    /// Returns the one configuration that all our figures are made with. How it was chosen:
-    /// `docs/micromouse.md`.
+    /// Returns the one configuration of all our figures. `docs/micromouse.md` says how it was
+    /// chosen.
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
@@ -60,12 +60,12 @@ impl WorthConfig {
     }
 }
 
-/// What a play comes to, in steps of the exploration, against to stop at once.
+/// Gain of a play against stopping at once, in steps of the exploration.
 #[derive(Clone, Copy, Debug)]
 struct Payoff {
     /// Steps of the whole proof.
     steps: f32,
-    /// Steps by which the run gets shorter.
+    /// Number of steps by which the run gets shorter.
     gain: f32,
     /// The least cost at any moment: steps until then, less the worth of what was gained.
     at_best: f32,

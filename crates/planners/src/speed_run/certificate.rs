@@ -9,16 +9,16 @@ use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 use super::{RunMove, Side, Slalom, SpeedProfile, SpeedRunConfig};
 use crate::{Arcs, costs_from};
 
-/// A speed run of which somebody says that none is faster.
+/// A speed run, with the claim that none is faster.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpeedRunCertificate {
-    /// In the middle of which cell it begins.
+    /// Cell in whose middle it begins.
     pub start: Cell,
-    /// Where the mouse looks then.
+    /// Heading of the mouse at the beginning.
     pub heading: Direction,
     /// Its moves.
     pub moves: Vec<RunMove>,
-    /// How long it takes, in milliseconds.
+    /// Duration, in milliseconds.
     pub time_ms: u32,
 }
 
@@ -30,15 +30,15 @@ pub enum SpeedRunCertificateError {
     /// of a cell.
     #[error("move {number} ({run_move:?}) cannot be made from where the mouse is then")]
     Impossible {
-        /// Which move, from 0.
+        /// Number of the move, from 0.
         number: usize,
         /// The move.
         run_move: RunMove,
     },
-    /// A move through a wall, or where nobody knows whether a wall stands.
+    /// A move through a wall, or through an unknown one.
     #[error("move {number} ({run_move:?}) crosses an edge that is not known to be open")]
     NotOpen {
-        /// Which move, from 0.
+        /// Number of the move, from 0.
         number: usize,
         /// The move.
         run_move: RunMove,
@@ -49,27 +49,27 @@ pub enum SpeedRunCertificateError {
     /// The run takes longer or less long than said.
     #[error("the run takes {actual_ms} ms, not the {time_ms} ms that the certificate says")]
     WrongTime {
-        /// What the certificate says.
+        /// Duration by the certificate.
         time_ms: u32,
-        /// How long it takes.
+        /// Actual duration.
         actual_ms: u32,
     },
-    /// If walls that nobody has looked at were open, a faster run could be made.
+    /// If unknown walls were open, a faster run would be possible.
     #[error(
-        "as far as is known, a run of {possible_ms} ms could be made instead of the {time_ms} ms: more walls have to be looked at"
+        "the known walls allow a run of {possible_ms} ms, faster than the {time_ms} ms: look at more walls"
     )]
     NotTheBest {
-        /// What the certificate says.
+        /// Duration by the certificate.
         time_ms: u32,
-        /// What is possible.
+        /// Possible duration.
         possible_ms: u32,
     },
 }
 
 impl SpeedRunCertificate {
-    /// Verifies that the run can be driven on walls known to be open, ends at one of `goals`, takes
-    /// as long as it says, and that no run is faster even if all walls that nobody has looked at
-    /// are open. O(n log n) for n cells, in a graph that is built for it.
+    /// Verifies the run. It can be driven on walls known to be open, ends at one of `goals`, and
+    /// takes as long as it states. No run is faster even if all unknown walls are open. O(n log n)
+    /// for n cells, in a graph that is built for it.
     ///
     /// # Errors
     /// The first of these that does not hold.
@@ -116,9 +116,9 @@ impl SpeedRunCertificate {
     }
 }
 
-/// Returns how long the best run takes if all walls that nobody has looked at are open, by plain
-/// Dijkstra on an explicit graph, or `None` if no way leads to a goal. O(n log n) for n cells, some
-/// hundred times slower than a [`SpeedRunMap`](super::SpeedRunMap).
+/// Returns the duration of the best run if all unknown walls are open, or `None` if no way leads to
+/// a goal. Plain Dijkstra on an explicit graph: O(n log n) for n cells, some hundred times slower
+/// than a [`SpeedRunMap`](super::SpeedRunMap).
 #[must_use]
 pub fn best_possible_ms(
     walls: &impl Walls,
@@ -326,7 +326,8 @@ impl Spot {
         }
     }
 
-    /// On a diagonal the next edge has to be open: there is no stopping on an edge.
+    /// Returns whether a state leads on: on a diagonal the next edge has to be open, as there is no
+    /// stopping on an edge.
     fn leads_on(self, open: &impl Fn(Point) -> bool) -> bool {
         let (east, north) = step(self.eighth);
         self.eighth % 2 == 0 || open((self.at.0 + east, self.at.1 + north))
@@ -351,7 +352,7 @@ fn is_goal(spot: Spot, goals: &[Cell]) -> bool {
     spot.eighth % 2 == 0 && goals.iter().any(|goal| middle(goal) == spot.at)
 }
 
-/// Returns what is known of the wall whose middle is `point`.
+/// Returns the knowledge of the wall whose middle is `point`.
 fn knowledge(walls: &impl Walls, (x, y): Point) -> Knowledge {
     // The cell south-west of the middle of an edge, which is its western or southern side.
     let (Ok(column), Ok(row)) = (u16::try_from((x - 1) / 2), u16::try_from((y - 1) / 2)) else {

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-/// How a speed run is driven: what its times follow from.
+/// Parameters of driving a speed run, from which its times follow.
 ///
 /// There is no default: take the preset of the kind of maze, [`SpeedRunConfig::classic`] or
 /// [`SpeedRunConfig::half_size`].
@@ -18,12 +18,12 @@ pub struct SpeedRunConfig {
     pub straight: SpeedProfile,
     /// Straights from wall to wall at 45°.
     pub diagonal: SpeedProfile,
-    /// How long the slalom turns take.
+    /// Durations of the slalom turns.
     pub slalom: SlalomTimes,
 }
 
-/// How a straight is driven: faster with constant acceleration up to the top speed, and slower
-/// again with the same deceleration.
+/// Profile of a straight: constant acceleration up to the top speed, and the same deceleration at
+/// the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -34,8 +34,8 @@ pub struct SpeedProfile {
     pub top_speed_mm_s: f64,
 }
 
-/// How long each slalom turn takes, in whole milliseconds, 1 or more. [`Slalom`](super::Slalom)
-/// says from where to where they lead.
+/// Duration of each slalom turn, in whole milliseconds, 1 or more. [`Slalom`](super::Slalom) says
+/// from where to where they lead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -53,13 +53,13 @@ pub struct SlalomTimes {
 }
 
 impl SpeedRunConfig {
-    /// Half-size mazes with the values that kerikun11/micromouse-maze-library has by default
-    /// (`StepMapSlalom::EdgeCost::RunParameter`): cells of 90 mm, turns at 420 mm/s, straights with
-    /// 4200 mm/s² up to 1500 mm/s, diagonals with 3600 mm/s² up to 1200 mm/s.
+    /// Returns half-size mazes with the defaults of kerikun11/micromouse-maze-library
+    /// (`StepMapSlalom::EdgeCost::RunParameter`). Cells are 90 mm wide and turns driven at 420
+    /// mm/s. Straights have 4200 mm/s² up to 1500 mm/s, diagonals 3600 mm/s² up to 1200 mm/s.
     ///
-    /// The library's sixth turn, FS90 (287 ms, within one cell), is left out as it is in the
-    /// library's own runs with diagonals: it is driven at 266 mm/s, slower than straights end, and
-    /// serves its runs without diagonals.
+    /// The library's sixth turn, FS90 (287 ms, within one cell), is left out, as in the library's
+    /// own runs with diagonals. It is driven at 266 mm/s, slower than straights end, and serves its
+    /// runs without diagonals.
     #[must_use]
     pub const fn half_size() -> Self {
         Self {
@@ -83,7 +83,7 @@ impl SpeedRunConfig {
         }
     }
 
-    /// Classic mazes: as [`SpeedRunConfig::half_size`], with cells of 180 mm.
+    /// Returns classic mazes: like [`SpeedRunConfig::half_size`], with cells of 180 mm.
     #[must_use]
     pub const fn classic() -> Self {
         Self {
@@ -100,19 +100,19 @@ pub enum SpeedRunConfigError {
     /// A length, speed or acceleration that is not a positive number.
     #[error("{field} is {value}, but has to be a number above 0")]
     NotPositive {
-        /// Which field.
+        /// Name of the field.
         field: &'static str,
-        /// What it holds.
+        /// Its value.
         value: f64,
     },
     /// A top speed below the speed in the turns.
     #[error(
-        "{field} is {value} mm/s, below the {turn_speed_mm_s} mm/s in the turns: raise the one or lower the other"
+        "{field} is {value} mm/s, below the {turn_speed_mm_s} mm/s in the turns: raise one or lower the other"
     )]
     TopSpeedTooLow {
-        /// Which field.
+        /// Name of the field.
         field: &'static str,
-        /// What it holds.
+        /// Its value.
         value: f64,
         /// The speed in the turns.
         turn_speed_mm_s: f64,
@@ -126,7 +126,7 @@ pub enum SpeedRunConfigError {
         /// The longest move.
         longest_ms: u64,
     },
-    /// The longest move takes so much longer than the shortest that the search would need more
+    /// The longest move takes too many times as long as the shortest: the search would need more
     /// buckets than it has.
     #[error(
         "the longest move takes {longest_ms} ms, more than {most} times as long as the shortest with \
@@ -137,7 +137,7 @@ pub enum SpeedRunConfigError {
         longest_ms: u64,
         /// The shortest move.
         shortest_ms: u64,
-        /// How many times as long it may take.
+        /// Maximum ratio of the two.
         most: usize,
     },
 }

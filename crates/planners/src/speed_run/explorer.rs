@@ -5,10 +5,10 @@ use crate::{Passages, StepMap, TooLarge, Unknown};
 
 /// Explores a maze cell by cell until the best speed run is known for certain, and comes back.
 ///
-/// In every cell it takes the best run that can be hoped for: all walls nobody has looked at are
-/// open. If no wall of that run is left to look at, it is the best of all and the exploration is
-/// over; else the mouse drives to the nearest cell beside one of those walls. On the way out the
-/// goals count as such cells too, so that it has been there in the end.
+/// In every cell it takes the best run that can be hoped for, with all unknown walls open. If all
+/// walls of that run are known, it is the best of all and the exploration is over. Otherwise the
+/// mouse drives to the nearest cell beside one of the unknown walls. On the way out the goals count
+/// as such cells too, so that it has been there in the end.
 ///
 /// The explorer holds nothing of the maze that it does not compare with `walls` at each call, so
 /// walls may be forgotten again at any time.
@@ -19,24 +19,24 @@ pub struct SpeedRunExplorer<'a, const N: usize> {
     stage: ExploreStage,
 }
 
-/// What an explorer is about.
+/// Stage of an exploration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExploreStage {
     /// It has not been at a goal yet.
     Search,
-    /// It has been at a goal, and a faster run may be hoped for than those it knows.
+    /// It has been at a goal, and a run faster than the known ones may be possible.
     Proof,
     /// It has been at a goal, and knows the fastest run.
     Home,
 }
 
-/// What an explorer wants.
+/// Decision of an explorer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decision {
     /// Drive one cell in this direction, and look at the walls there.
     Drive(Direction),
-    /// The mouse stands at the start, was at a goal, and no run is faster than the one known,
-    /// whatever the walls that nobody has looked at. It takes so long:
+    /// The mouse is at the start, was at a goal, and no run is faster than the known one, whatever
+    /// the unknown walls are. Its duration:
     Finished {
         /// Milliseconds.
         run_ms: u16,
@@ -117,7 +117,7 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
         Ok(next.map_or(Decision::Stuck, Decision::Drive))
     }
 
-    /// Returns what the last decision was about.
+    /// Returns the stage of the last decision.
     #[must_use]
     pub const fn stage(&self) -> ExploreStage {
         self.stage

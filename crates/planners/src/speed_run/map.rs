@@ -6,11 +6,11 @@ use super::state::{Facing, Node, STATES_PER_CELL};
 use super::{RunState, SpeedRun, SpeedRunTimes};
 use crate::Passages;
 
-/// What takes so long counts as never.
+/// Duration that counts as never.
 const NEVER: u16 = u16::MAX;
 
-/// How long the best speed run takes from every state to the nearest goal, in a maze of up to
-/// `N` × `N` cells, `N` ≤ 32.
+/// Duration of the best speed run from every state to the nearest goal, in a maze of up to `N` ×
+/// `N` cells, `N` ≤ 32.
 ///
 /// A run ends in the middle of a goal cell, coming along a straight. It is the best of all that
 /// consist of straights, diagonals and [slalom turns](super::Slalom), in whole milliseconds. What
@@ -22,8 +22,8 @@ const NEVER: u16 = u16::MAX;
 /// ```
 ///
 /// The search is Dijkstra's, backwards from the goals. The model is the same in both directions, so
-/// it drives the runs from the goals to every state turned round. Its queue has buckets no wider
-/// than the shortest move lasts, so that whatever is in the first bucket is final (Denardo and Fox,
+/// it drives the reversed runs from the goals to every state. Its queue has buckets no wider than
+/// the shortest move lasts, so whatever is in the first bucket is final (Denardo and Fox,
 /// *Shortest-route methods: 1. Reaching, pruning, and buckets*, 1979).
 #[derive(Clone, Debug)]
 pub struct SpeedRunMap<const N: usize> {
@@ -34,13 +34,13 @@ pub struct SpeedRunMap<const N: usize> {
     buckets: Buckets<N>,
 }
 
-/// How far a search goes.
+/// Extent of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// To every state.
     Everywhere,
-    /// Until it is clear how long the run from this state takes. All states nearer to a goal are
-    /// clear as well; of those farther away the times may be too long, or missing.
+    /// Until the duration from this state is certain. So are those of all states nearer to a goal;
+    /// those farther away may be too long, or missing.
     Until(RunState),
 }
 
@@ -115,7 +115,7 @@ impl<const N: usize> SpeedRunMap<N> {
     /// Returns the best run from `start`, move by move, on the passages and times of the last
     /// search.
     ///
-    /// If passages were closed since, what comes out is a best run still, provided that it
+    /// If passages were closed since, the result is still a best run, provided that it
     /// [arrives](SpeedRun::has_arrived).
     #[must_use]
     pub fn run<'a>(
@@ -127,7 +127,7 @@ impl<const N: usize> SpeedRunMap<N> {
         SpeedRun::new(self, passages, times, Node::new::<N>(start))
     }
 
-    /// [`NEVER`] if no way leads to a goal.
+    /// Returns the duration; [`NEVER`] if no way leads to a goal.
     pub(super) fn time_from(&self, node: Node) -> u16 {
         self.time(node.reversed::<N>())
     }

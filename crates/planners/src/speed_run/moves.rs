@@ -18,7 +18,7 @@ pub enum RunMove {
     },
     /// A slalom turn.
     Turn {
-        /// Which.
+        /// The turn.
         slalom: Slalom,
         /// To which side.
         side: Side,
@@ -49,14 +49,14 @@ pub enum Slalom {
 /// A move of a speed run and where it begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunStep {
-    /// Where the mouse is before it.
+    /// State of the mouse before it.
     pub from: RunState,
-    /// What it does.
+    /// The move.
     pub run_move: RunMove,
 }
 
 impl RunStep {
-    /// Returns the sides to which the mouse leaves one cell after the other, from the cell of
+    /// Returns the sides by which the mouse leaves the cells in turn, from the cell of
     /// [`RunStep::from`] to that of the state after the move.
     pub fn directions(self) -> impl Iterator<Item = Direction> {
         // A pattern, from the beginning again when it is used up.
@@ -150,7 +150,7 @@ pub(super) fn is_open(sides: &[u8], cell: usize, direction: usize) -> bool {
         .is_some_and(|open| open >> direction & 1 == 1)
 }
 
-/// Every turn that can be made from `node`, always in the same order.
+/// Calls `visit` with every turn that can be made from `node`, always in the same order.
 ///
 /// A turn onto a diagonal is made only if the diagonal leads out of the cell it enters: otherwise
 /// nothing could follow.

@@ -13,11 +13,11 @@ pub struct SpeedRunPlanner<'a, const N: usize> {
     start: RunState,
     goals: &'a [Cell],
     map: SpeedRunMap<N>,
-    /// What was open at the last search.
+    /// Passages of the last search.
     searched: Option<Passages<N>>,
 }
 
-/// What an update took.
+/// Work of an update.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Replanning {
     /// The best run is as fast as before: there is still one among the best known.

@@ -59,9 +59,9 @@ impl<'a, const N: usize> SpeedRun<'a, N> {
 impl<const N: usize> Iterator for SpeedRun<'_, N> {
     type Item = RunStep;
 
-    /// Returns the first move, in the order straights from short to long, then turns, after which
-    /// exactly as much time is left as the map says. None at the goal, and where no move fits,
-    /// because passages were closed or no goal is in reach.
+    /// Returns the first move after which exactly as much time is left as the map has. Straights
+    /// come first, from short to long, then turns. `None` at the goal, and if no move fits because
+    /// passages were closed or no goal is in reach.
     fn next(&mut self) -> Option<RunStep> {
         let (map, times, sides, from) = (self.map, self.times, self.passages.sides(), self.at);
         let left = map.time_from(from);

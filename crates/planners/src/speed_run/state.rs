@@ -1,6 +1,6 @@
 use tolman_maze::{Cell, Direction};
 
-/// Where a speed run can be between two moves, and which way it looks.
+/// Place and heading of a speed run between two moves.
 ///
 /// Straights begin and end in the middle of a cell, diagonals in the middle of an edge between two
 /// cells. These are the nodes of kerikun11/micromouse-maze-library (`StepMapSlalom::Index`),
@@ -11,7 +11,7 @@ pub enum RunState {
     Straight {
         /// The cell the mouse is in.
         cell: Cell,
-        /// Where it looks.
+        /// Heading.
         heading: Direction,
     },
     /// On the edge through which one comes into `cell` by going to `into`, looking at 45° between
@@ -38,7 +38,7 @@ pub(super) struct Node {
     pub(super) state: usize,
 }
 
-/// What the number of a state within its cell says.
+/// Direction of a state within its cell.
 #[derive(Clone, Copy)]
 pub(super) enum Facing {
     /// Looking this way.
@@ -67,7 +67,7 @@ impl Node {
         }
     }
 
-    /// `out` lies to the left or right of `into`.
+    /// Returns the diagonal state; `out` lies to the left or right of `into`.
     pub(super) const fn diagonal(cell: usize, into: usize, out: usize) -> Self {
         let turns_right = (out + 4 - into) % 4 == 1;
         Self {

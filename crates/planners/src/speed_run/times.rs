@@ -30,7 +30,7 @@ pub struct SpeedRunTimes<const N: usize> {
 }
 
 impl<const N: usize> SpeedRunTimes<N> {
-    /// Works the times out. O(N).
+    /// Returns the times that follow from `config`. O(N).
     ///
     /// A straight of length `d` begins and ends at the speed `s` of the turns. With acceleration
     /// `a` it takes 2 (√(s² + a d) − s) / a while the top speed `v` is not reached, that is as
@@ -40,13 +40,9 @@ impl<const N: usize> SpeedRunTimes<N> {
     /// If a value is not a positive number, a top speed is below the speed in the turns, or the
     /// times are too far apart for the search.
     pub fn new(config: &SpeedRunConfig) -> Result<Self, SpeedRunConfigError> {
-        const { assert!(N >= 1, "a maze has cells") };
         const {
-            assert!(
-                N <= 32,
-                "the search keeps a row of cells in a word of 32 bits"
-            )
-        };
+            assert!(N >= 1 && N <= 32, "a row of cells is a word of 32 bits");
+        }
         check(config)?;
         let speed = config.turn_speed_mm_s;
         let half_diagonal = config.cell_mm * core::f64::consts::FRAC_1_SQRT_2;
@@ -84,15 +80,15 @@ impl<const N: usize> SpeedRunTimes<N> {
         })
     }
 
-    /// Returns a straight of `cells` cells, from the middle of one to the middle of another, or
-    /// `None` if no such straight fits into the maze.
+    /// Returns the duration of a straight of `cells` cells, from the middle of one to the middle of
+    /// another, or `None` if no such straight fits into the maze.
     #[must_use]
     pub fn straight_ms(&self, cells: usize) -> Option<u16> {
         self.straights().get(cells).copied()
     }
 
-    /// Returns a diagonal across `cells` cells, from the middle of one edge to that of another,
-    /// or `None` if no such diagonal fits into the maze.
+    /// Returns the duration of a diagonal across `cells` cells, from the middle of one edge to that
+    /// of another, or `None` if no such diagonal fits into the maze.
     #[must_use]
     pub fn diagonal_ms(&self, cells: usize) -> Option<u16> {
         self.diagonals().get(cells).copied()
@@ -114,12 +110,12 @@ impl<const N: usize> SpeedRunTimes<N> {
         self.slalom
     }
 
-    /// By number of cells.
+    /// Returns the durations of straights, by number of cells.
     pub(super) const fn straights(&self) -> &[u16] {
         &self.straight
     }
 
-    /// By number of cells.
+    /// Returns the durations of diagonals, by number of cells.
     pub(super) const fn diagonals(&self) -> &[u16] {
         self.diagonal.as_flattened()
     }

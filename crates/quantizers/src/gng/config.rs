@@ -1,4 +1,4 @@
-//! What can be chosen about a growing neural gas.
+//! Parameters of a growing neural gas.
 
 use crate::QuantizerConfigError;
 use crate::error::{AT_LEAST_1, NOT_NEGATIVE, SHARE, within};
@@ -23,9 +23,9 @@ pub struct GngConfig {
     pub max_units: usize,
     /// In which order a step does its parts.
     pub order: StepOrder,
-    /// What is added to the error of the nearest unit.
+    /// Addition to the error of the nearest unit.
     pub error: ErrorKind,
-    /// Which condition has to hold besides for the network to grow.
+    /// Further condition for the network to grow.
     pub gate: GrowthGate,
     /// Whether units that are of little use are taken away (GNG-U).
     pub utility: Option<Utility>,
@@ -50,7 +50,7 @@ pub enum StepOrder {
     Mslst,
 }
 
-/// What the nearest unit w of an input x is charged with.
+/// Error charged to the nearest unit w of an input x.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

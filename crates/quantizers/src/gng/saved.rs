@@ -18,7 +18,7 @@ const VERSION: u32 = 1;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SavedGng<S> {
-    /// What this is.
+    /// Format of the file.
     pub format: String,
     /// The version of the format.
     pub version: u32,
@@ -28,8 +28,8 @@ pub struct SavedGng<S> {
     pub network: NetworkSnapshot<S>,
     /// The error and the utility of each unit, both to be multiplied by `factor`.
     pub sums: Vec<(f64, f64)>,
-    /// What errors have decayed by since all of them were last brought up to date; above 0, at most
-    /// 1.
+    /// Factor by which errors have decayed since all of them were last brought up to date; above 0,
+    /// at most 1.
     pub factor: f64,
     /// Inputs learnt.
     pub steps: u64,

@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use super::Network;
 use crate::{Scalar, UnitId, UnknownUnit};
 
-/// Which cluster each unit belongs to: a *cluster* is a connected component of the graph. Clusters
-/// are numbered from 0 in the order of their smallest ids.
+/// Cluster of each unit. A *cluster* is a connected component of the graph. Clusters are numbered
+/// from 0 in the order of their smallest ids.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clusters {
     /// Ascending by id.

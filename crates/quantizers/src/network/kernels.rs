@@ -2,19 +2,19 @@
 
 use super::tree::MOST_FEATURES;
 
-/// How many units are compared at once. The results are the same to the bit: lanes do what scalars
+/// Number of units compared at once. The results are the same bit for bit: lanes do what scalars
 /// do, and nothing is fused.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lanes {
-    /// As many as every processor of the target has lanes for.
+    /// The number that every processor of the target has lanes for.
     Baseline,
-    /// As many as this processor has lanes for, found out at run time. Without the feature `std`
-    /// that cannot be found out, and it is the same as [`Lanes::Baseline`].
+    /// The number that this processor has lanes for, found out at run time. Without the feature
+    /// `std` that is impossible, and it is the same as [`Lanes::Baseline`].
     #[default]
     Widest,
 }
 
-/// How the nearest units are found. The results are the same to the bit.
+/// Search for the nearest units. The results are the same bit for bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UnitSearch {
     /// Whatever is fastest: the index for many units of few features, else the scan.

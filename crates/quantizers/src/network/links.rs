@@ -21,7 +21,7 @@ pub(crate) struct Links {
     stride: usize,
     halves: Vec<Half>,
     degrees: Vec<u32>,
-    /// How often each slot's edges were aged, modulo 2³².
+    /// Number of times that each slot's edges were aged, modulo 2³².
     wins: Vec<u32>,
 }
 
@@ -120,7 +120,7 @@ impl Links {
         true
     }
 
-    /// Twice the places for neighbours.
+    /// Doubles the places for neighbours.
     #[cold]
     fn widen(&mut self) {
         let (old, new) = (self.stride, self.stride * 2);

@@ -1,9 +1,9 @@
-//! How well the prototypes stand for a set of inputs.
+//! Distances of inputs from their prototypes.
 
 use super::Network;
 use crate::{InputError, Scalar};
 
-/// How far inputs are from their nearest units.
+/// Distances of inputs from their nearest units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuantizationError {
     /// The mean of the squared distances (MSE).
@@ -12,7 +12,7 @@ pub struct QuantizationError {
     pub mean: f64,
     /// The largest distance.
     pub largest: f64,
-    /// How many inputs were measured.
+    /// Number of inputs measured.
     pub inputs: usize,
 }
 

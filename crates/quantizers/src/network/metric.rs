@@ -1,4 +1,4 @@
-//! What a valid input is, and how far two of them are apart.
+//! Checks of inputs, and distances between them.
 
 use alloc::boxed::Box;
 

@@ -1,4 +1,4 @@
-//! Which units are nearest: all of them are looked at, many abreast.
+//! Search for the nearest units by comparing all, many at once.
 
 use super::prototypes::{LANES, Prototypes};
 use crate::Scalar;

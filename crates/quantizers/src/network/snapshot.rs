@@ -10,7 +10,7 @@ use crate::{Scalar, SnapshotError, UnitId};
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NetworkSnapshot<S> {
-    /// How many features an input has.
+    /// Number of features of an input.
     pub dimension: usize,
     /// The weights of the features in the squared distance, or `None` if all are 1.
     pub weights: Option<Vec<S>>,

@@ -45,7 +45,7 @@ struct Leaf<S> {
     /// The leaf's node, and how many inner nodes are above it.
     node: u32,
     depth: u32,
-    /// Where the splits above let a unit be, by feature, both ends included.
+    /// Bounds of the units by the splits above, by feature, both ends included.
     low: [S; MOST_FEATURES],
     high: [S; MOST_FEATURES],
 }
@@ -70,7 +70,7 @@ pub(crate) struct Tree<S> {
     /// By slot; arbitrary where no unit is.
     places: Vec<Place>,
     len: usize,
-    /// What a rebuild works on; kept so as not to allocate.
+    /// Working memory of a rebuild, kept to avoid allocation.
     slots: Vec<u32>,
 }
 

@@ -1,4 +1,4 @@
-//! What can be chosen about a SOINN.
+//! Parameters of a SOINN.
 
 use crate::QuantizerConfigError;
 use crate::error::{AT_LEAST_1, NOT_NEGATIVE, SHARE, within};
@@ -14,9 +14,9 @@ pub struct SoinnConfig {
     pub period: u32,
     /// Whether units are put where the error is large.
     pub insertion: ErrorInsertion,
-    /// Which units are taken for noise.
+    /// Units that are taken for noise.
     pub denoising: Denoising,
-    /// How far from its nearest units an input is new.
+    /// Distance from its nearest units at which an input is new.
     pub threshold: SimilarityThreshold,
 }
 
@@ -40,8 +40,8 @@ pub enum ErrorInsertion {
     Off,
 }
 
-/// Which units are taken away every λ inputs, after the insertion. All are judged by the graph as
-/// it is before; two units always stay.
+/// Units that are removed every λ inputs, after the insertion. All are judged by the graph as it
+/// was before; two units always stay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -70,7 +70,7 @@ pub enum Denoising {
     Off,
 }
 
-/// How far from one of its two nearest units an input is new, so that it becomes a unit.
+/// Distance from one of its two nearest units at which an input is new and becomes a unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -85,7 +85,8 @@ pub enum SimilarityThreshold {
 }
 
 impl SoinnConfig {
-    /// Shen and Hasegawa 2006, their artificial data: λ = age_dead = 100, c = 1.
+    /// Returns the values of Shen and Hasegawa 2006 for their artificial data: λ = age_dead = 100,
+    /// c = 1.
     pub fn shen_hasegawa() -> Self {
         Self {
             max_age: 100,

@@ -18,7 +18,7 @@ const VERSION: u32 = 1;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SavedSoinn<S> {
-    /// What this is.
+    /// Format of the file.
     pub format: String,
     /// The version of the format.
     pub version: u32,
@@ -26,7 +26,7 @@ pub struct SavedSoinn<S> {
     pub config: SoinnConfig,
     /// The units and edges.
     pub network: NetworkSnapshot<S>,
-    /// What each unit remembers.
+    /// Memory of each unit.
     pub tallies: Vec<Tally>,
     /// Inputs learnt.
     pub steps: u64,

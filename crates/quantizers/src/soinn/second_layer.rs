@@ -10,16 +10,15 @@ use super::{SimilarityThreshold, Soinn, SoinnConfig};
 use crate::error::within;
 use crate::{QuantizerConfigError, Scalar};
 
-/// How the second layer learns.
+/// Parameters by which the second layer learns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SecondLayerConfig {
     /// The layer itself; its threshold is computed, so what stands there does not count.
     pub layer: SoinnConfig,
-    /// How the threshold is computed from the first layer.
+    /// Rule for the threshold from the first layer.
     pub threshold: SecondThreshold,
-    /// How many inputs it gets: units of the first layer, drawn at random. The paper gives no
-    /// number.
+    /// Number of its inputs: units of the first layer, drawn at random. The paper gives no number.
     pub inputs: u32,
 }
 
@@ -48,8 +47,8 @@ pub enum SecondThreshold {
 }
 
 impl SecondLayerConfig {
-    /// Shen and Hasegawa 2006: the parameters of the first layer, algorithm 3.3, and 25,000 inputs,
-    /// which is ours.
+    /// Returns the values of Shen and Hasegawa 2006: the parameters of the first layer, algorithm
+    /// 3.3, and 25,000 inputs, which is ours.
     pub fn shen_hasegawa() -> Self {
         Self {
             layer: SoinnConfig::shen_hasegawa(),
@@ -83,7 +82,7 @@ pub enum SecondLayerError {
     /// A graph of fewer than two units has no lengths.
     #[error("the first layer has {found} units and needs two: let it observe more")]
     TooFewUnits {
-        /// How many it has.
+        /// Number of units it has.
         found: usize,
     },
 }
@@ -143,7 +142,7 @@ impl<S: Scalar> Soinn<S> {
         Ok(second)
     }
 
-    /// T_c.
+    /// Returns T_c.
     fn second_threshold(&self, threshold: SecondThreshold) -> Result<f64, SecondLayerError> {
         let found = self.network.len();
         if found < 2 {
@@ -179,7 +178,7 @@ impl<S: Scalar> Soinn<S> {
         edges.collect()
     }
 
-    /// For every two clusters, the distance of their nearest units.
+    /// Returns the distance of the nearest units of every two clusters.
     fn cluster_distances(&self) -> Vec<f64> {
         let clusters = self.network.clusters();
         let labelled: Vec<(usize, usize)> = self

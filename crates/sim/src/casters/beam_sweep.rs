@@ -36,7 +36,7 @@ pub struct BeamSweep {
     pub(super) order: Order,
 }
 
-/// A few beams: unit vectors in the world, and how far each has got.
+/// A few beams: unit vectors in the world, and their lengths so far.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chunk {
     pub(super) x: [f64; LANES],
@@ -56,7 +56,7 @@ impl Chunk {
     }
 }
 
-/// Which beams look where.
+/// Order of the beams by direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Order {
     /// Bearing of beam 0 in the world, rad.
@@ -65,9 +65,9 @@ pub(super) struct Order {
     density: f64,
     /// Beams to a full circle, a whole number or not.
     circle: f64,
-    /// How many beams the approximate bearings may be off.
+    /// Maximum error of the approximate bearings, in beams.
     margin: f64,
-    /// How many chunks there are.
+    /// Number of chunks.
     chunks: usize,
 }
 
@@ -83,7 +83,7 @@ impl Order {
     }
 
     /// Returns the chunks of beams between the indices of a wall's ends, first and one past the
-    /// last; twice, for a wall that lies across the seam of the circle.
+    /// last. There are two ranges for a wall across the seam of the circle.
     #[inline(always)]
     pub(super) fn between(&self, from: f64, to: f64) -> [(usize, usize); 2] {
         let span = to - from;
@@ -143,10 +143,10 @@ impl Seen {
         }
     }
 
-    /// Returns how far a beam goes to meet it; infinity if it does not.
+    /// Returns the distance at which a beam meets it; infinity if it does not.
     ///
-    /// On which side of the beam an end lies is computed from that end alone, so two walls that
-    /// share one agree on it and leave no gap.
+    /// The side of the beam on which an end lies is computed from that end alone. So two walls that
+    /// share an end agree on it and leave no gap.
     #[inline(always)]
     pub(crate) fn range(&self, x: f64, y: f64) -> f64 {
         let right = x * self.right.y - y * self.right.x;
@@ -161,7 +161,7 @@ impl Seen {
 }
 
 impl BeamSweep {
-    /// Returns the beams of `ring`, of which there must be one at least.
+    /// Returns the beams of `ring`, which must have at least one.
     #[must_use]
     pub fn new(ring: Ring) -> Self {
         let count = ring.beams as usize;
@@ -220,7 +220,7 @@ impl BeamSweep {
         self.ring
     }
 
-    /// Returns how many beams there are.
+    /// Returns the number of beams.
     #[must_use]
     pub fn beams(&self) -> usize {
         self.ring.beams as usize
@@ -233,7 +233,7 @@ impl BeamSweep {
         Vector::new(chunk.x[beam % LANES], chunk.y[beam % LANES])
     }
 
-    /// Returns how far each beam has got, m.
+    /// Returns the range of each beam so far, m.
     pub fn ranges(&self) -> impl Iterator<Item = f64> + '_ {
         self.chunks
             .iter()
@@ -241,7 +241,7 @@ impl BeamSweep {
             .take(self.beams())
     }
 
-    /// Returns how far a beam has got, m.
+    /// Returns the range of a beam so far, m.
     #[must_use]
     pub fn range(&self, beam: usize) -> f64 {
         self.chunks[beam / LANES].range[beam % LANES]
@@ -253,8 +253,8 @@ impl BeamSweep {
         *old = old.min(range);
     }
 
-    /// Lets every beam end where `meets` says for its direction and how far it has got, unless it
-    /// ends before.
+    /// Shortens every beam to the range that `meets` returns for its direction and its range so
+    /// far.
     pub fn shorten_each(&mut self, meets: impl Fn(Vector, f64) -> f64) {
         for beam in 0..self.beams() {
             let range = meets(self.direction(beam), self.range(beam));
@@ -284,8 +284,8 @@ impl BeamSweep {
         }
     }
 
-    /// A wall in line with the origin is met by beams that run along it, and by all if the origin
-    /// lies on it.
+    /// Lets beams meet a wall in line with the origin: those that run along it, and all if the
+    /// origin lies on it.
     #[cold]
     pub(super) fn meet_edge_on(&mut self, wall: &WallSegment) {
         let origin = self.origin;
@@ -322,7 +322,7 @@ impl BeamSweep {
     }
 }
 
-/// How far [`bearing`] may be off, rad.
+/// Maximum error of [`bearing`], rad.
 const BEARING_ERROR: f64 = 2e-5;
 
 /// Returns the direction of a vector to within [`BEARING_ERROR`]: enough to choose which beams to

@@ -30,8 +30,8 @@ pub struct LatticeWalk {
 /// The most lines of one axis that are crossed all at once.
 const MOST: usize = 3;
 
-/// For every edge of the grid, which walls stand on its line: here and on the next three cells in
-/// the low four bits, here and on the last three in the high four.
+/// For every edge of the grid, the walls on its line. The low four bits are here and the next three
+/// cells, the high four here and the last three.
 #[derive(Clone, Debug)]
 struct Edges {
     cells: usize,
@@ -55,7 +55,7 @@ impl Edges {
         Self { cells, walls }
     }
 
-    /// Returns the walls from `cell` on, or back, on the line `by` lines beyond that which bounds
+    /// Returns the walls from `cell` on, or back, on the line `by` lines beyond the one that bounds
     /// cell `from`.
     #[inline(always)]
     fn along<const COUNT: usize>(
@@ -75,13 +75,13 @@ impl Edges {
     }
 }
 
-/// Where walls are missing along a line, cell by cell from the origin's: the bits of infinity where
-/// one is missing, of 0 where one stands.
+/// Gaps along a line, cell by cell from the origin's: the bits of infinity for a gap, of 0 for a
+/// wall.
 #[derive(Clone, Copy, Debug)]
 struct Line<const COUNT: usize> {
     first: u64,
     last: u64,
-    /// Which cells differ from the one before.
+    /// Cells that differ from the one before.
     changes: [u64; COUNT],
 }
 
@@ -109,7 +109,8 @@ impl<const COUNT: usize> Line<COUNT> {
     };
 }
 
-/// Infinity's bits if `bit` is set, which added to a distance take it out of the running; or 0.
+/// Returns infinity's bits if `bit` is set, else 0. Added to a distance, infinity takes it out of
+/// the comparison.
 const fn infinite(bits: usize, bit: usize) -> u64 {
     if bits >> bit & 1 == 1 {
         f64::INFINITY.to_bits()
@@ -166,7 +167,7 @@ impl LatticeWalk {
         }
     }
 
-    /// All beams, each crossing `COUNT` lines of each axis at most.
+    /// Computes all beams, each crossing at most `COUNT` lines of each axis.
     #[inline(always)]
     fn cross<const COUNT: usize>(&self, cell: (usize, usize), sweep: &mut BeamSweep) {
         for (quadrant, (west, south)) in
@@ -215,15 +216,15 @@ impl LatticeWalk {
     }
 }
 
-/// Returns how far a ray goes per metre across the lines, so large where it never crosses that a
-/// line at distance 0 still is one.
+/// Returns the length of a ray per metre across the lines. If it never crosses them, the value is
+/// so large that a line at distance 0 still counts as one.
 #[inline(always)]
 fn reciprocal(component: f64) -> f64 {
     let size = component.abs();
     1.0 / if size > 1e-300 { size } else { 1e-300 }
 }
 
-/// Returns the index `by` steps on, or back; one past all others where there is none.
+/// Returns the index `by` steps on, or back; one past all others if it does not exist.
 #[inline(always)]
 fn step(from: usize, back: bool, by: usize) -> usize {
     if back {

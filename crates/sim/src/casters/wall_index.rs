@@ -19,7 +19,7 @@ pub struct WallIndex {
     levels: Vec<Level>,
     /// Sorted by level, row and column.
     walls: Vec<WallSegment>,
-    /// What a scan needs of the same walls.
+    /// The same walls in the form for scans.
     traces: Vec<Trace>,
     bounds: Bounds,
     kernels: Kernels,
@@ -43,10 +43,10 @@ struct Level {
     per_metre: f64,
     columns: usize,
     rows: usize,
-    /// How far a wall of this level reaches from its middle, along either axis, and a little for
-    /// rounding.
+    /// Maximum distance from the middle of a wall of this level to its end, along either axis, with
+    /// a margin for rounding.
     reach: f64,
-    /// Where each cell's walls start in the list of all; one more than there are cells.
+    /// Index of each cell's first wall in the list of all; one more than there are cells.
     starts: Vec<u32>,
 }
 
@@ -104,7 +104,7 @@ impl WallIndex {
         self.places(centre, reach, |places| visit(&self.walls[places]));
     }
 
-    /// Where such walls are in the list of all.
+    /// Visits the index ranges of such walls in the list of all.
     #[inline(always)]
     fn places(&self, centre: Point, reach: f64, mut visit: impl FnMut(Range<usize>)) {
         for level in &self.levels {
@@ -126,7 +126,7 @@ impl WallIndex {
         }
     }
 
-    /// Returns how far `point` is from the nearest wall, m; infinity if there are no walls.
+    /// Returns the distance of `point` from the nearest wall, m; infinity if there are no walls.
     #[must_use]
     pub fn distance(&self, point: Point) -> f64 {
         if self.walls.is_empty() || !(point.x.is_finite() && point.y.is_finite()) {
@@ -208,7 +208,7 @@ fn span(at: f64, reach: f64, per_metre: f64, count: usize) -> (usize, usize) {
     )
 }
 
-/// How many walls are drawn together.
+/// Number of walls drawn together.
 const BLOCK: usize = 16 * LANES;
 
 /// Walls as seen from the origin of a sweep, in lanes.

@@ -5,7 +5,7 @@ use rand::distr::Distribution;
 use super::Values;
 use crate::Draws;
 
-/// What a crate of your own does to the readings of a sensor, or to what a motor makes.
+/// A change, by a crate of your own, of a sensor's readings or a motor's motion.
 ///
 /// A [`Fault`](super::Fault) is named in a configuration; a disturbance is code, and is given to a
 /// robot after it was built, for example with

@@ -13,17 +13,17 @@ pub enum Fault {
     Gaussian(Gaussian),
     /// A constant error: `scale · value + offset`.
     Bias {
-        /// What the value is multiplied by; 1 for none.
+        /// Factor of the value; 1 for none.
         scale: f64,
-        /// What is added then, in the value's own unit.
+        /// Offset added then, in the value's own unit.
         offset: f64,
     },
-    /// An error of which nothing but its bounds is known: `(1 + a) · value + b`, `a` uniform in ±
-    /// `share` and `b` in ± `offset`, drawn again after every `steps` readings and for all numbers
-    /// of a reading alike.
+    /// An error of which only the bounds are known: `(1 + a) · value + b`, `a` uniform in ± `share`
+    /// and `b` in ± `offset`. It is drawn again after every `steps` readings, and is the same for
+    /// all numbers of a reading.
     ///
-    /// Unlike those of [`Slip`](Self::Slip), these errors do not average out while they hold: with
-    /// many steps they are a calibration that is wrong all along.
+    /// Unlike those of [`Slip`](Self::Slip), these errors do not average out while they hold. With
+    /// many steps they are a constant calibration error.
     Bounded {
         /// The largest share gained or lost.
         share: f64,
@@ -35,7 +35,7 @@ pub enum Fault {
     /// An error beyond all bounds, now and then: the value times 1 ± `share`, drawn again after
     /// every `steps` readings.
     Lapse {
-        /// How likely a draw is one, 0 … 1.
+        /// Probability that a draw is one, 0 to 1.
         probability: f64,
         /// The share gained or lost.
         share: f64,
@@ -54,12 +54,12 @@ pub enum Fault {
     },
     /// Readings that do not come.
     DropOut {
-        /// How likely each reading is missing, 0 … 1.
+        /// Probability that a reading is missing, 0 to 1.
         probability: f64,
     },
     /// Numbers that have nothing to do with the truth: uniform between `low` and `high`.
     Outliers {
-        /// How likely each number is one, 0 … 1.
+        /// Probability that a number is one, 0 to 1.
         probability: f64,
         /// The least of them, in the value's own unit.
         low: f64,
@@ -68,9 +68,9 @@ pub enum Fault {
     },
     /// A sensor that now and then gets stuck and repeats the reading it got stuck at.
     Stuck {
-        /// How likely it gets stuck at each reading, 0 … 1.
+        /// Probability that it gets stuck at a reading, 0 to 1.
         probability: f64,
-        /// How many readings it repeats before it comes free.
+        /// Number of readings it repeats before it comes free.
         steps: u32,
     },
     /// Readings that come late; no reading comes before the first has arrived.
@@ -214,14 +214,14 @@ impl Fault {
     }
 }
 
-/// What a fault remembers from one reading to the next; empty before the first.
+/// Memory of a fault between readings; empty before the first.
 #[derive(Clone, Debug)]
 pub(super) struct Past<V> {
     /// Earlier values, the oldest first.
     values: VecDeque<Option<V>>,
     /// For how many more readings something goes on.
     steps_left: u32,
-    /// What was drawn for that long.
+    /// Numbers drawn for that long.
     drawn: [f64; 2],
 }
 
@@ -274,7 +274,7 @@ impl<V: Values> Past<V> {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("the fault's `{part}` is {value}; give a number from {least:e} to {most:e}")]
 pub struct FaultError {
-    /// Which number.
+    /// Name of the number.
     pub part: &'static str,
     /// The value given.
     pub value: f64,
@@ -288,9 +288,9 @@ pub struct FaultError {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("`{field}`, fault {index}: {source}")]
 pub struct FaultsError {
-    /// Of what.
+    /// Name of the field.
     pub field: &'static str,
-    /// Which of its faults, from 0.
+    /// Number of the fault, from 0.
     pub index: usize,
     /// What is wrong with it.
     pub source: FaultError,

@@ -13,8 +13,8 @@ pub struct Faults<V> {
 }
 
 impl<V: Values> Faults<V> {
-    /// These faults, the first nearest to the truth. No other value of the robot may have the same
-    /// `name`; a fault added at the end leaves those before it as they are.
+    /// Returns these faults, the first nearest to the truth. No other value of the robot may have
+    /// the same `name`. A fault added at the end leaves those before it as they are.
     #[must_use]
     pub fn new(name: &str, faults: impl IntoIterator<Item = Fault>) -> Self {
         let each = faults
@@ -42,8 +42,8 @@ impl<V: Values> Faults<V> {
         &self.outside
     }
 
-    /// Lets all of them happen to `value`. What a disturbance leaves [broken](Values::is_sound) is
-    /// taken away.
+    /// Applies all of them to `value`. A value that a disturbance leaves [broken](Values::is_sound)
+    /// is removed.
     pub fn disturb(&mut self, value: &mut Option<V>, chance: &Chance) {
         for (index, (fault, past)) in (0..).zip(&mut self.each) {
             fault.disturb(value, past, &mut chance.draws(self.channel.nth(index)));

@@ -17,7 +17,7 @@ impl Gaussian {
         absolute_sd: 0.0,
     };
 
-    /// Noise of a fixed standard deviation, in the value's own unit.
+    /// Returns noise of a fixed standard deviation, in the value's own unit.
     #[must_use]
     pub const fn absolute(sd: f64) -> Self {
         Self {
@@ -26,7 +26,7 @@ impl Gaussian {
         }
     }
 
-    /// Noise whose standard deviation is a share of the value.
+    /// Returns noise whose standard deviation is a share of the value.
     #[must_use]
     pub const fn relative(sd: f64) -> Self {
         Self {

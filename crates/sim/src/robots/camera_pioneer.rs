@@ -11,23 +11,23 @@ use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraPioneerConfig {
-    /// How many columns the camera's image has.
+    /// Number of columns of the camera's image.
     pub columns: u32,
-    /// How far the camera sees, m.
+    /// Range of the camera, m.
     pub reach: f64,
-    /// What is wrong with each measurement of the image, each of which is a share of full light.
+    /// Faults of each measurement of the image, which is a share of full light.
     #[serde(default)]
     pub image: Vec<Fault>,
     /// All else.
     pub pioneer: LaserPioneerConfig,
 }
 
-/// What a crate of your own does to the robot's motors and sensors, after the faults.
+/// Disturbances, by a crate of your own, of the robot's motors and sensors, after the faults.
 #[derive(Clone, Debug, Default)]
 pub struct CameraPioneerDisturbances {
-    /// Of the camera's image, as shares of full light.
+    /// Of the camera's image, in shares of full light.
     pub image: Disturbances<ColumnImage>,
-    /// Of all else.
+    /// Of the rest.
     pub pioneer: LaserPioneerDisturbances,
 }
 

@@ -14,26 +14,25 @@ use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 
 /// The e-puck: a disc of 7.4 cm with two wheels and eight infrared proximity sensors.
 ///
-/// Its measures are those of [`tolman_robot::epuck`]; what is told here is what differs from one
-/// simulated e-puck to the next.
+/// Its measures are those of [`tolman_robot::epuck`]. The configuration has what differs between
+/// simulated e-pucks.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EpuckConfig {
-    /// How the proximity sensors answer, with their noise.
+    /// Response of the proximity sensors, with their noise.
     pub response: ResponseCurve,
-    /// What happens to how far each wheel rolls over the ground, each wheel by itself; a drop-out
-    /// rolls nowhere.
+    /// Faults of each wheel's distance over the ground, separately; a drop-out does not roll.
     pub wheels: Vec<Fault>,
-    /// What is wrong with the proximity values beyond the noise of the curve.
+    /// Faults of the proximity values beyond the noise of the curve.
     #[serde(default)]
     pub proximity: Vec<Fault>,
-    /// What happens where the body meets something.
+    /// Behaviour where the body meets something.
     pub contact: Contact,
     /// Length of a time step, µs.
     pub step_us: u64,
-    /// How fast a wheel can turn, rad/s. The real robot's limit is [`MOST_WHEEL_SPEED`], with which
-    /// it turns in place at 4.9 rad/s at most; the 2π rad/s of CPM's paper take an idealized robot
-    /// of 8.2 and more.
+    /// Maximum speed of a wheel, rad/s. The real robot's limit is [`MOST_WHEEL_SPEED`], with which
+    /// it turns in place at up to 4.9 rad/s. The 2π rad/s of CPM's paper need an idealized robot
+    /// with at least 8.2.
     #[serde(default = "real_wheels")]
     pub most_wheel_speed: f64,
 }
@@ -43,7 +42,8 @@ const fn real_wheels() -> f64 {
 }
 
 impl EpuckConfig {
-    /// Webots' e-puck: its response curve, and wheels that slip by up to 10 %. A step is 10 ms.
+    /// Returns Webots' e-puck: its response curve, and wheels that slip by up to 10 %. A step is 10
+    /// ms.
     #[must_use]
     pub fn webots() -> Self {
         Self {
@@ -56,7 +56,7 @@ impl EpuckConfig {
         }
     }
 
-    /// CPM's e-puck: as Webots', but its sensors see 25 cm and answer from 0 to 3800.
+    /// Returns CPM's e-puck: like Webots', but its sensors see 25 cm and answer from 0 to 3800.
     #[must_use]
     pub fn cpm() -> Self {
         Self {
@@ -66,13 +66,14 @@ impl EpuckConfig {
     }
 }
 
-/// What a crate of your own does to an e-puck's wheels and sensors; each list happens in order,
-/// after the faults. No part of the configuration, since code cannot be written to a file.
+/// Disturbances, by a crate of your own, of an e-puck's wheels and sensors. Each list applies in
+/// order, after the faults. They are not in the configuration, since code cannot be written to a
+/// file.
 #[derive(Clone, Debug, Default)]
 pub struct EpuckDisturbances {
-    /// Of how far the left wheel rolls over the ground, m; a missing one rolls nowhere.
+    /// Of the left wheel's distance over the ground, m; a missing one does not roll.
     pub left_wheel: Disturbances<f64>,
-    /// Of how far the right wheel rolls over the ground, m; a missing one rolls nowhere.
+    /// Of the right wheel's distance over the ground, m; a missing one does not roll.
     pub right_wheel: Disturbances<f64>,
     /// Of the raw proximity values.
     pub proximity: Disturbances<[f64; PROXIMITY_SENSORS]>,
@@ -84,7 +85,7 @@ pub struct Epuck {
     config: EpuckConfig,
     left: Faults<f64>,
     right: Faults<f64>,
-    /// What the wheels turned in this step.
+    /// Turns of the wheels in this step.
     turned: WheelTurns,
     infrared: Infrared<PROXIMITY_SENSORS>,
     proximity: Faults<[f64; PROXIMITY_SENSORS]>,
@@ -218,7 +219,7 @@ pub enum EpuckError {
     /// The wheels can turn at no speed.
     #[error("`most_wheel_speed` is {most}; give radians a second above 0, 6.28 for the real robot")]
     WheelSpeed {
-        /// What was given, rad/s.
+        /// The value given, rad/s.
         most: f64,
     },
     /// A fault has no sense.

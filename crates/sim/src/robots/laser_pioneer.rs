@@ -22,30 +22,31 @@ pub struct LaserPioneerConfig {
     pub turn_per_step: f64,
     /// Way covered in one step by the command `translate = 1`, m. The paper gives no unit.
     pub translate_per_step: f64,
-    /// How far the motors miss.
+    /// Errors of the motors.
     pub motor_noise: MotorNoise,
     /// Noise of each range, m.
     pub scan_noise: Gaussian,
     /// Noise of the compass, rad.
     pub compass_noise: Gaussian,
-    /// What the encoders count, as a share of the way that a wheel rolled: wrong by a constant. The
-    /// wheels stand as far apart as the Pioneer 2-DX's.
+    /// Encoder counts as a share of the way that a wheel rolled: a constant error. The wheels are
+    /// as far apart as the Pioneer 2-DX's.
     #[serde(default, skip_serializing_if = "WheelScale::is_exact")]
     pub wheel_scale: WheelScale,
     /// Noise of the rolled distance, m.
     pub odometry_distance_noise: Gaussian,
     /// Noise of the rolled turn, rad.
     pub odometry_turn_noise: Gaussian,
-    /// What else is wrong with motors and sensors.
+    /// Other faults of motors and sensors.
     #[serde(default)]
     pub faults: LaserPioneerFaults,
-    /// What happens where the body meets something.
+    /// Behaviour where the body meets something.
     pub contact: Contact,
     /// Length of a time step, µs.
     pub step_us: u64,
 }
 
-/// How far a turn-and-translate drive misses its command. A motor that is not driven keeps still.
+/// Errors of a turn-and-translate drive against its command. A motor that is not driven keeps
+/// still.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MotorNoise {
@@ -57,7 +58,7 @@ pub struct MotorNoise {
     pub drift_sd: f64,
 }
 
-/// What is wrong with a robot beyond plain noise; each list happens in order, after the noise.
+/// Faults of a robot beyond plain noise; each list applies in order, after the noise.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LaserPioneerFaults {
@@ -84,12 +85,13 @@ pub struct LaserPioneerFaults {
 pub struct StuckBeam {
     /// Its number in the ring.
     pub beam: u32,
-    /// What it says, m: 0 up to the ring's range.
+    /// Its stuck reading, m: 0 up to the ring's range.
     pub range: f64,
 }
 
-/// What a crate of your own does to a robot's motors and sensors; each list happens in order, after
-/// the faults. No part of the configuration, since code cannot be written to a file.
+/// Disturbances, by a crate of your own, of a robot's motors and sensors. Each list applies in
+/// order, after the faults. They are not in the configuration, since code cannot be written to a
+/// file.
 #[derive(Clone, Debug, Default)]
 pub struct LaserPioneerDisturbances {
     /// Of the turn the motors make, rad; no error if missing.
@@ -107,8 +109,8 @@ pub struct LaserPioneerDisturbances {
 }
 
 impl LaserPioneerConfig {
-    /// Returns a robot of the paper's proportions with perfect motors and sensors: 72 beams all
-    /// round that reach 2.5 robot units, a robot unit being 0.5 m.
+    /// Returns a robot of the paper's proportions with perfect motors and sensors. It has 72 beams
+    /// all round that reach 2.5 robot units; a robot unit is 0.5 m.
     #[must_use]
     pub fn noiseless() -> Self {
         Self {
@@ -246,7 +248,7 @@ impl LaserPioneer {
         self
     }
 
-    /// Returns what it was built to.
+    /// Returns its configuration.
     #[must_use]
     pub fn config(&self) -> &LaserPioneerConfig {
         &self.config
@@ -358,9 +360,9 @@ pub enum RobotConfigError {
     /// A number of the configuration has no sense.
     #[error("`{field}` is {value}; give a number from 0 to 1000 (a time step must be positive)")]
     Field {
-        /// Which field.
+        /// Name of the field.
         field: &'static str,
-        /// What it says.
+        /// Its value.
         value: f64,
     },
     /// A stuck beam is not in the ring, or is stuck at a range it cannot read.
@@ -368,9 +370,9 @@ pub enum RobotConfigError {
         "`faults.stuck_beams`: beam {beam} stuck at {range} m; name a beam of the ring and a range within its own"
     )]
     StuckBeam {
-        /// Which beam.
+        /// Number of the beam.
         beam: u32,
-        /// What it says, m.
+        /// The range given, m.
         range: f64,
     },
     /// A fault has no sense.

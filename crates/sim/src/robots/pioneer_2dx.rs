@@ -27,27 +27,26 @@ pub struct Pioneer2dxConfig {
     pub turn_per_step: f64,
     /// Way covered in one step by the command `translate = 1`, m.
     pub translate_per_step: f64,
-    /// How far the motors miss.
+    /// Errors of the motors.
     pub motor_noise: MotorNoise,
-    /// What the encoders count, as a share of the way that a wheel rolled: wrong by a constant.
+    /// Encoder counts as a share of the way that a wheel rolled: a constant error.
     pub wheel_scale: WheelScale,
     /// Noise of the way that each wheel counts in a step, m: slip.
     pub wheel_noise: Gaussian,
-    /// How the sonars hear.
+    /// Parameters of the sonars.
     pub sonar: SonarConfig,
-    /// What the pictures are like.
+    /// Parameters of the camera.
     pub camera: PictureCameraConfig,
-    /// What else is wrong with motors and sensors.
+    /// Other faults of motors and sensors.
     #[serde(default)]
     pub faults: Pioneer2dxFaults,
-    /// What happens where the body meets something.
+    /// Behaviour where the body meets something.
     pub contact: Contact,
     /// Length of a time step, µs.
     pub step_us: u64,
 }
 
-/// What the encoder of each wheel counts, as a share of the way that it rolled: 1 for a robot well
-/// calibrated.
+/// Encoder counts of each wheel as a share of the way that it rolled: 1 for a calibrated robot.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WheelScale {
@@ -90,7 +89,7 @@ impl Default for WheelScale {
     }
 }
 
-/// What is wrong with a robot beyond plain noise; each list happens in order, after the noise.
+/// Faults of a robot beyond plain noise; each list applies in order, after the noise.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Pioneer2dxFaults {
@@ -108,8 +107,8 @@ pub struct Pioneer2dxFaults {
     pub picture: Vec<Fault>,
 }
 
-/// What a crate of your own does to a robot's motors and sensors; each list happens in order, after
-/// the faults.
+/// Disturbances, by a crate of your own, of a robot's motors and sensors. Each list applies in
+/// order, after the faults.
 #[derive(Clone, Debug, Default)]
 pub struct Pioneer2dxDisturbances {
     /// Of the turn the motors make, rad; no error if missing.
@@ -277,7 +276,7 @@ impl Pioneer2dx {
     }
 }
 
-/// Noise is the fault nearest to the truth.
+/// Returns the faults with the noise as the first, nearest to the truth.
 fn noisy(name: &str, noise: Gaussian, faults: &[Fault]) -> Faults<f64> {
     let noise = [Fault::Gaussian(noise)].into_iter();
     Faults::new(name, noise.chain(faults.iter().copied()))
@@ -379,9 +378,9 @@ pub enum Pioneer2dxError {
     /// A number of the configuration has no sense.
     #[error("`{field}` is {value}; give a number from 0 to 1000")]
     Field {
-        /// Which field.
+        /// Name of the field.
         field: &'static str,
-        /// What it says.
+        /// Its value.
         value: f64,
     },
     /// A time step has no length.

@@ -86,7 +86,7 @@ pub enum CameraError {
     /// No columns, or too many.
     #[error("the camera has {columns} columns; give 1 to 100,000")]
     Columns {
-        /// How many.
+        /// Number of columns.
         columns: u32,
     },
     /// It sees nothing.

@@ -13,7 +13,7 @@ pub(super) struct Cone {
 /// The nearest point of a wall within a [`Cone`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ConeEcho {
-    /// How far away it is, m.
+    /// Distance, m.
     pub(super) range: f64,
     /// Between the way there and the wall's normal, rad, 0 … π/2.
     pub(super) incidence: f64,
@@ -77,7 +77,8 @@ fn nearest_to_origin(start: Vector, end: Vector) -> Vector {
     start + along * (-start.dot(&along) / square).clamp(0.0, 1.0)
 }
 
-/// Between the way to a point of a wall and the wall's normal, rad; 0 where there is no telling.
+/// Returns the angle between the way to a point of a wall and the wall's normal, rad; 0 if it is
+/// undefined.
 fn incidence(point: Vector, along: Vector) -> f64 {
     let product = point.norm() * along.norm();
     if product <= 0.0 {

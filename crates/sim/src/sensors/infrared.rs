@@ -5,9 +5,9 @@ use tolman_geom::Pose;
 use super::Sensor;
 use crate::{Chance, Channel, Ray, Surroundings};
 
-/// How an infrared proximity sensor answers to a surface that throws all light back: straight lines
-/// between the points of a data sheet, the nearest first. Nearer and farther than those it reads as
-/// at the first and the last.
+/// Response of an infrared proximity sensor to a surface that reflects all light: straight lines
+/// between the points of a data sheet, the nearest first. Beyond the first and the last point it is
+/// constant.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(transparent)]
 pub struct ResponseCurve {
@@ -27,7 +27,7 @@ pub struct ResponsePoint {
 }
 
 impl From<(f64, f64, f64)> for ResponsePoint {
-    /// From range, value and relative standard deviation.
+    /// Returns the point of a range, m, a value and its relative standard deviation.
     fn from((range, value, relative_sd): (f64, f64, f64)) -> Self {
         Self {
             range,
@@ -70,7 +70,7 @@ impl ResponseCurve {
         }
     }
 
-    /// CPM's e-puck: the same shape over 25 cm, from 3800 at contact to 0.
+    /// Returns the curve of CPM's e-puck: the same shape over 25 cm, from 3800 at contact to 0.
     #[must_use]
     pub fn cpm() -> Self {
         let (_, most, _) = EPUCK[0];
@@ -147,9 +147,9 @@ pub enum ResponseError {
     /// A number has no sense.
     #[error("point {index} of the curve: `{part}` is {value}; give a number from 0 to 10⁹")]
     Number {
-        /// Which point, from 0.
+        /// Number of the point, from 0.
         index: usize,
-        /// Which number of it.
+        /// Name of the number.
         part: &'static str,
         /// The value given.
         value: f64,
@@ -157,7 +157,7 @@ pub enum ResponseError {
     /// A point is not farther than the one before.
     #[error("point {index} of the curve is not farther than the one before; sort them by range")]
     Order {
-        /// Which point, from 0.
+        /// Number of the point, from 0.
         index: usize,
     },
 }

@@ -72,7 +72,7 @@ pub enum LaserError {
     /// No beams, or too many.
     #[error("the laser has {beams} beams; give 1 to 1,000,000")]
     Beams {
-        /// How many.
+        /// Number of beams.
         beams: u32,
     },
     /// It sees nothing.

@@ -15,7 +15,7 @@ use column::Column;
 pub use light::{Light, LightDrift};
 use light::{Shine, Weather};
 
-/// What a camera's pictures are like.
+/// Parameters of a camera's pictures.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -24,21 +24,21 @@ pub struct PictureCameraConfig {
     pub width: u32,
     /// Pixels down, 1 to 4096.
     pub height: u32,
-    /// Where the camera sits and how much it sees.
+    /// Mount and field of view of the camera.
     pub camera: PinholeCamera,
-    /// How far it sees, m.
+    /// Range, m.
     pub reach: f64,
-    /// What is no wall.
+    /// Colours beside the walls.
     pub backdrop: Backdrop,
-    /// How the room is lit.
+    /// Lighting of the room.
     pub light: Light,
     /// Standard deviation of each pixel's red, green and blue, of 255.
     pub noise_sd: f64,
-    /// How many values each of red, green and blue can have, 2 to 256.
+    /// Number of values of each of red, green and blue, 2 to 256.
     pub levels: u32,
 }
 
-/// What a camera sees where no wall is.
+/// View of a camera where no wall is.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Backdrop {
@@ -46,7 +46,7 @@ pub struct Backdrop {
     pub floor: [u8; 3],
     /// Red, green and blue of what lies above and behind all walls.
     pub ceiling: [u8; 3],
-    /// How much lighter or darker the stains on walls and floor are at most, as a share.
+    /// Maximum brightness change by stains on walls and floor, as a share.
     pub stains: f64,
 }
 
@@ -71,9 +71,9 @@ impl PictureCameraConfig {
         }
     }
 
-    /// Returns the same in daylight from the west, with stains, noise and the 32 levels a colour of
-    /// a frame grabber of 16 bits a pixel. The paper names the noise of the camera and gives no
-    /// values.
+    /// Returns the same in daylight from the west, with stains, noise, and 32 levels per colour,
+    /// like a frame grabber of 16 bits per pixel. The paper names the noise of the camera but gives
+    /// no values.
     #[must_use]
     pub const fn noisy() -> Self {
         let perfect = Self::noiseless();
@@ -197,8 +197,7 @@ impl PictureCamera {
     }
 }
 
-/// Noise of one pixel's colours: sums of two bytes, which come as near to a Gaussian as anybody
-/// sees in a picture.
+/// Returns the noise of one pixel's colours: sums of two bytes, which look Gaussian in a picture.
 fn grain(sd: f64, draws: &mut Draws) -> [f64; 3] {
     if sd <= 0.0 {
         return [0.0; 3];
@@ -234,7 +233,7 @@ impl Sensor for PictureCamera {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("`{field}` is {value}; give a number from {least} to {most}")]
 pub struct PictureCameraError {
-    /// Which number.
+    /// Name of the number.
     pub field: &'static str,
     /// The value given.
     pub value: f64,

@@ -9,16 +9,16 @@ use super::cone::{Cone, ConeEcho};
 use crate::noise::Gaussian;
 use crate::{Chance, Channel, Draws, Surroundings, WallSegment};
 
-/// How the sonars of a robot hear.
+/// Parameters of a robot's sonars.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct SonarConfig {
-    /// How far to either side of its axis a sonar hears, rad; above 0, below π/2.
+    /// Half-width of a sonar's cone, rad; above 0, below π/2.
     pub half_width: f64,
-    /// What is nearer reads as this, m.
+    /// Minimum reading, m; nearer things read as this.
     pub least: f64,
-    /// What is farther, or never heard, reads as this, m.
+    /// Maximum reading, m; farther or unheard things read as this.
     pub most: f64,
     /// Noise of each range that was heard, m.
     pub noise: Gaussian,
@@ -37,7 +37,7 @@ pub struct Misses {
     pub from: f64,
     /// Angle of incidence from which on no more are missed, rad.
     pub to: f64,
-    /// How likely an echo is missed there, 0 … 1.
+    /// Probability that an echo is missed there, 0 to 1.
     pub probability: f64,
 }
 
@@ -45,10 +45,10 @@ pub struct Misses {
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CrossTalk {
-    /// How likely that is of each reading, 0 … 1.
+    /// Probability of that for each reading, 0 to 1.
     pub probability: f64,
-    /// How many sonars fire one by one: those whose numbers differ by a multiple of it fire at
-    /// once. 0 for all one by one.
+    /// Number of groups of sonars that fire in turn: those whose numbers differ by a multiple of it
+    /// fire at once. With 0 each sonar fires alone.
     pub slots: u32,
 }
 
@@ -74,9 +74,9 @@ impl SonarConfig {
         }
     }
 
-    /// Returns the same with noise: 1 % and 5 mm; from 25° on echoes are missed, at 65° two in
-    /// five; one reading in 200 is that of the sonar that fires at the same time at the robot's
-    /// other end. The paper calls them noisy and gives no values (section 3.2).
+    /// Returns the same with noise: 1 % and 5 mm. From 25° on echoes are missed, at 65° two in
+    /// five. One reading in 200 is that of the sonar that fires at the same time at the robot's
+    /// other end. The paper calls them noisy but gives no values (section 3.2).
     #[must_use]
     pub const fn noisy() -> Self {
         Self {
@@ -236,7 +236,7 @@ impl CrossTalk {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("`{field}` is {value}; give a number from {least} to {most}")]
 pub struct SonarError {
-    /// Which number.
+    /// Name of the number.
     pub field: &'static str,
     /// The value given.
     pub value: f64,

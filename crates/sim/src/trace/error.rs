@@ -44,21 +44,21 @@ pub enum ReplayError {
     /// It is of another format.
     #[error("line 1: the format is `{found}`; expected `tolman-trace`")]
     Format {
-        /// What it says.
+        /// The format found.
         found: String,
     },
     /// It is of a version this program does not know.
     #[error("line 1: the version is {found}; this program reads version 1")]
     Version {
-        /// What it says.
+        /// The version found.
         found: u32,
     },
     /// A line is broken: cut short, or changed by hand.
     #[error("line {line}, column {column}: {what}; record the trace again")]
     Line {
-        /// Which line, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// Where in the line, from 1; 0 where it has no place.
+        /// Position in the line, from 1; 0 if it has none.
         column: usize,
         /// What is wrong with it.
         what: String,
@@ -69,7 +69,7 @@ pub enum ReplayError {
     /// A robot cannot be built or placed again, or a command not be given again.
     #[error("line {line}: {source}")]
     Refused {
-        /// Which line, from 1.
+        /// Number of the line, from 1.
         line: usize,
         /// The underlying error.
         source: Box<dyn core::error::Error + Send + Sync>,
@@ -81,7 +81,7 @@ pub enum ReplayError {
          a trace holds no code, so build the same robot and give it to `replay_with`"
     )]
     Disturbances {
-        /// Which robot.
+        /// Number of the robot.
         robot: u32,
         /// Those of the robot that was recorded.
         recorded: Vec<String>,
@@ -93,7 +93,7 @@ pub enum ReplayError {
         "line {line}: expected robot {robot} at tick {tick}; lines are missing or out of order"
     )]
     Order {
-        /// Which line, from 1.
+        /// Number of the line, from 1.
         line: usize,
         /// The robot expected.
         robot: usize,
@@ -105,7 +105,7 @@ pub enum ReplayError {
         "line {line}: at tick {tick} robot {robot} differs:\n  recorded {recorded}\n  replayed {replayed}"
     )]
     Differs {
-        /// Which line, from 1.
+        /// Number of the line, from 1.
         line: usize,
         /// The first tick that differs.
         tick: u64,
@@ -119,7 +119,7 @@ pub enum ReplayError {
 }
 
 impl ReplayError {
-    /// Returns what JSON has to say against a line.
+    /// Returns the error that JSON reports in a line.
     pub(super) fn of_line(line: usize, error: &serde_json::Error) -> Self {
         // To JSON every line is its line 1.
         let told = error.to_string();

@@ -29,7 +29,7 @@ pub(super) struct Header<M: Recordable> {
 pub(super) struct Start<M: Recordable> {
     pub(super) config: M::Config,
     pub(super) pose: Pose,
-    /// What disturbed it from outside its configuration.
+    /// Disturbances beyond its configuration.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) disturbances: Vec<String>,
 }
@@ -42,21 +42,21 @@ pub enum TraceLine<M: Recordable> {
     Step(StepRecord<M>),
     /// A robot was lifted and set down after the steps so far.
     Place {
-        /// Which.
+        /// The robot.
         robot: RobotId,
-        /// Where it stands since.
+        /// Its new pose.
         pose: Pose,
     },
     /// A door was moved after the steps so far.
     Door {
         /// Its name.
         name: String,
-        /// How it stands since.
+        /// Its new state.
         state: DoorState,
     },
 }
 
-/// What one robot did in one step.
+/// One robot's step.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, bound = "")]
 pub struct StepRecord<M: Recordable> {
@@ -64,15 +64,15 @@ pub struct StepRecord<M: Recordable> {
     pub tick: u64,
     /// Microseconds since the run began.
     pub time_us: u64,
-    /// Which robot.
+    /// The robot.
     pub robot: RobotId,
-    /// What it was told.
+    /// Its command.
     pub command: M::Command,
-    /// Where it was afterwards.
+    /// Its pose afterwards.
     pub pose: Pose,
     /// Whether its motion was cut by a contact.
     pub bump: bool,
-    /// What it sensed then, if that was written down.
+    /// Its readings then, if they were recorded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sensing: Option<M::Sensing>,
 }

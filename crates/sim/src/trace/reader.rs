@@ -92,7 +92,7 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
         self.header.step_us
     }
 
-    /// Returns what each robot was built to, and where it began.
+    /// Returns the configuration and the first pose of each robot.
     pub fn robots(&self) -> impl ExactSizeIterator<Item = (&M::Config, Pose)> {
         self.header
             .robots

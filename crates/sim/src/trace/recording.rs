@@ -9,12 +9,12 @@ use super::lines::{FORMAT, Header, Start, VERSION};
 use super::{RecordError, Recordable, StepRecord, TraceLine};
 use crate::{DoorState, RobotId, Simulation, World};
 
-/// How much of a run is written down.
+/// Detail in which a run is recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detail {
     /// Commands, poses and bumps.
     Poses,
-    /// What the robots sensed as well.
+    /// The robots' readings as well.
     Sensing,
 }
 
@@ -31,7 +31,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
     /// Puts `robots` into `world` and writes the first line. Give a buffered writer.
     ///
     /// # Errors
-    /// If a robot cannot stand where it is put, there is none, or the line cannot be written.
+    /// If a robot cannot stand where it is put, no robot is given, or the line cannot be written.
     pub fn start(
         world: impl Into<Arc<World>>,
         seed: u64,
@@ -129,16 +129,16 @@ impl<M: Recordable, W: Write> Recording<M, W> {
         })
     }
 
-    /// Returns the simulation as it stands.
+    /// Returns the simulation in its present state.
     #[must_use]
     pub fn simulation(&self) -> &Simulation<M> {
         &self.simulation
     }
 
-    /// Ends the trace.
+    /// Ends the trace and returns the simulation.
     ///
     /// # Errors
-    /// If what is left of it cannot be written.
+    /// If the rest of it cannot be written.
     pub fn finish(mut self) -> Result<Simulation<M>, RecordError> {
         self.writer.flush()?;
         Ok(self.simulation)

@@ -3,8 +3,8 @@ use std::io::{self, BufRead};
 use super::{Detail, Reader, Recordable, Recording, ReplayError, StepRecord, TraceLine};
 use crate::{RobotId, Simulation};
 
-/// Simulates a trace again and compares every number of every line; gives the simulation as it
-/// stands at the end.
+/// Simulates a trace again, compares every number of every line, and returns the simulation at its
+/// end.
 ///
 /// # Errors
 /// If the trace cannot be read, a robot was disturbed from outside its configuration, or the first

@@ -10,8 +10,8 @@ use crate::{Brain, Doing, TimeStep};
 /// MSLST's Avoid brain: "wanders randomly (but does not backtrack unless it reaches a dead end, and
 /// does not repeat failed actions)".
 ///
-/// Failed actions are forgotten as soon as one succeeds. Where all three others have failed the
-/// robot is in a dead end and turns back; where that fails too it forgets and tries again.
+/// Failed actions are forgotten as soon as one succeeds. If all three others have failed, the robot
+/// is in a dead end and turns back. If that fails too, it forgets all failures and tries again.
 #[derive(Clone, Debug, Default)]
 pub struct AvoidBrain {
     pub(super) travelling: Option<Direction>,
@@ -19,7 +19,7 @@ pub struct AvoidBrain {
 }
 
 impl AvoidBrain {
-    /// Takes in what the robot did, whoever chose it.
+    /// Takes in what the robot did, even if another brain chose it.
     pub(crate) fn learn(&mut self, doing: Doing) {
         match doing {
             Doing::PutDown => *self = Self::default(),

@@ -2,13 +2,13 @@
 
 use rand::{Rng, RngExt};
 
-/// What is to be learned: the cheapest way from the start to a goal.
+/// The task to learn: the cheapest way from the start to a goal.
 pub trait LearningTask {
     /// Returns the state each episode begins in.
     fn start(&self) -> usize;
-    /// Returns how many states there are.
+    /// Returns the number of states.
     fn states(&self) -> usize;
-    /// Returns how many actions a state has, at least 1.
+    /// Returns the number of actions of a state, at least 1.
     fn actions(&self, state: usize) -> u32;
     /// Returns what an action leads to.
     fn act(&self, state: usize, action: u32) -> Transition;
@@ -16,28 +16,28 @@ pub trait LearningTask {
     fn is_goal(&self, state: usize) -> bool;
 }
 
-/// What an action led to.
+/// Result of an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Transition {
     /// The state after it.
     pub next: usize,
-    /// What it cost, in a unit of the task's own.
+    /// Cost of the action, in a unit of the task's own.
     pub cost: u32,
 }
 
-/// How to learn. Neither paper names any of these values.
+/// Parameters of learning. Neither paper names any of these values.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct QLearningConfig {
     /// α, 0 … 1.
     pub learning_rate: f64,
     /// γ, 0 … 1.
     pub discount: f64,
-    /// The share of actions that are chosen by chance, 0 … 1.
+    /// Share of random actions, 0 to 1.
     pub exploration: f64,
 }
 
 impl QLearningConfig {
-    /// Usual values for a world without chance in it, in favour of the learner.
+    /// Returns usual values for a deterministic world, chosen in favour of the learner.
     #[must_use]
     pub const fn usual() -> Self {
         Self {
@@ -48,9 +48,9 @@ impl QLearningConfig {
     }
 }
 
-/// A table of values *Q*(state, action), learned action by action, each rewarded with what it cost,
-/// until a goal is reached and the learner is put back to the start. It begins with zeros, which
-/// nothing is worth more than, so that it tries everything.
+/// A table of values *Q*(state, action), learned action by action. Each action is rewarded with
+/// minus its cost. At a goal the learner is put back to the start. Values begin at zero, which no
+/// experience exceeds, so the learner tries everything.
 ///
 /// ```
 /// use rand::SeedableRng;
@@ -100,7 +100,7 @@ impl<T: LearningTask> QLearner<T> {
         }
     }
 
-    /// Returns one action, and what came of it; after the goal the learner is at the start again.
+    /// Takes one action and returns its result; after the goal the learner is at the start again.
     pub fn step(&mut self, rng: &mut impl Rng) -> Transition {
         let (state, action) = (self.at, self.action(rng));
         let outcome = self.task.act(state, action);

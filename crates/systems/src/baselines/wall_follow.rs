@@ -12,24 +12,25 @@ use crate::{Brain, Doing, TimeStep};
 
 /// MSLST's Wall-follow brain: "always sticks to the wall on its right".
 ///
-/// Where the laser sees no wall on the right it turns right; else it goes ahead, and where that
-/// fails left, and where that fails back, as seen from the direction it last travelled in. Whatever
-/// succeeds is the new direction; the first one is drawn.
+/// If the laser sees no wall on the right, it turns right. Otherwise it tries ahead, then left,
+/// then back, relative to the direction it last travelled in. A successful action gives the new
+/// direction; the first one is drawn.
 ///
-/// The paper does not say that this brain looks at the laser, but its figures do: 2.1 time steps an
-/// action in both mazes is what actions cost that hardly ever fail, while a brain that feels for
-/// the wall by trying to turn into it fails every other action (1.7; see `docs/mslst.md`).
+/// The paper does not say that this brain uses the laser, but its figures do. An action takes 2.1
+/// time steps in both mazes, which is the cost of actions that hardly ever fail. A brain that feels
+/// for the wall by trying to turn into it fails every other action (1.7 steps; see
+/// `docs/mslst.md`).
 #[derive(Clone, Debug)]
 pub struct WallFollow {
     corridor_width: f64,
-    /// It remembers what came of its actions as Avoid does.
+    /// Memory of its actions' outcomes, as Avoid's.
     memory: AvoidBrain,
-    /// What it saw last, and which way it was headed; `None` while either sensor drops out.
+    /// The last scan and the robot's heading then; `None` while either sensor drops out.
     view: Option<(Scan, Heading)>,
 }
 
-/// A wall is on the right if any beam within this angle of it is nearer than a corridor is wide:
-/// through an opening that the robot fits through it sees further.
+/// Angle on both sides of a direction within which a beam shows a wall, rad. It does if its range
+/// is below the corridor's width; through an opening that the robot fits through it sees farther.
 const WATCHED: f64 = PI / 12.0;
 
 impl WallFollow {
@@ -43,8 +44,8 @@ impl WallFollow {
         }
     }
 
-    /// Returns whether the laser sees a wall beside the robot in the direction of `heading`. What
-    /// it cannot see it takes for an opening, and tries.
+    /// Returns whether the laser sees a wall beside the robot in the direction of `heading`.
+    /// Without a scan the brain assumes an opening and tries it.
     fn wall_towards(&self, heading: Heading) -> bool {
         let Some((scan, robot)) = &self.view else {
             return false;

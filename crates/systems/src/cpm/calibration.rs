@@ -1,18 +1,17 @@
 use tolman_robot::epuck::{EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds, WheelTurns};
 
-/// How far each wheel truly rolls for what its encoder counts, learned from walls that follow two
-/// axes.
+/// Errors of each wheel's encoder as a share, learned from walls that follow two axes.
 ///
-/// What the encoders say of a turn and what the walls say differ by what each wheel rolls more or
-/// less than it counts: a full turn in place tells the sum of both errors, a straight way their
-/// difference. A Kalman filter over the heading and both errors (Kalman 1960).
+/// Encoders and walls disagree about a turn by the errors of both wheels. A full turn in place
+/// shows their sum, a straight way their difference. A Kalman filter estimates the heading and both
+/// errors (Kalman 1960).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WheelCalibration {
     /// By which share the left and the right wheel roll more than they count.
     errors: [f64; 2],
-    /// Of the heading, rad, and of both errors.
+    /// Covariance of the heading, rad, and of both errors.
     covariance: [[f64; 3]; 3],
-    /// What the left and the right wheel have counted since the walls were last read, m, ahead.
+    /// Distance by the left and the right encoder since the walls were last read, m, ahead.
     rolled: [f64; 2],
     /// The same, ahead or backward.
     turned: f64,
@@ -25,27 +24,27 @@ const UNKNOWN: f64 = 0.03;
 /// turn.
 const ANY_HEADING: f64 = 0.2;
 
-/// A heading of a larger variance may be off by an eighth of a turn, rad², where walls tell it no
-/// more.
+/// Variance of the heading from which walls cannot correct it, rad²: it may be off by an eighth of
+/// a turn.
 const LOST: f64 = 0.1;
 
 /// A heading as the walls have it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
-    /// By how much it is more than the robot believes, rad.
+    /// Heading minus the robot's belief, rad.
     pub(super) off: f64,
     /// Standard deviation, rad.
     pub(super) deviation: f64,
 }
 
-/// What slipping wheels add to the variance of the heading, rad² a metre that both of them roll.
+/// Variance that slipping wheels add to the heading, rad² per metre that both of them roll.
 const SLIP: f64 = 2e-3;
 
 /// A reading that is off by more standard deviations than this is of another wall.
 const ODD: f64 = 4.0;
 
 impl WheelCalibration {
-    /// Of a robot about which nothing is known.
+    /// The calibration of a robot about which nothing is known.
     pub(super) const UNKNOWN: Self = Self {
         errors: [0.0, 0.0],
         covariance: [
@@ -57,7 +56,7 @@ impl WheelCalibration {
         turned: 0.0,
     };
 
-    /// Returns the command by which the wheels roll as `command` says.
+    /// Returns the command that makes the wheels roll as `command` says.
     pub(super) fn command(&self, command: &WheelSpeeds) -> WheelSpeeds {
         let [left, right] = self.errors;
         WheelSpeeds {
@@ -86,8 +85,7 @@ impl WheelCalibration {
         }
     }
 
-    /// Takes in by how much the heading is off by the walls, rad, and returns how much of that to
-    /// believe.
+    /// Takes in the error of the heading by the walls, rad, and returns the correction to apply.
     pub(super) fn read(&mut self, reading: Reading) -> f64 {
         self.predict();
         let Reading { off, deviation } = reading;
@@ -110,15 +108,15 @@ impl WheelCalibration {
         gain[0] * off
     }
 
-    /// It may be off by more than walls can tell: what they say then is taken as it is, and nothing
-    /// is learned of the wheels.
+    /// Forgets the heading, which may be off by more than walls can tell. The next reading is then
+    /// taken as it is, and teaches nothing about the wheels.
     const fn forget_heading(&mut self) {
         self.covariance[0] = [ANY_HEADING, 0.0, 0.0];
         self.covariance[1][0] = 0.0;
         self.covariance[2][0] = 0.0;
     }
 
-    /// Moves on to now from when the walls were last read.
+    /// Predicts the covariance from the last reading of the walls to now.
     fn predict(&mut self) {
         let [left, right] = self.rolled;
         let by = [1.0, -left / TRACK, right / TRACK];
@@ -144,8 +142,8 @@ mod tests {
     use super::*;
     use core::f64::consts::{FRAC_PI_2, TAU};
 
-    /// Returns a robot that turns round once and drives 25 cm, again and again, and reads the walls
-    /// after each: a turn tells the sum of the errors, a way their difference.
+    /// Returns the calibration of a robot that turns round once and drives 25 cm, `rounds` times,
+    /// and reads the walls after each.
     fn calibrated(errors: [f64; 2], rounds: u32) -> WheelCalibration {
         let mut calibration = WheelCalibration::UNKNOWN;
         // By how much its heading is more than it believes.

@@ -10,21 +10,21 @@ use super::robot::CpmRobot;
 use super::walker::{Observation, WalkResult, Walker};
 
 /// C: the common patterns. In the paper "a representative vector of each cluster is a
-/// common-pattern CP" (section 4.1); ours stand for units of SOINN, since with clusters fewer loops
-/// are recognized.
+/// common-pattern CP" (section 4.1). Ours are the units of SOINN, as clusters let the robot
+/// recognize fewer loops.
 #[derive(Clone, Debug)]
 pub struct CommonPatterns {
     dictionary: Dictionary,
-    /// What SOINN's units stand for, each with its pattern: what was seen and, half turned, what is
-    /// seen walking the other way.
+    /// Units of SOINN, each with its pattern: what was seen, and half turned, what is seen walking
+    /// the other way.
     units: Vec<([f64; FEATURES], PatternId)>,
     unit_count: u32,
     cluster_count: u32,
 }
 
-/// The landmark element at a landmark. Start and goal have a common pattern of their own, which no
-/// path has; as the farthest from all others it makes d_max, and so says how alike fragments have
-/// to be. The paper gives no value.
+/// Value of the landmark element at a landmark. Start and goal have a common pattern of their own,
+/// which no path has. It is the farthest from all others, so it sets d_max and with it how similar
+/// fragments have to be. The paper gives no value.
 const LANDMARK: f64 = 100.0;
 
 /// Returns SOINN as in the paper, λ = age_dead = 20; no unit with a neighbour counts as noise.
@@ -36,7 +36,7 @@ pub fn soinn() -> SoinnConfig {
     }
 }
 
-/// How long a robot wanders to learn its common patterns.
+/// Length of the walk in which a robot learns its common patterns.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Lesson {
@@ -47,8 +47,9 @@ pub enum Lesson {
     Seconds(f64),
 }
 
-/// Lets a robot wander through a learning maze, at junctions by a branch at random, until its
-/// lesson is over ("the robot can learn the CPs for ca. 1500 s; thereby 1000 steps are taken").
+/// Lets a robot wander through a learning maze, taking random branches at junctions. Returns what
+/// it observed until its lesson was over: "the robot can learn the CPs for ca. 1500 s; thereby 1000
+/// steps are taken".
 ///
 /// # Errors
 /// [`WalkError`](super::WalkError).
@@ -137,23 +138,23 @@ impl CommonPatterns {
         })
     }
 
-    /// Returns those of a robot that has been nowhere yet: of landmarks alone. It
+    /// Returns the patterns of a robot that has been nowhere yet: landmarks only. It
     /// [learns](Self::learn_on) the others on its way.
     ///
     /// # Errors
-    /// As of [`Dictionary::learn`].
+    /// As [`Dictionary::learn`].
     pub fn none() -> Result<Self, DictionaryError> {
         let mut dictionary = Dictionary::new(FEATURES);
         learn_landmark(&mut dictionary)?;
         Ok(Self::restored(dictionary, 0, 0))
     }
 
-    /// Returns the patterns of observations, of which those that are farther than `tolerance` from
-    /// all that are known become patterns themselves: "the CPs must be learned incrementally"
-    /// (section 8). What was written with earlier ones stays as it is.
+    /// Returns the patterns of observations. Observations farther than `tolerance` from all known
+    /// patterns become patterns themselves: "the CPs must be learned incrementally" (section 8).
+    /// Older sequences stay valid.
     ///
     /// # Errors
-    /// If an observation or the tolerance is no number, or the tolerance is negative.
+    /// If an observation or the tolerance is not a number, or the tolerance is negative.
     pub fn learn_on(
         &mut self,
         observations: &[Observation],
@@ -223,7 +224,7 @@ impl CommonPatterns {
         &self.dictionary
     }
 
-    /// Returns how many units SOINN has.
+    /// Returns the number of SOINN's units.
     #[must_use]
     pub const fn unit_count(&self) -> u32 {
         self.unit_count
@@ -236,7 +237,7 @@ impl CommonPatterns {
     }
 }
 
-/// That of start and goal.
+/// Learns the pattern of start and goal.
 fn learn_landmark(dictionary: &mut Dictionary) -> Result<(), DictionaryError> {
     let mut landmark = [0.0; FEATURES];
     landmark[FEATURES - 1] = LANDMARK;
@@ -258,9 +259,9 @@ pub enum LearnPatternsError {
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
     /// SOINN kept nothing.
-    #[error("SOINN made no pattern of {observations} observations; let the robot wander longer")]
+    #[error("SOINN made no pattern from {observations} observations; let the robot wander longer")]
     Nothing {
-        /// How many there were.
+        /// Number of observations.
         observations: usize,
     },
 }

@@ -1,29 +1,34 @@
 use tolman_maps::cpm::{Candidates, CpMapperConfig, FragmentMatching, Mapping};
 
-/// How CPM maps and decides.
+/// Parameters by which CPM maps and decides.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CpmConfig {
     /// When the map is looked at.
     pub mapping: Mapping,
-    /// How fragments are compared.
+    /// Method of comparing fragments.
     pub matching: FragmentMatching,
-    /// Which fragments are compared.
+    /// Fragments that are compared.
     pub candidates: Candidates,
-    /// What to do at a junction without unknown ports.
+    /// Choice at a junction without unknown ports.
     pub onward: Onward,
     /// Maximum number of fragments walked before the explorer gives up and says so. A robot that
     /// recognizes nothing lengthens its map with each, and nothing else ends its exploration.
     pub most_traversals: u32,
+    /// How often a robot that [checks](super::Aim::Check) its map walks each fragment at least,
+    /// each dead end inwards, before it says that the map is right: what is wrong shows when it is
+    /// walked again. 0 in the paper.
+    #[serde(default)]
+    pub checks: u32,
 }
 
-/// What a robot does online at a junction that "has no unknown ports left".
+/// Choice of an online robot at a junction that "has no unknown ports left".
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Onward {
     /// Goes the shortest known way to a junction that has one. Theorem 1 needs no more.
     ShortestKnownWay,
     /// "It continues forward until reaching a junction that has some remaining unknown ports", to
-    /// the letter: by a port taken at random, which can go round in circles and breaks the proof of
+    /// the letter, by a random port. This can go round in circles and breaks the proof of
     /// Theorem 1.
     GoOn,
 }
@@ -39,9 +44,9 @@ impl CpmConfig {
         }
     }
 
-    /// Returns section 6's, online CPM: [`CpMapperConfig::online`]. Gives up after 1000 fragments,
-    /// of which the paper says nothing: by Theorem 1 a maze of 44 fragments takes at most 990, and
-    /// in practice one of 500 that many.
+    /// Returns online CPM of section 6: [`CpmMapperConfig::online`]. It gives up after 1000
+    /// fragments, which is not in the paper. By Theorem 1 a maze of 44 fragments takes at most 990;
+    /// in practice a maze of 500 takes that many.
     #[must_use]
     pub const fn online() -> Self {
         Self::with(CpMapperConfig::online())
@@ -50,7 +55,10 @@ impl CpmConfig {
     /// Returns all that we know better than the paper: [`CpMapperConfig::robust`].
     #[must_use]
     pub const fn robust() -> Self {
-        Self::with(CpMapperConfig::robust())
+        Self {
+            checks: 2,
+            ..Self::with(CpMapperConfig::robust())
+        }
     }
 
     /// Returns section 4's, offline CPM: [`CpMapperConfig::offline`].
@@ -66,6 +74,7 @@ impl CpmConfig {
             candidates: mapper.candidates,
             onward: Onward::ShortestKnownWay,
             most_traversals: 1000,
+            checks: 0,
         }
     }
 }

@@ -1,13 +1,16 @@
 use tolman_maps::cpm::{End, Turn};
 use tolman_robot::Landmark;
 
-/// What the robot wants.
+/// Aim of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aim {
     /// To be at a landmark: by the shortest known way if it is on the map, else by exploring.
     Find(Landmark),
     /// To have been through every port of the map ("the task is to obtain the complete map").
     Explore,
+    /// To have been through every port, and through every fragment as often as
+    /// [`checks`](super::CpmConfig::checks) says; ours.
+    Check,
     /// To be at the start again, trying unknown ports that might make the way between start and
     /// goal shorter (section 6).
     WayBack,
@@ -15,7 +18,7 @@ pub enum Aim {
     Shortest,
 }
 
-/// What to do at a junction.
+/// Decision at a junction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JunctionDecision {
     /// Turn and follow the path.
@@ -41,7 +44,7 @@ pub struct Leg {
 pub enum Done {
     /// The aim is reached.
     Reached,
-    /// All that can be reached was explored, and what was looked for is not there.
+    /// All that can be reached was explored, and the landmark is not there.
     NotThere,
     /// [`most_traversals`](super::CpmConfig::most_traversals) fragments were walked.
     OutOfPatience,

@@ -2,14 +2,14 @@ use super::decision::Done;
 use super::robot::CpmRobot;
 use super::walker::Walker;
 
-/// What became of an episode.
+/// Result of an episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EpisodeSummary {
     /// Reason why it ended.
     pub done: Done,
-    /// How long it took, s.
+    /// Duration, s.
     pub seconds: f64,
-    /// How many observations were made.
+    /// Number of observations.
     pub observations: u32,
 }
 

@@ -1,6 +1,6 @@
 use rand::{Rng, RngExt};
 use tolman_maps::cpm::{
-    CpMap, CpMapper, CpmError, Junction, JunctionId, Port, PortState, Sighting, Turn,
+    CpMap, CpMapper, CpmError, Fragment, Junction, JunctionId, Port, PortState, Sighting, Turn,
 };
 use tolman_robot::Landmark;
 
@@ -9,9 +9,9 @@ use super::decision::{Aim, Done, JunctionDecision, Leg};
 
 /// Layer 3: "it makes a decision for the robot, and collects the path-fragment representation".
 ///
-/// Ask it to [`decide`](Self::decide) at each junction, dead end or landmark. Perform the turn,
-/// walk to the next one, and tell its mapper what the walk was like: [`arrive`](CpMapper::arrive),
-/// or [`turned_back`](CpMapper::turned_back) where the decision said to give up.
+/// Ask it to [`decide`](Self::decide) at each junction, dead end or landmark. Perform the turn and
+/// walk to the next one. Then report the walk to its mapper by [`arrive`](CpMapper::arrive), or by
+/// [`turned_back`](CpMapper::turned_back) if the decision said to give up.
 ///
 /// Random numbers and the dictionary belong to the caller. Whatever the robot meets, an exploration
 /// ends after at most [`CpmConfig::most_traversals`] fragments.
@@ -23,11 +23,11 @@ pub struct Explorer {
 }
 
 impl Explorer {
-    /// Begins at a place that ends fragments, as if the robot had come in by port 0: that of a dead
-    /// end; else the first opening counter-clockwise from straight behind it.
+    /// Starts at a place that ends fragments, as if the robot had come in by port 0. At a dead end
+    /// that is its only port, elsewhere the first opening counter-clockwise from straight behind.
     ///
-    /// A robot that stands in mid-fragment drives on to the first such place before, as the paper
-    /// has it.
+    /// A robot that stands in mid-fragment drives on to the first such place before, as in the
+    /// paper.
     ///
     /// # Errors
     /// [`CpmError`] if the place has no ports.
@@ -57,12 +57,15 @@ impl Explorer {
         let leg = match aim {
             Aim::Find(landmark) => self.towards(landmark).or_else(|| self.explore(rng)),
             Aim::Explore => self.explore(rng),
+            Aim::Check => self.explore(rng).or_else(|| self.walk_again(rng)),
             Aim::WayBack => self.way_back(rng),
             Aim::Shortest => self.towards_helpful(rng),
         };
         match (leg, aim) {
             (Some(leg), _) => JunctionDecision::Go(leg),
-            (None, Aim::Explore | Aim::Shortest) => JunctionDecision::Done(Done::Reached),
+            (None, Aim::Explore | Aim::Check | Aim::Shortest) => {
+                JunctionDecision::Done(Done::Reached)
+            }
             (None, _) => JunctionDecision::Done(Done::NotThere),
         }
     }
@@ -72,7 +75,7 @@ impl Explorer {
         let reached = match aim {
             Aim::Find(landmark) => self.map().has(here, landmark),
             Aim::WayBack => self.map().has(here, Landmark::Start),
-            Aim::Explore | Aim::Shortest => false,
+            Aim::Explore | Aim::Check | Aim::Shortest => false,
         };
         reached.then_some(Done::Reached)
     }
@@ -125,6 +128,35 @@ impl Explorer {
         }
     }
 
+    /// Returns a fragment that was walked too rarely, here or at the nearest place that has one.
+    fn walk_again(&self, rng: &mut impl Rng) -> Option<Leg> {
+        let is_rare = |port: Port| {
+            let end = self.map().end_at(port)?;
+            let Fragment {
+                traversals,
+                minus,
+                plus,
+                ..
+            } = self.map().fragment(end.fragment)?;
+            let is_dead_end = |end: &&Port| self.map().degree(end.junction) == 1;
+            // Out of a dead end it comes as it went in.
+            let walks = match [minus, plus].iter().any(is_dead_end) {
+                true => traversals.div_ceil(2),
+                false => *traversals,
+            };
+            (walks < self.config.checks).then_some(port.number)
+        };
+        let rare = |id: JunctionId| {
+            let ports = 0..self.map().degree(id);
+            ports.filter_map(move |number| is_rare(id.port(number)))
+        };
+        let here: Vec<u32> = rare(self.mapper.at().junction).collect();
+        match choose(&here, rng) {
+            Some(number) => self.leg_to(number, None),
+            None => self.first_leg(|id| rare(id).next().is_some()),
+        }
+    }
+
     /// Returns a port at random, but not the one behind; out of a dead end there is no other.
     fn wander(&self, rng: &mut impl Rng) -> Option<Leg> {
         let (behind, here) = self.here()?;
@@ -144,9 +176,9 @@ impl Explorer {
         })
     }
 
-    /// "Before the robot follows the map …, the robot tries to enter another different
-    /// path-fragment … As long as the new path length is less than the old path length, the robot
-    /// continues moving along the new path."
+    /// Returns the next leg on the way back to the start: "Before the robot follows the map …, the
+    /// robot tries to enter another different path-fragment … As long as the new path length is
+    /// less than the old path length, the robot continues moving along the new path."
     fn way_back(&self, rng: &mut impl Rng) -> Option<Leg> {
         let home = self.mapper.plan(Landmark::Start);
         // "It does not try the new path-fragment because the junction connects to A_s."
@@ -172,9 +204,9 @@ impl Explorer {
         self.leg_to(choose(&helpful, rng)?, Some(room))
     }
 
-    /// Returns how many observations an unknown fragment at a junction has to stay below to shorten
-    /// the way between start and goal, of which the part on this side of it begins at one of them,
-    /// or `None` if none can. Where no way is known, all may.
+    /// Returns the length, in observations, below which an unknown fragment at a junction can
+    /// shorten the way between start and goal. The known part of the way begins at landmark `from`.
+    /// `None` if no fragment can. If no way is known, any length can.
     fn room(&self, junction: JunctionId, from: Landmark) -> Option<u32> {
         let is_goal = |id| self.map().has(id, Landmark::Goal);
         // A start in a corridor may be on the map twice; the first is where the robot will be put

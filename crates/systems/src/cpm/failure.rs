@@ -5,10 +5,10 @@ use tolman_robot::Robot;
 
 use super::walker::WalkError;
 
-/// What CPM does with the body `B`, or why it cannot go on.
+/// Result of CPM's driving of the body `B`, or why it cannot go on.
 pub type CpmResult<T, B> = Result<T, CpmFailure<<B as Robot>::Error>>;
 
-/// Why CPM cannot go on with its robot.
+/// Reason why CPM cannot go on with its robot.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CpmFailure<E> {
@@ -29,7 +29,7 @@ pub enum CpmFailure<E> {
     NoStart,
     /// The robot stands elsewhere than where its map begins.
     #[error(
-        "the robot stands at {found}, where its map does not begin; put it to the start of the maze that the map was learned in"
+        "the robot is at {found}, which is not where its map begins; put it at the start of the maze in which the map was learned"
     )]
     NotTheStart {
         /// What it sees.

@@ -26,20 +26,20 @@ use super::walker_config::HeadingBy;
 #[derive(Clone, Debug)]
 pub struct Layer3 {
     patterns: CommonPatterns,
-    /// How far from all patterns an observation is that becomes one itself; `None` if all were
+    /// Distance from all patterns from which an observation becomes a pattern; `None` if all were
     /// learned before.
     novelty: Option<f64>,
     explorer: Explorer,
 }
 
-/// How far dead reckoning may be off along one fragment, m: a third of a corridor's width, so that
+/// Bound of dead reckoning's error along one fragment, m: a third of a corridor's width, so that
 /// neighbouring cells are told apart.
 const POSITION_MARGIN: f64 = 0.08;
 
-/// How far a heading may be off, rad: that of a branch is the middle of a gap between walls.
+/// Bound of a heading's error, rad: a branch's heading is the middle of a gap between walls.
 const HEADING_MARGIN: f64 = 0.6;
 
-/// What CPM learns from: where a map begins, or a fragment that was walked.
+/// Input from which CPM learns: the start of a map, or a fragment that was walked.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CpmObservation {
     /// The place at which the robot began, with its first way out behind it.
@@ -53,31 +53,31 @@ pub enum CpmObservation {
 pub struct Walked {
     /// The turn made at the place it leads from.
     pub turn: Turn,
-    /// What was seen on the way, or until the robot turned round.
+    /// Observations on the way, or until the robot turned round.
     pub observations: Vec<Observation>,
-    /// What stands at its end; `None` if the robot turned round in it.
+    /// Place at its end; `None` if the robot turned round in it.
     pub sighting: Option<Sighting>,
-    /// What dead reckoning says of the way; `None` if it is not trusted, as in the paper.
+    /// Dead reckoning of the way; `None` if it is not trusted, as in the paper.
     pub motion: Option<DeadReckoning>,
-    /// Where the ways out of its end lead; `None` where they are numbered alone, as in the paper.
+    /// Bearings of the ways out of its end; `None` if they are only numbered, as in the paper.
     pub bearings: Option<Bearings>,
 }
 
-/// What happened at the end of a fragment.
+/// Result at the end of a fragment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FragmentStep {
-    /// What layer 3 had decided.
+    /// Decision of layer 3.
     pub leg: Leg,
     /// What the robot met.
     pub walked: Walked,
-    /// What the arrival taught, or `None` where the robot turned back.
+    /// What the arrival taught, or `None` if the robot turned back.
     pub arrival: Option<MapUpdate>,
 }
 
 impl Layer3 {
     /// Returns layer 3 of a robot that knows these patterns and decides by `explorer`. `novelty` is
-    /// how far from all patterns an observation is that becomes one itself (section 8, "the CPs
-    /// must be learned incrementally"); `None` learns no further ones.
+    /// the distance from all patterns from which an observation becomes a pattern (section 8, "the
+    /// CPs must be learned incrementally"). `None` learns no further ones.
     #[must_use]
     pub const fn new(patterns: CommonPatterns, novelty: Option<f64>, explorer: Explorer) -> Self {
         Self {
@@ -191,7 +191,7 @@ impl Layer3 {
         Ok(Some(mapper.arrive(walked.turn, &traversal, dictionary)?))
     }
 
-    /// Walks one fragment towards the aim, or says why there is none to walk.
+    /// Walks one fragment towards the aim, or returns why there is nothing to walk.
     ///
     /// # Errors
     /// [`CpmFailure`](super::CpmFailure).
@@ -297,8 +297,8 @@ fn bearings<B: CpmRobot>(walker: &Walker<B>) -> Option<Bearings> {
     }
 }
 
-/// Returns what dead reckoning says of the walk from one place to where the robot is now; `None` if
-/// it is not trusted, as in the paper.
+/// Returns dead reckoning of the walk from one place to the robot's present pose; `None` if it is
+/// not trusted, as in the paper.
 fn motion<B: CpmRobot>(
     walker: &Walker<B>,
     from: Pose,

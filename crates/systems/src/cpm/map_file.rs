@@ -8,15 +8,15 @@ use crate::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles { system: "cpm" };
 
-/// A learned map as it lies in a file, with the patterns it is written in: JSON, read back to the
+/// Contents of a learned map's file, with the patterns it is written in: JSON, read back bit for
 /// bit.
 #[derive(Clone, Debug)]
 pub struct MapFile {
-    /// Where it was learned, by which robot and from which seed.
+    /// Maze, robot and seed of its origin.
     pub origin: Origin,
-    /// How the robot mapped.
+    /// Mode in which the robot mapped.
     pub mode: Mode,
-    /// What it knew of patterns.
+    /// The patterns it knew.
     pub patterns: CommonPatterns,
     /// The map.
     pub map: CpMap,
@@ -37,7 +37,7 @@ pub enum MapFileError {
 #[derive(Serialize, Deserialize)]
 struct Body {
     mode: Mode,
-    /// Of SOINN.
+    /// Number of SOINN's units.
     units: u32,
     clusters: u32,
     #[serde(flatten)]

@@ -1,24 +1,27 @@
 //! CPM: "Reasoning on the Self-Organizing Incremental Associative Memory for Online Robot Path
 //! Planning" (Kawewong, Honda, Tsuboyama, Hasegawa 2010).
 //!
-//! In the order of the paper: a [`CpmRobot`] senses landmarks; a [`Walker`] is its layers 0 and 1
-//! and its observations (sections 3.2 and 4.1). [`CommonPatterns`] are the dictionary it learns in
-//! the learning maze (section 4.1). [`Layer3`] maps, reasons and plans on `tolman_maps::cpm`
-//! (sections 4.2, 4.3 and 6), as its [`Explorer`] decides, and plays the paper's episodes. A
-//! [`MapFile`] keeps a map. A [`Relocalization`] tells a robot that was put down somewhere where it
-//! is (section 8). [`Cpm`] is all this as a system that is lent a robot for a fragment at a time.
+//! In the order of the paper:
+//!
+//! - A [`CpmRobot`] senses landmarks. A [`Walker`] is its layers 0 and 1 and its observations
+//!   (sections 3.2 and 4.1).
+//! - [`CommonPatterns`] are the dictionary it learns in the learning maze (section 4.1).
+//! - [`Layer3`] maps, reasons and plans on `tolman_maps::cpm` (sections 4.2, 4.3 and 6), as its
+//!   [`Explorer`] decides, and plays the paper's episodes. A [`MapFile`] keeps a map.
+//! - A [`Relocalization`] finds out where a robot is that was put down somewhere (section 8).
+//! - [`Cpm`] is all this as a system that is lent a robot for one fragment at a time.
 //!
 //! A robot with a laser ring looks like an e-puck behind [`RingAsEpuck`].
 //!
 //! # On a real robot
 //!
-//! Any e-puck will do that is [`Landmarked`](tolman_robot::Landmarked): so will that behind the
-//! serial driver of `tolman-robot` (feature `epuck-serial`). Measure first the response curve of
-//! its sensors, and a time step in which four lines and their answers have room, which says how
-//! fast it sweeps as well. The thresholds of
-//! [`SegmentConfig`](tolman_control::epuck::SegmentConfig) are values of sensors that see 25 cm, as
-//! the paper's simulated ones. Those of other sensors, and corridors as wide as they see, are to be
-//! found out. All this was tried on a simulated firmware, never on a robot.
+//! Any [`Landmarked`](tolman_robot::Landmarked) e-puck works, also behind the serial driver of
+//! `tolman-robot` (feature `epuck-serial`). Measure two things first: the response curve of its
+//! sensors, and a time step long enough for four lines and their answers. The time step also sets
+//! the speed of a sweep. The thresholds of [`SegmentConfig`](tolman_control::epuck::SegmentConfig)
+//! are for sensors that see 25 cm, like the paper's simulated ones. Other sensors, and corridors as
+//! wide as they see, need other thresholds. All this was tried on a simulated firmware, never on a
+//! robot.
 //!
 //! ```no_run
 //! use std::fs::File;

@@ -1,11 +1,11 @@
 use super::config::CpmConfig;
 use super::walker_config::HeadingBy;
 
-/// How a robot maps.
+/// Mode in which a robot maps.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Mode {
-    /// As the paper's: no dead reckoning.
+    /// The paper's mode, without dead reckoning.
     Paper(CpmConfig),
     /// With dead reckoning.
     Reckoned(CpmConfig),
@@ -13,7 +13,7 @@ pub enum Mode {
     Unlearned(CpmConfig),
 }
 
-/// How far from all patterns an observation is that becomes one on the way.
+/// Distance from all patterns from which an observation becomes a pattern on the way.
 const NOVELTY: f64 = 30.0;
 
 impl Mode {
@@ -44,8 +44,8 @@ impl Mode {
         }
     }
 
-    /// Returns how far from all patterns an observation is that becomes one on the way; `None`
-    /// where all are learned before.
+    /// Returns the distance from all patterns from which an observation becomes a pattern on the
+    /// way; `None` if all are learned before.
     #[must_use]
     pub const fn novelty(self) -> Option<f64> {
         match self {

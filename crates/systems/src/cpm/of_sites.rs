@@ -21,11 +21,11 @@ pub struct CpmOfSites {
     config: CpmConfig,
 }
 
-/// What a way is wrong by at most, as a share of its length, and besides, m.
+/// Maximum error of a way, as a share of its length, and an additional margin, m.
 const SHARE: f64 = 0.01;
 /// Whoever comes from elsewhere stops elsewhere in a place, by this share of a corridor's width.
 const PLACE: f64 = 0.75;
-/// What a heading along the building's axes is wrong by at most, rad.
+/// Maximum error of a heading along the building's axes, rad.
 const HEADING: f64 = 0.35;
 
 impl CpmOfSites {
@@ -89,7 +89,7 @@ impl OfSites for CpmOfSites {
     }
 }
 
-/// Returns the ways out of a place, counter-clockwise from that by which the robot came.
+/// Returns the ways out of a place, counter-clockwise from the one by which the robot came.
 fn ways(site: &Site) -> impl Iterator<Item = usize> + '_ {
     let quarters = (0..4).map(|turned| (site.came_by + turned) % 4);
     quarters.filter(|quarter| site.open[*quarter])

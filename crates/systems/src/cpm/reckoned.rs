@@ -9,14 +9,14 @@ use super::robot::CpmRobot;
 #[derive(Debug)]
 pub(super) struct Reckoned<B> {
     pub(super) body: B,
-    /// Where it believes to be, in the frame of the first pose.
+    /// Believed pose, in the frame of the first pose.
     pub(super) pose: Pose,
     /// Way of the robot's middle so far, m, forward or backward.
     pub(super) driven: f64,
     /// Time steps made.
     pub(super) steps: u32,
-    /// How its wheels roll, with what the robot senses as that has it; `None` where the encoders
-    /// are trusted as they are.
+    /// Calibration of the wheels, with the calibrated sensing; `None` if the encoders are trusted
+    /// as they are.
     pub(super) calibrated: Option<Calibrated>,
 }
 
@@ -28,14 +28,14 @@ pub(super) struct Calibrated {
 }
 
 impl Calibrated {
-    /// Of a robot that senses this before its first step.
+    /// Returns the state of a robot that senses `sensing` before its first step.
     pub(super) const fn new(wheels: WheelCalibration, sensing: EpuckSensing) -> Self {
         Self { wheels, sensing }
     }
 }
 
 impl<B: CpmRobot> Reckoned<B> {
-    /// The walls say that its heading is another.
+    /// Corrects the heading by a reading of the walls.
     pub(super) fn correct(&mut self, reading: Reading) {
         if let Some(Calibrated { wheels, .. }) = &mut self.calibrated {
             self.pose.heading = self.pose.heading.turned(wheels.read(reading));

@@ -15,12 +15,12 @@ const CONFIG: LocalizerConfig = LocalizerConfig {
     ..LocalizerConfig::usual()
 };
 
-/// A robot that was put down anywhere, also in mid-fragment, and finds out on which of some maps it
-/// is, and where (section 8, "the start point is changed").
+/// Finds out on which of several maps a robot is, and where, after it was put down anywhere, also
+/// in mid-fragment (section 8, "the start point is changed").
 ///
-/// It comes to the place ahead by its approach and then, at random, along further fragments that
-/// its maps have. It ends when it is sure, or has come to a set number of places after the first.
-/// The paper's robot begins to observe at that first place; ours does at once.
+/// The robot goes to the place ahead by its approach, and then by random choice along further
+/// fragments that its maps have. It ends when it is sure, or after a set number of places. The
+/// paper's robot begins to observe at the first place; ours does at once.
 #[derive(Clone, Debug)]
 pub struct Relocalization {
     patterns: CommonPatterns,
@@ -54,8 +54,8 @@ impl Relocalization {
         })
     }
 
-    /// Returns what it has found out. Where it is, [`Whereabouts::here`] says: `Location::ahead` is
-    /// the port behind it.
+    /// Returns what it has found out. In [`Whereabouts::here`], `Location::ahead` is the port
+    /// behind the robot.
     #[must_use]
     pub const fn found(&self) -> &Whereabouts {
         &self.found

@@ -15,10 +15,9 @@ use super::walker_config::{EpuckMeasures, WalkerConfig};
 
 /// A robot with a ring of range beams that looks like an e-puck to CPM, at another scale.
 ///
-/// Its corridors are to it what corridors of 0.25 m are to the e-puck, so all lengths are told in
-/// that scale. The proximity values are made from the ring through the e-puck's response curve; the
-/// encoders from odometry. The ring has to go all round and to reach further than a corridor is
-/// wide.
+/// All lengths are scaled such that its corridors look 0.25 m wide, like the e-puck's. Proximity
+/// values come from the ring through the e-puck's response curve, encoders from odometry. The ring
+/// has to go all round and to reach farther than a corridor is wide.
 #[derive(Clone, Debug)]
 pub struct RingAsEpuck<R> {
     robot: R,
@@ -27,7 +26,7 @@ pub struct RingAsEpuck<R> {
     sensing: EpuckSensing,
 }
 
-/// What of a robot with a ring has to be known before it can look like an e-puck.
+/// Measures of a robot with a ring that are needed to make it look like an e-puck.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RingMeasures {
     /// From wall to wall of its corridors, m.
@@ -40,8 +39,8 @@ pub struct RingMeasures {
     pub translate_per_step: f64,
     /// Length of its time step, µs.
     pub step_us: u64,
-    /// How near to where it should a turn can be ended, rad: what a smallest turn of the motors
-    /// misses by.
+    /// Maximum error at which a turn can be ended, rad: the error left by the smallest turn of the
+    /// motors.
     pub turn_tolerance: f64,
 }
 
@@ -62,7 +61,7 @@ const ONE_WALL: f64 = 1.25;
 /// A ring that cannot stand for an e-puck's sensors.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
-    "the ring looks {round:.3} rad round and {reach} m far: CPM needs one that looks all round and reaches further than a corridor is wide, \
+    "the ring covers {round:.3} rad and reaches {reach} m: CPM needs a full circle and a reach beyond the width of a corridor, \
      {corridor_width} m"
 )]
 pub struct UnfitRing {
@@ -70,19 +69,19 @@ pub struct UnfitRing {
     pub round: f64,
     /// Largest range, m.
     pub reach: f64,
-    /// Width of the corridors as it was told, m.
+    /// Width of the corridors by the configuration, m.
     pub corridor_width: f64,
 }
 
 impl RingMeasures {
-    /// Returns how many metres of this robot are one of the e-puck.
+    /// Returns the number of this robot's metres per metre of the e-puck.
     #[must_use]
     pub fn scale(&self) -> f64 {
         self.corridor_width / EPUCK_WIDTH
     }
 
-    /// Returns how the robot drives and observes: as the paper's, but no faster than its time step
-    /// allows, and no nearer to walls than its body.
+    /// Returns the paper's parameters of driving and observing, limited to the speed that the time
+    /// step allows and to the clearance that the body needs.
     #[must_use]
     pub fn walker_config(&self) -> WalkerConfig {
         let epuck = EpuckMeasures {
@@ -151,7 +150,7 @@ fn goes_round(ring: &Ring) -> bool {
     (f64::from(ring.beams) * ring.spacing - TAU).abs() < 1e-6
 }
 
-/// Returns how far the wall is that a full ring has at a bearing, rad, m; `None` where it meets
+/// Returns the distance of the wall at a bearing, rad, by a full ring, m; `None` if it meets
 /// nothing.
 fn range_at(scan: &Scan, bearing: f64) -> Option<f64> {
     let beams = scan.ranges.len();

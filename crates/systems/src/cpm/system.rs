@@ -26,22 +26,22 @@ use super::whereabouts::Approach;
 
 /// CPM as a system: it learns a map of any maze with any [`CpmRobot`], and goes where it is sent.
 ///
-/// An action is one fragment, from one place to the next. Between two actions it holds no robot;
-/// nobody may move the robot then, or it has to be [told](Self::carried).
+/// An action is one fragment, from one place to the next. It holds no robot between two actions. If
+/// the robot is moved then, call [`carried`](Self::carried).
 ///
 /// - [`Task::Explore`] ends when all ways of the map were walked.
-/// - [`Task::Reach`] drives the shortest known way, skipping observations, and explores where none
-///   is known.
+/// - [`Task::Reach`] drives the shortest known way, skipping observations. If none is known, it
+///   explores.
 /// - [`Task::Localize`] finds out where on its map the robot is.
 #[derive(Clone, Debug)]
 pub struct Cpm {
     walker: WalkerConfig,
     config: CpmConfig,
-    /// The maps that it may be on; none where it learns one of its own.
+    /// The maps that it may be on; empty if it learns its own.
     known: Vec<CpMap>,
     /// The one of them that it is on.
     on: usize,
-    /// What it learned before its first map.
+    /// Patterns it learned before its first map.
     patterns: CommonPatterns,
     novelty: Option<f64>,
     layer: Option<Layer3>,
@@ -52,10 +52,12 @@ pub struct Cpm {
     given_up: u32,
     /// Walks, one by one, in which its map could not be.
     doubtful: u32,
+    /// Walks since its map had no unknown port left.
+    checked: u32,
     rng: ChaCha8Rng,
 }
 
-/// How the robot stands in the world.
+/// Situation of the robot in the world.
 #[derive(Clone, Debug)]
 enum Stance {
     /// Nobody knows where: it has just been switched on, or was carried.
@@ -75,6 +77,9 @@ const APART: f64 = 0.5;
 
 /// Number of walks in a row that contradict a map before it is given up.
 const MOST_DOUBTFUL: u32 = 50;
+
+/// Maximum number of walks that check a map, as a multiple of its fragments.
+const MOST_CHECKS: u32 = 1;
 
 /// Number of maps that are given up before the robot gives up.
 const MOST_MAPS: u32 = 2;
@@ -101,13 +106,14 @@ impl Cpm {
             standing: Stance::Anywhere,
             given_up: 0,
             doubtful: 0,
+            checked: 0,
             rng: ChaCha8Rng::seed_from_u64(seed),
         }
     }
 
-    /// Returns a robot that has been nowhere: what it observes and finds far from all that it knows
-    /// becomes a pattern (section 8, "the CPs must be learned incrementally"). Dead reckoning takes
-    /// its headings from the walls.
+    /// Returns a robot that has been nowhere. Observations far from all it knows become patterns
+    /// (section 8, "the CPs must be learned incrementally"). Dead reckoning takes its headings from
+    /// the walls.
     ///
     /// # Errors
     /// [`CpmError::Dictionary`], which no configuration causes.
@@ -189,7 +195,7 @@ impl Cpm {
         let patterns = self.patterns.clone();
         let layer = Layer3::begin(&mut walker, patterns, self.novelty, self.config)?;
         self.trail.begin(layer.explorer().mapper.at());
-        self.doubtful = 0;
+        (self.doubtful, self.checked) = (0, 0);
         self.layer = Some(layer);
         self.standing = Stance::AtPlace(Box::new(walker.rest()));
         Ok(Standing::UnderWay)
@@ -279,7 +285,7 @@ impl Cpm {
         };
         layer.optimize()?;
         let walked = layer.explorer().mapper.traversals();
-        let is_found = done == Done::Reached && aim != Aim::Explore;
+        let is_found = done == Done::Reached && !matches!(aim, Aim::Explore | Aim::Check);
         if let Some(doubt) = self.doubt().filter(|_| !is_found) {
             return Ok(self.begin_anew(doubt));
         }
@@ -294,18 +300,36 @@ impl Cpm {
         })
     }
 
+    /// Returns what to explore for: a map is checked until that has taken [`MOST_CHECKS`] times as
+    /// many walks as it has fragments.
+    fn exploration_aim(&mut self) -> Aim {
+        let Some(Explorer { mapper, .. }) = self.explorer() else {
+            return Aim::Explore;
+        };
+        let is_open = |place: &Junction| place.open_ports().next().is_some();
+        let is_whole = !mapper.map().junctions().any(|(_, place)| is_open(place));
+        let most = MOST_CHECKS * mapper.map().fragments().len() as u32;
+        let is_done = self.config.checks == 0 || self.checked >= most;
+        // What is doubtful anyway need not be checked.
+        if is_done || (is_whole && self.doubt().is_some()) {
+            return Aim::Explore;
+        }
+        self.checked += u32::from(is_whole);
+        Aim::Check
+    }
+
     /// Returns why its map is not to be believed, as far as it can tell.
     fn doubt(&self) -> Option<MapDoubt> {
         self.explorer()?.mapper.doubt(self.apart())
     }
 
-    /// Returns how far apart two places are at least, m.
+    /// Returns the minimum distance of two places, m.
     fn apart(&self) -> f64 {
         APART * self.walker.corridor_width
     }
 
-    /// After a walk: counts those in which the map could not be. One whose places grow without end
-    /// is given up.
+    /// Counts the walks in a row after which the map is impossible. After [`MOST_DOUBTFUL`] of them
+    /// it begins another map, or gives up.
     fn heed(&mut self) -> Standing {
         let doubt = self.explorer().and_then(|Explorer { mapper, .. }| {
             mapper.map().twice_at(mapper.at().junction, self.apart())
@@ -321,8 +345,8 @@ impl Cpm {
         }
     }
 
-    /// Gives up a map that is not to be believed, and begins another where the robot stands; after
-    /// some it gives up itself.
+    /// Drops a map that cannot be right, and begins another where the robot stands. Gives up after
+    /// [`MOST_MAPS`] of them, or on maps that it was given.
     fn begin_anew(&mut self, doubt: MapDoubt) -> Standing {
         if self.given_up >= MOST_MAPS || !self.known.is_empty() {
             return Standing::gave_up(format!("its map is doubtful: {doubt}"));
@@ -474,7 +498,10 @@ impl<R: CpmRobot> System<R> for Cpm {
                 self.standing = Stance::AtPlace(resting);
                 Ok(Standing::Done)
             }
-            (Stance::AtPlace(resting), Task::Explore) => self.pursue(robot, *resting, Aim::Explore),
+            (Stance::AtPlace(resting), Task::Explore) => {
+                let aim = self.exploration_aim();
+                self.pursue(robot, *resting, aim)
+            }
             (Stance::AtPlace(resting), Task::Reach(goal)) => self.reach(robot, *resting, goal),
             (lost, task) => {
                 self.standing = lost;
@@ -502,12 +529,12 @@ impl<R: CpmRobot> System<R> for Cpm {
     }
 }
 
-/// Why CPM refuses an observation.
+/// Reason why CPM refuses an observation.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CpmObserveError {
     /// No map was begun.
-    #[error("a walk before the place where it began: observe `CpmObservation::Began` first")]
+    #[error("the walk has no beginning: observe `CpmObservation::Began` first")]
     NotBegun,
     /// The map refuses it.
     #[error(transparent)]

@@ -1,12 +1,12 @@
 use tolman_maps::cpm::{CpMap, MapUpdate, Port, Turn};
 
-/// The walks of a robot, which tell where it has been as its map has it now: a map that is
-/// understood again, or of which two places become one, has other names for them.
+/// The walks of a robot, from which its places on the present map follow. After a new explanation,
+/// or the merge of two places, the map has other names for them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Trail {
     /// Places that it came to before a map that it has given up.
     forgotten: usize,
-    /// Where the walks begin that can be retraced from one another.
+    /// Starting points of walks that can be retraced from one another.
     bases: Vec<Base>,
 }
 
@@ -21,12 +21,12 @@ struct Base {
 #[derive(Clone, Copy, Debug)]
 struct TrailStep {
     turn: Turn,
-    /// Where the map had it then.
+    /// Port at which the map had it then.
     then: Port,
 }
 
 impl Trail {
-    /// Begins at a port of a new map. Where the robot was before has no names there.
+    /// Begins at a port of a new map, which has no names for the places before.
     pub(super) fn begin(&mut self, at: Port) {
         let walks = Vec::new();
         self.forgotten += self.count();

@@ -14,8 +14,8 @@ use super::reckoned::{Calibrated, Reckoned};
 use super::robot::CpmRobot;
 use super::walker_config::{HeadingBy, WalkerConfig};
 
-/// Walks fragments: what the lower layers do from the moment layer 3 has chosen a way until the
-/// next junction, dead end or landmark wakes it up again (section 4).
+/// Walks fragments: the work of the lower layers between two decisions of layer 3, until the next
+/// junction, dead end or landmark (section 4).
 #[derive(Debug)]
 pub struct Walker<B: CpmRobot> {
     pilot: Pilot<Reckoned<B>>,
@@ -23,12 +23,12 @@ pub struct Walker<B: CpmRobot> {
     memory: Memory,
 }
 
-/// What a walker remembers from one fragment to the next.
+/// Memory of a walker between fragments.
 #[derive(Clone, Debug, Default)]
 struct Memory {
     /// The branches of the place it stands at, rad, counter-clockwise from the port of entry.
     branches: Vec<f64>,
-    /// Where it was after each stride since it set off, in the frame in which it began.
+    /// Positions after each stride since it set off, in the frame in which it began.
     trail: Vec<Point>,
     observations: u32,
     departed_us: u64,
@@ -55,8 +55,8 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// Returns what becomes a common pattern of what is round the robot; `None` where not two ways
-    /// are seen.
+    /// Returns the observation of the surroundings that becomes a common pattern; `None` if fewer
+    /// than two ways are seen.
     ///
     /// # Errors
     /// If the profile cannot be segmented.
@@ -81,28 +81,26 @@ impl Observation {
 /// A walk to its end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Walk {
-    /// What was seen on the way, or until the robot turned round.
+    /// Observations on the way, or until the robot turned round.
     pub observations: Vec<Observation>,
-    /// Where ways out of the place seemed to lead when it came into sight, as of a place that it
-    /// was about to enter.
+    /// Ways out of the place as they seemed when it came into sight, counted as if it were entered.
     pub glimpse: Option<Bearings>,
-    /// What the place is that it led to; `None` where the robot turned round, and is back where it
-    /// began.
+    /// The place that it led to; `None` if the robot turned round and is back where it began.
     pub sighting: Option<Sighting>,
 }
 
 /// What a robot knows of a fragment when the place at its end comes into sight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prospect {
-    /// What was seen on the way.
+    /// Observations on the way.
     pub observations: Vec<Observation>,
-    /// Where ways out of the place seem to lead, as of a place that the robot is about to enter.
+    /// Ways out of the place as they seem, counted as if it were entered.
     pub glimpse: Option<Bearings>,
     /// The landmark that stands there.
     pub landmark: Option<Landmark>,
 }
 
-/// What to do when a place comes into sight.
+/// Choice when a place comes into sight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BeforePlace {
     /// To go into it.
@@ -115,7 +113,7 @@ pub enum BeforePlace {
 struct Course {
     /// The middle of the place it leads from; none from amid the fragment, where that is long left.
     origin: Option<Point>,
-    /// How far the robot had driven there, m.
+    /// Distance driven at its beginning, m.
     begun: f64,
     /// The landmark it comes from, until that is seen no longer.
     left: Option<Landmark>,
@@ -132,7 +130,7 @@ enum Ahead {
     DeadEnd(View),
 }
 
-/// What is seen from one place.
+/// View from one place.
 struct View {
     profile: Profile,
     segments: Segments,
@@ -144,11 +142,11 @@ struct Seen {
     sighting: Sighting,
 }
 
-/// Where the robot looked on its way, and what it saw, if it saw the path.
+/// Positions at which the robot looked, each with its observation if it saw the path.
 type Track = Vec<(Point, Option<Observation>)>;
 
-/// Returns where no two ways were seen counts as the nearest place before or behind where they
-/// were: left out, it would shift all that follows.
+/// Returns the observations of a track. A look without two ways gets the nearest observation before
+/// or after it; if it were left out, all that follow would shift.
 fn filled(track: &Track) -> Vec<Observation> {
     let seen = |index: usize| track.get(index).and_then(|(_, seen)| seen.clone());
     (0..track.len())
@@ -169,8 +167,9 @@ fn count_from(direction: f64, ways: &mut [f64]) {
     }
 }
 
-/// Returns how far ways are turned out of the robot's axes, rad, where they lead along two axes:
-/// what tells in the middle of a crossing, which has no walls. `None` of fewer than three.
+/// Returns the rotation of the ways against the robot's axes, rad, if they lead along two axes.
+/// This is the heading in the middle of a crossing, which has no walls. `None` for fewer than three
+/// ways.
 fn askew_of(segments: &Segments) -> Option<f64> {
     let (mut sine, mut cosine, mut count) = (0.0, 0.0, 0.0);
     for way in segments.spaces() {
@@ -189,23 +188,22 @@ const BY_WAYS: f64 = 0.1;
 /// Rounds of looking for a junction's middle.
 const ROUNDS: u32 = 4;
 
-/// How far a junction, dead end or landmark reaches from its middle, in corridors' widths:
-/// consecutive sightings of a junction are one, and what is seen from within it is no part of a
-/// fragment.
+/// Radius of a junction, dead end or landmark, in corridor widths. Consecutive sightings of a
+/// junction within it are one, and observations within it are no part of a fragment.
 const PLACE: f64 = 0.6;
 
 /// Two places are not nearer to each other than this, in corridors' widths.
 const APART: f64 = 0.5;
 
-/// How far on from where it is first seen a landmark has its middle, in corridors' widths; less
+/// Distance from the first sighting of a landmark to its middle, in corridor widths. It is less
 /// than half, as before a wall the lower layers turn in the middle.
 const TO_LANDMARK: f64 = 0.4;
 
 /// Within this distance, in corridor widths, no way leads back to the place where it began.
 const ROUND: f64 = 2.0;
 
-/// How far from the middle of a place on fragments are written down, in corridors' widths: nearer
-/// to it its posts are in the way.
+/// Distance from the middle of a place from which fragments are recorded, in corridor widths:
+/// nearer to it its posts are in the way.
 const TRIMMED: f64 = 0.8;
 
 /// A junction is seen from there on, in corridors' widths before its middle.
@@ -218,8 +216,9 @@ const SPREAD: u32 = 20;
 /// the robot was off its path.
 const TOO_NEAR: f64 = 220.0;
 
-/// Before it sets off a robot that has walls to tell by turns round until it knows how far its
-/// wheels roll to this standard deviation, as a share, or has turned round so often.
+/// Standard deviation of the wheels' errors, as a share, at which calibration ends. A robot with
+/// walls to measure by turns round before it sets off, until it is reached or [`MOST_TURNS`] are
+/// made.
 const CALIBRATED: f64 = 3e-3;
 const MOST_TURNS: u32 = 12;
 
@@ -292,8 +291,8 @@ impl<B: CpmRobot> Walker<B> {
         calibrated.map_or(WheelCalibration::UNKNOWN, |calibrated| calibrated.wheels)
     }
 
-    /// Returns the standard deviation of how far it has driven, as a share; 0 where its encoders
-    /// are trusted as they are.
+    /// Returns the standard deviation of its driven distance, as a share; 0 if its encoders are
+    /// trusted as they are.
     pub fn uncertainty(&self) -> f64 {
         let calibrated = &self.pilot.robot().calibrated;
         calibrated.map_or(0.0, |calibrated| calibrated.wheels.uncertainty())
@@ -309,7 +308,7 @@ impl<B: CpmRobot> Walker<B> {
         self.pilot.robot().steps
     }
 
-    /// Returns how many observations it has made.
+    /// Returns the number of observations it has made.
     pub const fn observations(&self) -> u32 {
         self.memory.observations
     }
@@ -350,8 +349,9 @@ impl<B: CpmRobot> Walker<B> {
         &self.config
     }
 
-    /// Looks where it is. In mid-fragment it drives on to the first junction, dead end or landmark
-    /// ("the robot continues moving forward until the first junction is found", section 8).
+    /// Looks round and returns the place where it is. In mid-fragment it drives on to the first
+    /// junction, dead end or landmark ("the robot continues moving forward until the first junction
+    /// is found", section 8).
     ///
     /// # Errors
     /// [`WalkError`].
@@ -360,11 +360,11 @@ impl<B: CpmRobot> Walker<B> {
         walk.sighting.ok_or(WalkError::Lost)
     }
 
-    /// As [`begin`](Self::begin), and tells what it saw on the way, from where it stands on;
-    /// nothing where it stands at a place.
+    /// Begins like [`begin`](Self::begin) and returns also what it saw on the way; nothing if it
+    /// stands at a place.
     ///
-    /// When the place ahead comes into sight, `choose` is asked what to do. Once turned round, the
-    /// robot tells what it saw since.
+    /// When the place ahead comes into sight, `choose` decides what to do. If the robot turns
+    /// round, it returns what it saw since then.
     ///
     /// # Errors
     /// [`WalkError`].
@@ -538,8 +538,8 @@ impl<B: CpmRobot> Walker<B> {
         course.origin.is_none() || driven - course.begun > widths * self.config.corridor_width
     }
 
-    /// Consecutive sightings of a junction are one: a middle at the place that a course leads from
-    /// is that place's, until the robot has had the time to come round.
+    /// Returns whether a middle is still that of the place that a course leads from: consecutive
+    /// sightings of a junction are one. This ends once the robot has had the time to come round.
     fn is_origin(&self, course: &Course, driven: f64, middle: Point) -> bool {
         let width = self.config.corridor_width;
         course.origin.is_some_and(|origin| {
@@ -547,7 +547,8 @@ impl<B: CpmRobot> Walker<B> {
         })
     }
 
-    /// Goes into what is in sight, or `None` if it is no place, seen from its middle.
+    /// Enters the place in sight and returns it as seen from its middle; `None` if it is not a
+    /// place.
     fn enter(&mut self, course: &mut Course, ahead: Ahead) -> WalkResult<Option<Seen>, B> {
         match ahead {
             Ahead::Landmark(landmark) => {
@@ -635,7 +636,7 @@ impl<B: CpmRobot> Walker<B> {
             .meet_point(&self.config.pilot.curve, &self.config.meet_point)
     }
 
-    /// Drives to the middle of the place that it has seen, and looks at what kind it is.
+    /// Drives to the middle of the place in sight, and returns its kind.
     fn settle(&mut self, mut view: View, landmark: Option<Landmark>) -> WalkResult<Seen, B> {
         let glimpse = self.glimpse(&view);
         for _ in 0..ROUNDS {
@@ -682,16 +683,16 @@ impl<B: CpmRobot> Walker<B> {
         Bearings::of_directions(&ways).ok()
     }
 
-    /// Returns the ways out of the place where it stands, counted from the one by which it came,
-    /// or `None` before it has come to one.
+    /// Returns the ways out of the present place, counted from the one by which the robot came;
+    /// `None` before it has come to one.
     pub fn bearings(&self) -> Option<Bearings> {
         // Branches are found counter-clockwise.
         Bearings::of_directions(&self.memory.branches).ok()
     }
 
     /// Returns the direction of the way by which it came to a place, rad, relative to its heading:
-    /// where it was before it came into it. Behind a bend the robot may stand askew in the middle
-    /// of a junction, so that another branch is nearer to behind it.
+    /// that of its last position outside. Behind a bend the robot may stand askew in the middle of
+    /// a junction, so that another branch is nearer to straight behind.
     fn entry(&self, place: Point) -> Option<f64> {
         let width = self.config.corridor_width;
         let mut before = self.memory.trail.iter().rev();
@@ -724,7 +725,7 @@ impl<B: CpmRobot> Walker<B> {
         Ok(View { profile, segments })
     }
 
-    /// Turns round until it knows how far its wheels roll, if it has a heading to tell that by.
+    /// Turns round until the wheels' errors are known, if walls give a heading to measure by.
     fn calibrate(&mut self) -> WalkResult<(), B> {
         for _ in 0..MOST_TURNS {
             if self.uncertainty() <= CALIBRATED {
@@ -777,7 +778,7 @@ impl<B: CpmRobot> Walker<B> {
     }
 }
 
-/// What a walk of the body `B` brings, or why it ends early.
+/// Result of a walk of the body `B`, or why it ends early.
 pub type WalkResult<T, B> = Result<T, WalkError<<B as Robot>::Error>>;
 
 /// Reason why a walk came to no end.
@@ -794,11 +795,13 @@ pub enum WalkError<E> {
     #[error(transparent)]
     Segments(#[from] SegmentError),
     /// The place does not have that many branches.
-    #[error("branch {number} of a place of {branches}: count from 0, the way the robot came by")]
+    #[error(
+        "branch {number} does not exist at a place of {branches}; count from 0, the way by which the robot came"
+    )]
     NoBranch {
-        /// Which was asked for.
+        /// Number of the branch that was asked for.
         number: usize,
-        /// How many there are.
+        /// Number of branches.
         branches: usize,
     },
     /// No junction, dead end or landmark came.
@@ -807,9 +810,9 @@ pub enum WalkError<E> {
          room, or is longer, or the sensors fail: check the sensors and the maze"
     )]
     Endless {
-        /// How many strides were driven.
+        /// Number of strides driven.
         strides: u32,
-        /// How far that was, m.
+        /// Length of these strides, m.
         metres: f64,
     },
     /// The robot turned back where it should not.

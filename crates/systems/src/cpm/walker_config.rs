@@ -5,10 +5,10 @@ use tolman_control::epuck::{
     SensorAlignment,
 };
 
-/// What of an e-puck has to be measured before it can be driven.
+/// Measures of an e-puck that are needed to drive it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EpuckMeasures {
-    /// What the raw values of its proximity sensors mean.
+    /// Conversion of its proximity sensors' raw values to distances.
     pub curve: RangeCurve,
     /// Length of its time step, µs.
     pub step_us: u64,
@@ -16,30 +16,30 @@ pub struct EpuckMeasures {
     pub most_wheel_speed: f64,
 }
 
-/// How a walker observes.
+/// Parameters by which a walker observes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WalkerConfig {
     /// The robot's layers.
     pub pilot: PilotConfig,
-    /// How the vectors of a sweep are averaged.
+    /// Averaging of the vectors of a sweep.
     pub alignment: SensorAlignment,
-    /// How they are segmented to tell junctions from paths.
+    /// Segmentation by which junctions are told from paths.
     pub segments: SegmentConfig,
-    /// How they are segmented to make features.
+    /// Segmentation that makes features.
     pub features: SegmentConfig,
-    /// How the middle of a junction is looked for.
+    /// Search for the middle of a junction.
     pub meet_point: MeetPointConfig,
     /// From wall to wall, m.
     pub corridor_width: f64,
-    /// How long the robot drives from one observation to the next, s; the paper's 0.5.
+    /// Duration of a drive between two observations, s; the paper's 0.5.
     pub stride_s: f64,
-    /// What dead reckoning takes headings from.
+    /// Source of dead reckoning's headings.
     pub heading: HeadingBy,
     /// Maximum number of observations of one fragment before the robot gives up (not in the paper).
     pub longest_fragment: u32,
 }
 
-/// What dead reckoning takes headings from.
+/// Source of dead reckoning's headings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HeadingBy {
     /// The encoders alone.

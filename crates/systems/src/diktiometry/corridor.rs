@@ -1,4 +1,4 @@
-//! What ranges and compass say of a corridor.
+//! Reading of a corridor from ranges and compass.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -41,13 +41,13 @@ impl RoutineConfig {
         0.25 * self.corridor_width
     }
 
-    /// Returns the way covered in one time step, and the most that a jamb may be taken for.
+    /// Returns the distance covered in one time step, m, and the greatest width of a jamb.
     pub(super) const fn stride(&self) -> f64 {
         0.05 * self.corridor_width
     }
 }
 
-/// What the laser says of a corridor, seen along it.
+/// The laser's view along a corridor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     /// Range to the left, m.
@@ -60,7 +60,7 @@ pub(super) struct View {
     pub(super) heading: Heading,
 }
 
-/// What stands around a robot, turned by its compass.
+/// Ranges around a robot, turned by its compass.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Around<'a> {
     scan: &'a Scan,
@@ -137,8 +137,8 @@ impl Beside {
         Self(gauge.beside(view).map(Span::at_start))
     }
 
-    /// Takes in `view` from `along` the way, m. Returns how far along the middle of a place lies,
-    /// m, when what makes the place has ended.
+    /// Takes in `view` from `along` the way, m. Once the cause of a place has ended, returns the
+    /// position of the place's middle along the way, m.
     pub(super) fn see(&mut self, view: View, along: f64, gauge: &RoutineConfig) -> Option<f64> {
         let spans = self.0.iter_mut().zip(gauge.beside(view));
         let middles = spans.map(|(span, there)| span.see(there, along, gauge.shortest()));

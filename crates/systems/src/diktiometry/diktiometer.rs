@@ -19,25 +19,25 @@ use super::{
 ///
 /// Each action is one control routine, from a place to the next. Its tasks:
 ///
-/// - **Explore**: the [`Planner`](super::Planner)'s walk, until nothing is left to try at any place
-///   that the map leads to, no two places may be one, and the map does not contradict itself. It
-///   gives up a map that has contradicted itself for 20 moves, or has not been folded for five
-///   moves for each of its places, at most 300; and one during which the robot was carried
-///   elsewhere, so that it no longer sees what it saw where it stopped.
+/// - **Explore**: the [`Planner`](super::Planner)'s walk. It ends when nothing is left to try at
+///   any place that the map leads to, no two places may be one, and the map does not contradict
+///   itself. It gives up a map that has contradicted itself for 20 moves. It gives up one that has
+///   not been folded for five moves for each of its places, at most 300. It also gives up if the
+///   robot was carried elsewhere, so that the view differs from that at its last stop.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
 ///   knows no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
-///   robot explores. Landmarks are sensed at places alone, not on the way between two.
-/// - **Localize**: the planner's walk, until one hypothesis is confident and no other. With a map
-///   from before it makes as many moves first as the mapper's `tracks.history`, on which confidence
+///   robot explores. Landmarks are sensed at places only, not on the way between two.
+/// - **Localize**: the planner's walk, until one hypothesis is confident and no other is. With an
+///   earlier map it first makes as many moves as the mapper's `tracks.history`, on which confidence
 ///   rests.
 ///
-/// A robot that stands amid a corridor at first goes to a place before it maps. After a routine
-/// that broke off, it goes back to the place it left. A map from before is gone on with as if the
-/// robot stood where the map has it. Of a robot that was carried elsewhere, or broke off beside a
-/// place, it may make places twice.
+/// A robot that starts in mid-corridor goes to a place before it maps. After a routine that broke
+/// off, it goes back to the place it left. With an earlier map it continues as if the robot stood
+/// where the map has it. If the robot was carried elsewhere, or a routine broke off beside a place,
+/// places may be made twice.
 ///
-/// `E` is what it tells places apart by; the mapper's percepts have to fit it.
+/// `E` is the eye by which it tells places apart; the mapper's percepts have to fit it.
 #[derive(Clone, Debug)]
 pub struct Diktiometer<E> {
     config: DiktiometerConfig,
@@ -47,7 +47,7 @@ pub struct Diktiometer<E> {
     visited: Vec<PlaceId>,
 }
 
-/// What a [`Diktiometer`] is made of.
+/// Parts of a [`Diktiometer`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct DiktiometerConfig {
@@ -124,7 +124,7 @@ impl<E> Diktiometer<E> {
         }
     }
 
-    /// Returns what it is made of.
+    /// Returns its configuration.
     #[must_use]
     pub const fn config(&self) -> &DiktiometerConfig {
         &self.config

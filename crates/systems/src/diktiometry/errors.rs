@@ -18,7 +18,7 @@ pub enum RoutineError<E: Error + 'static> {
     /// A reading is no number.
     #[error("odometry is not a number")]
     Reading(#[from] IntervalError),
-    /// What the robot sees is no signature.
+    /// The robot's view is not a valid signature.
     #[error("the image gives no signature")]
     Signature(#[from] SignatureError),
     /// No place came in sight.
@@ -36,7 +36,7 @@ pub enum RoutineError<E: Error + 'static> {
 #[non_exhaustive]
 pub enum SenseError {
     /// A sensor that the routines live on gave nothing.
-    #[error("the {sensor} gave nothing; take a robot without drop-outs")]
+    #[error("the {sensor} gave nothing; use a robot without drop-outs")]
     Blind {
         /// Name of the sensor.
         sensor: &'static str,

@@ -3,7 +3,7 @@ use tolman_robot::{Ranges, Sees};
 
 use super::{SenseError, round_scan};
 
-/// Makes columns of what a robot senses, by which it tells places apart.
+/// Converts what a robot senses to the columns by which it tells places apart.
 pub trait Eye<S> {
     /// Returns the columns of what `sensing` shows: column 0 looks ahead, the others follow
     /// counter-clockwise, evenly spread over the full circle. `None` if it does not look.
@@ -79,7 +79,7 @@ pub const fn exit_signatures() -> Percepts {
 }
 
 /// Returns the percepts of a mapper whose robot turns its signatures of `rows` × `columns` values
-/// by its compass: 3 rows for a [`CameraEye`], 1 for a [`LaserEye`].
+/// by its compass. A [`CameraEye`] has 3 rows, a [`LaserEye`] 1.
 #[must_use]
 pub const fn aligned_signatures(rows: usize, columns: usize) -> Percepts {
     Percepts::Signatures(SignatureKind {
@@ -98,7 +98,7 @@ mod tests {
 
     use super::*;
 
-    /// Column 0 looks ahead wherever the ring's first beam looks.
+    /// Column 0 looks ahead whatever the direction of the ring's first beam.
     #[test]
     fn a_laser_eye_begins_ahead() {
         let look = |first_bearing: f64, ranges: &[f64]| {

@@ -20,11 +20,11 @@ pub(super) struct Guide {
     under_way: Option<Direction>,
     planner: Planner,
     walk: ChaCha8Rng,
-    /// Where each landmark was sensed last, by the name the place had then.
+    /// Place where each landmark was sensed last, by the id it had then.
     landmarks: BTreeMap<Landmark, PlaceId>,
     /// Number of moves so far.
     moves: u32,
-    /// What speaks against the map, and since which of them.
+    /// State of a doubtful map, and since which move.
     doubt: Option<(MapState, u32)>,
     /// Whether it was carried elsewhere since it began the map.
     is_carried: bool,
@@ -41,7 +41,7 @@ const MOST_PATIENCE: u32 = 300;
 /// Moves for which a map may contradict itself before it is given up: bounds that hold repair none.
 const MOST_CONTRADICTED: u32 = 20;
 
-/// What is known of where the rover stands.
+/// What is known of the rover's place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Whereabouts {
     /// The map has followed it long enough, or began where it stood.
@@ -108,8 +108,8 @@ impl Guide {
         self.mapping = Some(RoverMap::of(observer));
     }
 
-    /// Lets `rover` look round if nothing is known of where it stands. From amid a corridor it
-    /// first goes to a place, which the map is not told: back to the last if a routine broke off.
+    /// Lets `rover` look round if its place is unknown. From mid-corridor it first goes to a place,
+    /// without the map: back to the last one if a routine broke off.
     pub(super) fn find_footing<V: Rover>(
         &mut self,
         rover: &mut V,
@@ -147,8 +147,8 @@ impl Guide {
         self.landmarks.insert(landmark, place);
     }
 
-    /// Lets `rover` go in `direction`, and the map take it in, and returns whether it went. A rover
-    /// that no longer sees what it saw when it stopped was carried elsewhere, and does not go.
+    /// Lets `rover` go in `direction`, and the map take it in. Returns whether it went. If its view
+    /// has changed since it stopped, it was carried elsewhere and does not go.
     pub(super) fn go<V: Rover>(
         &mut self,
         rover: &mut V,
@@ -299,7 +299,7 @@ impl Guide {
         all.filter_map(|landmark| Some((*landmark, self.place_of(*landmark)?)))
     }
 
-    /// Returns in a few words what it makes of its situation.
+    /// Returns a few words on its situation.
     pub(super) fn words(&self) -> String {
         let Some(observer) = self.observer() else {
             return String::new();
@@ -334,7 +334,8 @@ fn give_up(why: &str) -> Next {
     Next::Break(Standing::GaveUp { why })
 }
 
-/// Returns what speaks against the map. By the paper's rule of matching, nobody asks.
+/// Returns the state of the map if it is doubtful; `None` by the paper's rule of matching, which
+/// does not ask.
 fn objection(observer: &Observer) -> Option<MapState> {
     if observer.config().matching.identity == Identity::Meets {
         return None;

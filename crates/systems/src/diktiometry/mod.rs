@@ -1,11 +1,11 @@
-//! Diktiometry: a robot walks corridors from place to place while a map of it grows beside.
+//! Diktiometry: a robot walks corridors from place to place while a map of it grows.
 //!
 //! In the order data flows:
 //!
 //! 1. A [`Surveyor`] makes a [`Rover`] of any robot that turns and translates and that senses
-//!    ranges, compass and wheels: its control routines end at corners and doorways.
-//! 2. An [`Odometer`] bounds how the robot moved; an [`Eye`] makes a signature of what it senses.
-//! 3. A [`RoverMap`] tells each [`Arrival`] to the
+//!    ranges, compass and wheels. Its control routines end at corners and doorways.
+//! 2. An [`Odometer`] bounds the robot's displacement; an [`Eye`] makes a signature of its view.
+//! 3. A [`RoverMap`] passes each [`Arrival`] to the
 //!    [`Observer`](tolman_maps::diktiometry::Observer), which makes the map.
 //! 4. A [`Planner`] chooses where to go: at random, or as the map advises.
 //!

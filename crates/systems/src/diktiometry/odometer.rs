@@ -10,8 +10,8 @@ pub struct Odometer {
 }
 
 impl Odometer {
-    /// Returns an odometer for wheels that are wrong by at most `share` of the distance, 0 … 0.5,
-    /// and a compass that is wrong by at most `heading_bound`, rad.
+    /// Returns an odometer. The wheels' error is at most `share` of the distance, 0 to 0.5; the
+    /// compass's is at most `heading_bound`, rad.
     #[must_use]
     pub const fn new(share: f64, heading_bound: f64) -> Self {
         Self {
@@ -68,7 +68,8 @@ mod tests {
     use super::*;
 
     proptest! {
-        /// Whatever wheels and compass say within their bounds, the box holds where the robot is.
+        /// The box holds the robot's position for all errors of wheels and compass within their
+        /// bounds.
         #[test]
         fn the_true_way_is_inside_the_box(
             steps in prop::collection::vec((-0.1..0.1_f64, -0.2..0.2_f64, -1.0..1.0_f64, -1.0..1.0_f64), 1..60),

@@ -12,9 +12,9 @@ use crate::places::{OfSites, Site, SiteWay};
 pub struct DiktiometryOfSites {
     /// The mapper.
     pub mapper: Config,
-    /// What ways are wrong by at most, as a share of their length.
+    /// Maximum error of ways, as a share of their length.
     pub share: f64,
-    /// What they are wrong by at most besides, m.
+    /// Additional maximum error, m.
     pub margin: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Where the middle of a place is, as far as walls and corners around the robot tell.
+//! Position of the middle of a place, by the walls and corners around the robot.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -6,7 +6,7 @@ use tolman_geom::Heading;
 
 use super::{Around, RoutineConfig};
 
-/// How far the robot stands from the middle of a place, m.
+/// Offset of the robot from the middle of a place, m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Offset {
     /// Too far ahead.
@@ -15,13 +15,13 @@ pub(super) struct Offset {
     pub(super) aside: f64,
 }
 
-/// How far to both sides of a direction a wall across it is looked for, rad.
+/// Angle on both sides of a direction within which a wall across it is searched, rad.
 const WALL: f64 = 0.4;
 
-/// Returns how far a robot stands from the middle of a place for someone who looks `ahead`.
+/// Returns the robot's offset from the middle of a place, in the frame that looks `ahead`.
 ///
-/// Only distances to walls and corners are used, which no error of the compass changes: two corners
-/// that are equally far say that one stands between them.
+/// It uses only distances to walls and corners, which an error of the compass does not change. A
+/// robot equally far from two corners stands between them.
 pub(super) fn offset(around: Around<'_>, ahead: Heading, gauge: &RoutineConfig) -> Offset {
     let nearest =
         |quarters: f64, spread: f64| around.nearest(ahead.turned(quarters * FRAC_PI_2), spread);
@@ -42,8 +42,8 @@ pub(super) fn offset(around: Around<'_>, ahead: Heading, gauge: &RoutineConfig) 
     }
 }
 
-/// Returns how far the robot stands towards the first of two opposite walls, from the ranges to
-/// both. Of each side it takes the range to its wall and to its far and near corner.
+/// Returns the offset of the robot towards the first of two opposite walls, m, from the ranges to
+/// both. `sides` are, for each side, the ranges to its wall, its far and its near corner.
 fn axis(gauge: &RoutineConfig, [plus, minus]: [f64; 2], sides: [(f64, f64, f64); 2]) -> f64 {
     let half = gauge.half();
     // Where both ends of an axis are open, the corners beside an open side tell; a doorway has

@@ -14,7 +14,7 @@ pub struct Planner {
     script: VecDeque<Direction>,
 }
 
-/// Where a planner goes next.
+/// Next move of a planner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedMove {
     /// Direction to go in.

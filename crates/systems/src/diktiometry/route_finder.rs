@@ -63,7 +63,7 @@ impl RouteFinder {
         self.belief.as_ref()
     }
 
-    /// Drives to a place from wherever it was put down, which the belief is not told, and looks
+    /// Drives to a place from wherever it was put down, without changing the belief, and looks
     /// round.
     pub(super) fn find_footing<V: Rover>(&mut self, rover: &mut V) -> Result<(), V::Error> {
         let mut seen = rover.look()?;
@@ -94,7 +94,7 @@ impl RouteFinder {
         Ok(())
     }
 
-    /// Takes in a move. What leads elsewhere from a place that is known is not as the map has it.
+    /// Takes in a move. If it leads elsewhere than on the map, the link is noted as changed.
     pub(super) fn take_in(&mut self, seen: &ObservedMove) {
         let from = self.here();
         let Some(belief) = &mut self.belief else {
@@ -191,7 +191,7 @@ impl RouteFinder {
         Direction::ALL.get(action.0 as usize).copied()
     }
 
-    /// Returns in a few words what it makes of its situation.
+    /// Returns a few words on its situation.
     pub(super) fn words(&self) -> String {
         let places = self
             .belief

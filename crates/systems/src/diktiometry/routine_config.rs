@@ -29,16 +29,16 @@ pub struct RoutineConfig {
 pub struct RoutineConfigError {
     /// Name of the field.
     pub field: &'static str,
-    /// What it holds.
+    /// Its value.
     pub value: f64,
-    /// What it may hold.
+    /// Allowed values, in words.
     pub expected: &'static str,
 }
 
 impl RoutineConfig {
-    /// Returns a configuration for corridors `corridor_width` metres wide without doorways, and a
-    /// robot that makes at most `turn_per_step`, rad, and `translate_per_step`, m, in one time
-    /// step. The bounds are the paper's: odometry 10 %, compass 4°.
+    /// Returns a configuration for corridors `corridor_width` m wide without doorways. In one time
+    /// step the robot turns by at most `turn_per_step`, rad, and moves by at most
+    /// `translate_per_step`, m. The error bounds are the paper's: odometry 10 %, compass 4°.
     #[must_use]
     pub fn new(corridor_width: f64, turn_per_step: f64, translate_per_step: f64) -> Self {
         Self {
@@ -92,7 +92,7 @@ impl RoutineConfig {
     }
 }
 
-/// What a field may hold, and in words.
+/// Allowed values of a field, also in words.
 type Allowed = ((Bound<f64>, Bound<f64>), &'static str);
 
 const SHARE: Allowed = ((Included(0.0), Included(0.5)), "a share from 0 to 0.5");

@@ -13,7 +13,7 @@ pub trait Rover {
     /// Reason a routine cannot be carried out.
     type Error: Error + Send + Sync + 'static;
 
-    /// Returns what there is to see at the place the robot stands at, without moving.
+    /// Returns what there is at the place the robot stands at, without moving.
     ///
     /// # Errors
     /// If its sensors give nothing.
@@ -26,16 +26,16 @@ pub trait Rover {
     fn go(&mut self, direction: Direction) -> Result<Arrival, Self::Error>;
 }
 
-/// What a control routine ended with.
+/// Result of a control routine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrival {
     /// Whether the robot came to the next place or there was no way.
     pub outcome: MoveOutcome,
     /// Displacement of the robot, east and north, m. The true one lies inside.
     pub moved: PointBox,
-    /// What the place looks like, turned by the compass: column 0 looks east, the others follow
+    /// View of the place, turned by the compass: column 0 looks east, the others follow
     /// counter-clockwise. `None` if the robot does not look.
     pub look: Option<Signature>,
-    /// Which ways lead on, by [`Direction::index`].
+    /// Ways that lead on, by [`Direction::index`].
     pub exits: [bool; 4],
 }

@@ -17,16 +17,16 @@ use super::{Arrival, Rover};
 pub struct RoverMap {
     observer: Observer,
     exits: [bool; 4],
-    /// What the place looked like when the rover stopped there.
+    /// View of the place where the rover stopped.
     look: Option<Signature>,
 }
 
 /// A move that the map has taken in.
 #[derive(Clone, Debug)]
 pub struct MappedMove {
-    /// What the rover measured.
+    /// Measurements of the rover.
     pub arrival: Arrival,
-    /// What the observer made of it.
+    /// The observer's report.
     pub report: StepReport,
 }
 
@@ -60,7 +60,7 @@ impl RoverMap {
         })
     }
 
-    /// Lets `rover` look and goes on with the map it made before, from where that map has it. From
+    /// Lets `rover` look and continues an earlier map from where that map has it. If the rover is
     /// elsewhere, places may be made twice until the observer finds out.
     ///
     /// # Errors
@@ -87,8 +87,8 @@ impl RoverMap {
         Ok(())
     }
 
-    /// Lets `rover` look, and returns whether it sees what it saw when it stopped: the same place,
-    /// if it looks, and the same ways that lead on, where none is opened or shut.
+    /// Lets `rover` look, and returns whether it sees the same as when it stopped. Views are
+    /// compared if it has them, and ways that lead on if none is opened or shut in this world.
     pub(super) fn is_where_it_was<R: Rover>(
         &self,
         rover: &mut R,
@@ -136,7 +136,7 @@ impl RoverMap {
     }
 }
 
-/// Returns a move in `direction` as a mapper of this configuration is told of it.
+/// Returns a move in `direction` as the input of a mapper of this configuration.
 pub(super) fn observed(config: &Config, direction: Direction, arrival: &Arrival) -> ObservedMove {
     ObservedMove {
         action: Action(direction.index() as u32),
@@ -147,7 +147,7 @@ pub(super) fn observed(config: &Config, direction: Direction, arrival: &Arrival)
     }
 }
 
-/// Returns the place that the rover looks at as a mapper of this configuration is told of it.
+/// Returns the place that the rover looks at as the input of a mapper of this configuration.
 pub(super) fn first_place(config: &Config, seen: &Arrival) -> FirstPlace {
     FirstPlace {
         percept: percept(config, seen),

@@ -12,24 +12,24 @@ use super::{
     RoutineError, Rover, SenseError, View, compass, offset,
 };
 
-/// A robot with the paper's control routines: they follow corridors and end at corners and
-/// doorways, and measure the way.
+/// A robot with the paper's control routines: they follow corridors, end at corners and doorways,
+/// and measure the way.
 ///
-/// The robot may be a mutable reference; between two routines nothing but the configuration lasts.
+/// The robot may be a mutable reference: between two routines only the configuration is kept.
 #[derive(Clone, Debug)]
 pub struct Surveyor<R, E> {
     robot: R,
     eye: E,
     config: RoutineConfig,
-    /// Of the routine under way.
+    /// Odometer of the routine under way.
     odometer: Odometer,
     /// Number of time steps of the routine under way.
     steps: u32,
 }
 
-/// What a turn may miss, rad.
+/// Maximum error of a turn, rad.
 const ALIGNED: f64 = 0.02;
-/// What need not be mended of where the robot stopped, m.
+/// Maximum offset from the middle of a place that is not corrected, m.
 const SETTLED: f64 = 0.01;
 /// Time steps after which a routine is lost: the longest corridor of 60 cells.
 const PATIENCE: u32 = 2000;
@@ -165,7 +165,7 @@ where
         Ok(distance)
     }
 
-    /// Moves to the middle of the place, as far as walls and corners around it tell where that is.
+    /// Moves to the middle of the place, as far as walls and corners around it show it.
     fn settle(&mut self, ahead: Heading) -> Result<(), RoutineError<R::Error>> {
         let Offset { along, .. } = self.offset(ahead)?;
         if along.abs() > SETTLED {
@@ -181,7 +181,7 @@ where
         Ok(())
     }
 
-    /// Ends a routine: what the place looks like is taken in standing still.
+    /// Ends a routine standing still, and returns the arrival with the view of the place.
     fn arrive(&mut self, outcome: MoveOutcome) -> Result<Arrival, RoutineError<R::Error>> {
         self.robot.stop().map_err(RoutineError::Robot)?;
         Ok(Arrival {
@@ -236,9 +236,9 @@ where
         self.arrive(MoveOutcome::Arrived)
     }
 
-    /// Follows the corridor in `direction` to the next corner or doorway: turns there, drives
-    /// between the walls, and stops in the middle of whatever opens or narrows beside the way, or
-    /// before a wall. Makes some thousand time steps at most.
+    /// Follows the corridor in `direction` to the next corner or doorway and returns the arrival.
+    /// It turns, drives between the walls, and stops before a wall, or in the middle of what opens
+    /// or narrows beside the way. It takes at most some thousand time steps.
     fn go(&mut self, direction: Direction) -> Result<Arrival, Self::Error> {
         self.odometer.begin();
         let ahead = heading_of(direction);

@@ -9,20 +9,20 @@ use tolman_robot::{
 
 use super::{Eye, Next, RouteFinder, RoutineConfig, RoutineConfigError, RoutineError, Surveyor};
 
-/// A robot with a learned diktiometry that was put down anywhere: it finds out where it is and goes
+/// A robot that was put down anywhere on a learned diktiometry: it finds out where it is and goes
 /// where it is sent. It never changes the map.
 ///
 /// Its tasks:
 ///
 /// - **Localize**: it keeps a [`PlaceBelief`] and makes the moves that tell the likeliest places
-///   apart, until one is believed by 90 % or the map tells no more of them apart.
-/// - **Reach** a place or a landmark: it localizes, follows the shortest way on the map, and looks
-///   where it is again when the map did not lead where it came. A way that was not as the map has
-///   it is not planned on again, as long as there are others. It gives up where the landmark is at
-///   no place of the map, or where nothing fits the map for long.
+///   apart. It ends when one place has 90 % of the belief, or the map tells no more of them apart.
+/// - **Reach** a place or a landmark: it localizes and follows the shortest way on the map. If that
+///   leads elsewhere than on the map, it localizes again. A way that differed from the map is
+///   avoided as long as there are others. It gives up if no place of the map has the landmark, or
+///   if nothing fits the map for long.
 /// - **Explore**: it gives up. A [`Diktiometer`](super::Diktiometer) learns maps.
 ///
-/// `E` is what it tells places apart by; the map's percepts have to fit it.
+/// `E` is the eye by which it tells places apart; the map's percepts have to fit it.
 #[derive(Clone, Debug)]
 pub struct Wayfinder<E> {
     routines: RoutineConfig,
@@ -62,8 +62,7 @@ impl<E> Wayfinder<E> {
         }
     }
 
-    /// Returns what it believes of where it is; `None` before it stands at a place for the first
-    /// time.
+    /// Returns its belief about its place; `None` before it stands at a place for the first time.
     #[must_use]
     pub const fn place_belief(&self) -> Option<&PlaceBelief> {
         self.finder.belief()

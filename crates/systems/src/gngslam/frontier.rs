@@ -1,4 +1,4 @@
-//! Where the map ends: points that a robot can go to and has not been near.
+//! Ends of the map: points that a robot can reach and has not been near.
 
 use core::f64::consts::TAU;
 
@@ -14,20 +14,20 @@ const DIRECTIONS: u32 = 48;
 /// Points near which the robot has nothing more to look for lie this near, m.
 const SAME: f64 = 0.3;
 
-/// What a robot needs to go on.
+/// Room that a robot needs to go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lane {
     /// Half the width of the lane in which nothing may stand, m.
     pub(super) half_width: f64,
-    /// How far it goes from a place, m.
+    /// Distance that it goes from a place, m.
     pub(super) reach: f64,
     /// No other place is this near to where it goes, m.
     pub(super) apart: f64,
 }
 
-/// Returns the points beside places that can be reached along a lane in which the place has seen
-/// nothing, and that lie near no place and near none of `tried`. In order of places. O(places ·
-/// (points + places)).
+/// Returns the free ends of lanes from places that lie near no place and near none of `tried`, in
+/// order of places. A lane is free if the place has seen nothing in it. O(places · (points +
+/// places)).
 pub(super) fn frontiers(map: &PlaceGraph, lane: Lane, tried: &[Point]) -> Vec<Target> {
     let places = map.poses().poses();
     let is_far = |point: Point| {

@@ -8,20 +8,19 @@ use crate::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles { system: "gngslam" };
 
-/// A learned map as it lies in a file: JSON, read back to the bit, but for what was known of the
-/// robot in it.
+/// Contents of a learned map's file: JSON, read back bit for bit, without the robot's pose.
 #[derive(Clone, Debug)]
 pub struct MapFile {
-    /// Where it was learned, by which robot and from which seed.
+    /// Maze, robot and seed of its origin.
     pub origin: Origin,
-    /// How it was learned.
+    /// Configuration with which it was learned.
     pub config: OnlineSlamConfig,
     /// The map, on which a robot may stand anywhere.
     pub graph: PlaceGraph,
-    /// Where landmarks were sensed.
+    /// Positions where landmarks were sensed.
     pub sightings: Vec<LandmarkSighting>,
-    /// Where the robot truly was when each place was made, m, for pictures and for whoever checks
-    /// the map alone; none if nobody watched.
+    /// True position of the robot when each place was made, m, for pictures and for checks of the
+    /// map alone; empty if unknown.
     pub sites: Vec<Point>,
 }
 
@@ -32,20 +31,24 @@ pub enum MapFileError {
     /// The header or the JSON is not sound, or names another system; or the map has no JSON form.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A landmark was sensed at a place that is not there.
-    #[error("a landmark was sensed at place {place}, and there are {places}: learn the map again")]
+    /// A landmark was sensed at a place that does not exist.
+    #[error(
+        "a landmark was sensed at place {place}, which does not exist; the number of places is {places}: learn the map again"
+    )]
     Sighting {
         /// The place.
         place: u32,
-        /// How many there are.
+        /// Number of places.
         places: usize,
     },
-    /// Not as many places were watched as there are.
-    #[error("{found} places were watched, and there are {places}: learn the map again")]
+    /// The number of true positions differs from that of places.
+    #[error(
+        "the number of true positions is {found}, but that of places is {places}: learn the map again"
+    )]
     Sites {
-        /// How many were watched.
+        /// Number of true positions.
         found: usize,
-        /// How many there are.
+        /// Number of places.
         places: usize,
     },
 }
@@ -148,8 +151,14 @@ mod tests {
     #[test]
     fn places_that_are_not_there_are_refused() {
         for (file, expect) in [
-            (file(7, 1), "sensed at place 7, and there are 1"),
-            (file(0, 2), "2 places were watched, and there are 1"),
+            (
+                file(7, 1),
+                "sensed at place 7, which does not exist; the number of places is 1",
+            ),
+            (
+                file(0, 2),
+                "the number of true positions is 2, but that of places is 1",
+            ),
         ] {
             let text = file.to_json().unwrap();
             let told = MapFile::from_json(&text).unwrap_err().to_string();

@@ -4,11 +4,11 @@
 //! using Growing Neural Gas", 2006. In the order data flows:
 //!
 //! 1. A [`Wanderer`] drives any robot that turns and translates and takes snapshots: straight on
-//!    until something is near, then elsewhere by chance (section 3.2). Where a leg ends it takes a
-//!    [`PlaceRecord`](tolman_maps::place_map::PlaceRecord).
-//! 2. [`OfflineSlam`] lets it, and learns a map of all records at once (section 3.4): the paper's
-//!    system.
-//! 3. A [`PlacePilot`] drives to a node of the map that was learned of them.
+//!    until something is near, then in a random direction (section 3.2). At the end of each leg it
+//!    takes a [`PlaceRecord`](tolman_maps::place_map::PlaceRecord).
+//! 2. [`OfflineSlam`] lets it wander, and learns a map of all records at once (section 3.4): the
+//!    paper's system.
+//! 3. A [`PlacePilot`] drives to a node of that map.
 //! 4. [`OnlineSlam`] is what the paper's section 6 asks for: it learns while it drives, and
 //!    corrects its pose by the places that it has learned ([`tolman_maps::place_graph`]). A
 //!    [`MapFile`] keeps them.

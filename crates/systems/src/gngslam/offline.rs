@@ -14,17 +14,17 @@ use tolman_robot::{
 use super::{Wanderer, WandererConfig, WandererError};
 use crate::stream;
 
-/// How an [`OfflineSlam`] gathers its records and learns.
+/// Parameters by which an [`OfflineSlam`] gathers its records and learns.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct OfflineSlamConfig {
-    /// How it wanders.
+    /// Parameters of its wandering.
     pub wanderer: WandererConfig,
-    /// How many records it learns from, at least 2. Paper: 1006.
+    /// Number of records it learns from, at least 2. Paper: 1006.
     pub records: usize,
-    /// What places are told by.
+    /// Features that describe a place.
     pub features: FeatureChoice,
-    /// How the map learns.
+    /// Parameters of the map's learning.
     pub map: PlaceMapConfig,
 }
 
@@ -54,10 +54,10 @@ impl OfflineSlamConfig {
 #[non_exhaustive]
 pub enum OfflineSlamError {
     /// They have no features.
-    #[error("the records lack what places are told by")]
+    #[error("the records lack a feature that describes places")]
     Features(#[from] FeatureError),
     /// They cannot be learned.
-    #[error("no map can be learned of the records")]
+    #[error("no map can be learned from the records")]
     Map(#[from] PlaceMapError),
 }
 
@@ -76,10 +76,9 @@ pub enum OfflineSlamFailure<R> {
 /// The paper's system: it wanders until it has its records (section 3.2), and then learns a map of
 /// all of them at once (section 3.4).
 ///
-/// An action of [`Task::Explore`] is a leg and the record of where it ended. Places are told by
-/// where the odometry has the robot, so that one which was lifted cannot find itself; and the paper
-/// plans ways on its map but drives none, so that it goes nowhere: see
-/// [`PlacePilot`](super::PlacePilot) for that.
+/// An action of [`Task::Explore`] is a leg and the record at its end. Places are described by the
+/// odometry's position, so a robot that was lifted cannot find itself. The paper plans ways on its
+/// map but drives none, so this system goes nowhere; a [`PlacePilot`](super::PlacePilot) does.
 #[derive(Clone, Debug)]
 pub struct OfflineSlam {
     config: OfflineSlamConfig,

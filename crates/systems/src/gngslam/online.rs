@@ -19,12 +19,12 @@ use super::route::{Obstacles, Route, Target};
 use super::sighting::amid;
 use crate::stream;
 
-/// How an [`OnlineSlam`] moves and maps.
+/// Parameters by which an [`OnlineSlam`] moves and maps.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct OnlineSlamConfig {
-    /// How it drives. A leg is one piece of the way: it looks after each.
+    /// Parameters of driving. A leg is one piece of the way: it looks after each.
     pub drive: UntilNearConfig,
     /// It turns by no more than this before it looks again, rad.
     pub turn_piece: f64,
@@ -32,8 +32,8 @@ pub struct OnlineSlamConfig {
     pub first_looks: u32,
     /// Where it goes to explore.
     pub explore: ExplorationPolicy,
-    /// It has explored everything when this many looks in a row have shown no new place, and no
-    /// place is left from where the floor goes on.
+    /// Number of looks in a row without a new place after which all is explored, if no place is
+    /// left from which the floor goes on.
     pub quiet_looks: u32,
     /// The floor goes on where nothing stands in a lane of half this width, m. It is narrower than
     /// the robot, since places are seldom in the middle of a corridor.
@@ -42,10 +42,10 @@ pub struct OnlineSlamConfig {
     pub patience: u32,
     /// It has come to a place when it is this near, m.
     pub arrival: f64,
-    /// What its limits are multiplied by where it has driven before, 0 … 1: it gets through there,
-    /// however near the walls are.
+    /// Factor of its limits where it has driven before, 0 to 1: it got through there, however near
+    /// the walls are.
     pub give_way: f64,
-    /// How it maps.
+    /// Parameters of mapping.
     pub map: PlaceGraphConfig,
 }
 
@@ -72,8 +72,8 @@ impl OnlineSlamConfig {
     }
 
     /// Returns our values for a round robot of this `radius`, m, that looks all round from its
-    /// middle and drives and turns at these fractions of its full rates, 0 … 1: some 0.04 m and 0.2
-    /// rad a time step. Which way it looks makes no new place.
+    /// middle. It drives and turns at these fractions of its full rates, 0 to 1: some 0.04 m and
+    /// 0.2 rad per time step. A new heading alone makes no new place.
     #[must_use]
     pub const fn all_round(radius: f64, translate: f64, turn: f64) -> Self {
         let mut config = Self::pioneer_2dx();
@@ -93,10 +93,10 @@ impl OnlineSlamConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ExplorationPolicy {
-    /// Straight on until something is near, and then elsewhere by chance, as in the paper.
+    /// Straight on until something is near, then in a random direction, as in the paper.
     ByChance,
     /// To the nearest point where the floor goes on beyond the map, as long as there are any; then
-    /// by chance.
+    /// at random.
     ToTheUnknown,
 }
 
@@ -112,7 +112,7 @@ pub enum OnlineSlamError<R> {
         /// For how many time steps it stood.
         steps: u32,
     },
-    /// What was seen cannot be mapped.
+    /// The look cannot be mapped.
     #[error("the map cannot take in what the robot saw")]
     Map(#[from] PlaceGraphError),
     /// The robot failed.
@@ -130,16 +130,16 @@ pub struct OnlineSlam {
     map: PlaceGraph,
     driver: UntilNear,
     rng: ChaCha8Rng,
-    /// What the wheels rolled since the last look.
+    /// Odometry since the last look.
     rolled: Vec<Odometry>,
     was_put_down: bool,
     /// Looks round that are still to be made.
     looks_round: u32,
-    /// What is left of the turn under way, rad.
+    /// Remaining angle of the turn under way, rad.
     turn: f64,
     /// Looks since the last new place.
     quiet: u32,
-    /// Where landmarks were sensed.
+    /// Positions where landmarks were sensed.
     sightings: Vec<LandmarkSighting>,
     /// Places that it came back to and did not sense the goal at.
     tried: Vec<u32>,
@@ -153,7 +153,7 @@ pub struct OnlineSlam {
     explored: Vec<Point>,
     /// Whether it touched something in the action under way.
     has_touched: bool,
-    /// How often it forgets them and goes there again.
+    /// Number of times that it may forget them and go there again.
     retries: u32,
 }
 
@@ -168,7 +168,7 @@ struct Frontier {
 /// Pieces of the way after which a point that it goes to, to explore, is given up.
 const PATIENCE: u32 = 60;
 
-/// How often points that it could not come to are tried again.
+/// Number of times that unreachable points are tried again.
 const RETRIES: u32 = 2;
 
 /// Pieces that a blocked way counts as.
@@ -177,11 +177,10 @@ const BLOCKED: u32 = 20;
 /// It goes this much farther beyond a place than it has to, m.
 const BEYOND: f64 = 0.05;
 
-/// How many time steps it goes away from something that it has touched.
+/// Number of time steps that it drives away from something it has touched.
 const STEPS_FREE: u32 = 4;
 
-/// A random turn is at least so large, rad: what is near ahead is near all the same a little
-/// beside.
+/// Minimum random turn, rad: what is near ahead is also near at smaller angles.
 const LEAST_TURN: f64 = 0.5;
 
 impl OnlineSlam {
@@ -192,8 +191,8 @@ impl OnlineSlam {
         Self::on(PlaceGraph::new(config.map), config, seed)
     }
 
-    /// Returns a system that knows a map, and goes on with it; for a robot that may stand anywhere,
-    /// take a map that was [put down](PlaceGraph::put_down).
+    /// Returns a system that continues a known map. For a robot that may stand anywhere, pass a map
+    /// that was [put down](PlaceGraph::put_down).
     #[must_use]
     pub fn on(map: PlaceGraph, config: OnlineSlamConfig, seed: u64) -> Self {
         Self {
@@ -218,8 +217,8 @@ impl OnlineSlam {
         }
     }
 
-    /// Lets it know where landmarks were sensed on its map. Those beside no place of it are left
-    /// out.
+    /// Adds the positions where landmarks were sensed on its map. Those beside an unknown place are
+    /// left out.
     #[must_use]
     pub fn with_sightings(mut self, sightings: Vec<LandmarkSighting>) -> Self {
         let places = self.map.places().len();
@@ -236,7 +235,7 @@ impl OnlineSlam {
     }
 
     /// Returns the places on the shortest way between two places, both included; `None` if there is
-    /// none, or a place is not there. O(links log places).
+    /// no way, or a place does not exist. O(links log places).
     #[must_use]
     pub fn plan(&self, from: u32, to: u32) -> Option<Vec<u32>> {
         let poses = self.map.poses().poses();
@@ -302,8 +301,8 @@ impl OnlineSlam {
         Ok(())
     }
 
-    /// Returns by how much to turn where something is near, rad: by chance, or into any direction
-    /// in which nothing is near.
+    /// Returns the angle to turn by when something is near, rad: random, or into any direction in
+    /// which nothing is near.
     fn turn_elsewhere(&mut self, sensing: &impl Soundings) -> f64 {
         if self.config.explore == ExplorationPolicy::ToTheUnknown {
             let ways = ways_on(sensing, self.lane());
@@ -353,8 +352,8 @@ impl OnlineSlam {
         self.turn_by(robot, piece)
     }
 
-    /// Turns in place by `angle`, rad, counter-clockwise, as far as the wheels tell. Where it
-    /// touches something it goes free of that instead.
+    /// Turns in place by `angle`, rad, counter-clockwise, by the wheels. If it touches something,
+    /// it drives free of that instead.
     fn turn_by<R>(&mut self, robot: &mut R, angle: f64) -> Result<(), R::Error>
     where
         R: Robot<Command = TurnTranslate>,
@@ -422,9 +421,9 @@ impl OnlineSlam {
         }
     }
 
-    /// It is where it was to sense the goal and does not sense it: it goes where else the goal was
-    /// sensed, and when it has been everywhere it is not where it believes to be, and looks for
-    /// itself again.
+    /// Handles a goal that is not sensed where it should be. The robot goes to the next position
+    /// where the goal was sensed. After the last one its pose must be wrong, and it localizes
+    /// again.
     fn miss(&mut self, goal: Goal, place: u32) {
         self.route = None;
         self.tried.push(place);
@@ -542,7 +541,7 @@ impl OnlineSlam {
     }
 }
 
-/// What lies within this angle lies ahead, rad.
+/// Angle on both sides of straight ahead that counts as ahead, rad.
 const AHEAD: f64 = 0.25;
 
 impl Mapper for OnlineSlam {

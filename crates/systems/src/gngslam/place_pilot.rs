@@ -9,11 +9,11 @@ use tolman_robot::{Bumps, Robot, Rolls, Standing, TakesSnapshots, TurnTranslate}
 
 use super::{Wanderer, WandererError};
 
-/// How a [`PlacePilot`] follows a way.
+/// Parameters by which a [`PlacePilot`] follows a way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PlacePilotConfig {
-    /// How it drives between two looks.
+    /// Parameters of driving between two looks.
     pub drive: UntilNearConfig,
     /// It has come to a node when its wheels have it this near, m.
     pub arrival: f64,
@@ -49,19 +49,19 @@ pub enum PlacePilotError<E> {
     Map(#[from] PlaceMapError),
 }
 
-/// Drives a robot to a node of a [`PlaceMap`]: it takes a record, asks the map which node is
-/// nearest, plans from there along the links (section 3.4: "find a path"), and goes towards the
-/// next node by its wheels.
+/// Drives a robot to a node of a [`PlaceMap`]. It takes a record, asks the map for the nearest
+/// node, plans from there along the links (section 3.4: "find a path"), and drives towards the next
+/// node by its wheels.
 ///
-/// The robot has to be the one that gathered the records, or to know where it is in the frame of
-/// their odometry: nodes lie where that had them.
+/// The robot has to be the one that gathered the records, or has to know its pose in the frame of
+/// their odometry, as nodes lie in that frame.
 #[derive(Clone, Debug)]
 pub struct PlacePilot<'a> {
     map: &'a PlaceMap,
     config: PlacePilotConfig,
     driver: UntilNear,
     goal: UnitId,
-    /// Which way it goes round what is in the way next: 1 to the left.
+    /// Side on which it passes the next obstacle: 1 for left.
     side: f64,
     /// Nodes that it came near to since it was sent out.
     passed: Vec<UnitId>,
@@ -81,8 +81,8 @@ impl<'a> PlacePilot<'a> {
         }
     }
 
-    /// Makes a piece of the way with a robot whose dead reckoning `wanderer` keeps, and returns how
-    /// it stands: done when its wheels have it at the goal.
+    /// Drives a piece of the way with a robot whose dead reckoning `wanderer` keeps. Returns the
+    /// state of the task, which is done when the wheels have the robot at the goal.
     ///
     /// # Errors
     /// [`PlacePilotError`] if the robot fails or takes no snapshot, or the map is of another robot.

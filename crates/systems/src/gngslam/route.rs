@@ -5,7 +5,7 @@ use tolman_maps::place_graph::PlaceGraph;
 use tolman_planners::{Arcs, a_star, costs_from};
 use tolman_robot::Mapper;
 
-/// Where a way leads: a point, and the place beside it.
+/// End of a way: a point, and the place beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Target {
     pub(super) place: u32,
@@ -15,7 +15,7 @@ pub(super) struct Target {
 /// A way over the places of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Route {
-    /// Where it leads.
+    /// End of the way.
     pub(super) target: Target,
     /// Places and points still to come to, the next one last.
     ahead: Vec<(u32, Point)>,
@@ -23,7 +23,7 @@ pub(super) struct Route {
     passed: u32,
 }
 
-/// How often something was in the way between two places, the lower one first.
+/// Number of times that something blocked the way between two places, the lower one first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Obstacles(BTreeMap<(u32, u32), u32>);
 
@@ -55,8 +55,8 @@ impl Obstacles {
         Arcs::new(poses.len(), &links.collect::<Vec<_>>())
     }
 
-    /// Returns the one of `targets` with the shortest way to its place from the place nearest to
-    /// `here`, the first of several; `None` if no way leads to any. O(links log places).
+    /// Returns the target whose place has the shortest way from the place nearest to `here`, the
+    /// first of equals; `None` if no way leads to any. O(links log places).
     pub(super) fn nearest(
         &self,
         map: &PlaceGraph,

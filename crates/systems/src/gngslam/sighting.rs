@@ -4,15 +4,15 @@ use tolman_robot::Landmark;
 
 use super::route::Target;
 
-/// Where a landmark was sensed, beside a place of a map.
+/// Position where a landmark was sensed, beside a place of a map.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LandmarkSighting {
-    /// Which.
+    /// The landmark.
     pub landmark: Landmark,
     /// The place nearest to where it was sensed.
     pub place: u32,
-    /// Where it was sensed, in the place's frame, m.
+    /// Position where it was sensed, in the place's frame, m.
     pub at: Point,
 }
 
@@ -27,9 +27,9 @@ impl LandmarkSighting {
     }
 }
 
-/// Returns where to go to sense a landmark again: amid all points where it was sensed but those in
-/// `tried`, the places that it was not sensed at when the robot came back. `None` if there are
-/// none. O(sightings).
+/// Returns where to go to sense a landmark again: the middle of all points where it was sensed.
+/// Places in `tried`, where the robot came back and did not sense it, are left out. `None` if there
+/// are no others. O(sightings).
 pub(super) fn amid(
     sightings: &[LandmarkSighting],
     wanted: Landmark,

@@ -10,22 +10,20 @@ use tolman_robot::{Bumps, Odometry, Reckoned, Robot, Rolls, TakesSnapshots, Turn
 
 use crate::stream;
 
-/// How a [`Wanderer`] wanders.
+/// Parameters of a [`Wanderer`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct WandererConfig {
-    /// How it drives and turns.
+    /// Parameters of driving and turning.
     pub drive: UntilNearConfig,
-    /// How near the wanderer goes: each time, what lies ahead may come as near as a share of the
-    /// limit that is drawn between this and
-    /// 1. Paper: 1, always the limit.
+    /// Smallest share of the limit ahead to which it goes, 0 to 1. The share of each leg is drawn
+    /// between this and 1; at 1, the paper's value, it is always the limit.
     pub nearest: f64,
     /// A leg that led less far is followed by another one before a record is taken, m. Ours: 0.3.
     pub least_way: f64,
-    /// How many legs it tries before it takes a record wherever it is, at least 1. Ours: 12.
+    /// Number of legs it tries before it takes a record wherever it is, at least 1. Ours: 12.
     pub most_tries: u32,
-    /// What all thresholds are multiplied by each time that the way is clear in no direction, 0 …
-    /// 1. Ours: 0.7.
+    /// Factor of all thresholds each time that no direction is free, 0 to 1. Ours: 0.7.
     pub give_way: f64,
     /// Time steps that it stands still for a snapshot at most, at least 1. Ours: 10.
     pub patience: u32,
@@ -84,10 +82,10 @@ pub enum WandererError<E> {
 }
 
 /// Gathers records: a robot that drives straight on until something is near, takes a record there,
-/// and turns elsewhere by chance (section 3.2).
+/// and turns by a random angle (section 3.2).
 ///
-/// It gets out of corners: it turns until the way is clear, and where it is clear in no direction
-/// it lets things come nearer. It backs off where its body is wedged.
+/// It gets out of corners: it turns until the way is clear. If no direction is clear, it lets
+/// things come nearer. It backs off if its body is wedged.
 #[derive(Clone, Debug)]
 pub struct Wanderer {
     config: WandererConfig,
@@ -96,7 +94,7 @@ pub struct Wanderer {
     odometry: Pose,
 }
 
-/// How many time steps it backs off where it is wedged.
+/// Number of time steps that it backs off if it is wedged.
 const BACK_OFF: u32 = 4;
 
 impl Wanderer {
@@ -194,7 +192,7 @@ impl Wanderer {
     }
 }
 
-/// Dead reckoning: adds every step to where the wheels have the robot.
+/// Returns dead reckoning: a function that adds a step of odometry to the pose.
 fn adding_to(pose: &mut Pose) -> impl FnMut(Odometry) {
     move |rolled| *pose = rolled.applied_to(*pose)
 }

@@ -1,4 +1,5 @@
 use tolman_maze::{Cell, Direction, Grid};
+use tolman_robot::{Goal, Landmark};
 
 /// What a mouse is told of a maze before it starts: all but its walls.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,4 +12,17 @@ pub struct Brief {
     pub heading: Direction,
     /// The cells where runs end.
     pub goals: Vec<Cell>,
+}
+
+impl Brief {
+    /// Returns the cells where a goal is reached; `None` if it is not in this maze. A place is a
+    /// cell, by [`Grid::index`].
+    pub(super) fn cells_of(&self, goal: Goal) -> Option<Vec<Cell>> {
+        match goal {
+            Goal::Landmark(Landmark::Start) => Some(vec![self.start]),
+            Goal::Landmark(Landmark::Goal) => Some(self.goals.clone()),
+            Goal::Landmark(Landmark::Numbered(_)) => None,
+            Goal::Place(id) => Some(vec![self.grid.cells().nth(id as usize)?]),
+        }
+    }
 }

@@ -7,21 +7,19 @@ use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::SIDE;
 
-/// What convinces others that a run is the best there can be, whatever the walls that nobody has
-/// looked at.
+/// Proof for others that a run is the best possible, whatever the unknown walls are.
 ///
-/// The run shows that it can be driven. That none is shorter is shown by a number for every cell:
-/// at most that many steps fewer than the run has are needed from here. Goals have 0, and no step
-/// over walls that are open or unknown leads to a cell whose number is smaller by more than one. So
-/// from a cell with number *k* the goal is at least *k* steps away, and all there is to check are
-/// single steps: no search.
+/// The run shows that it can be driven. A number for every cell, a lower bound of the steps to a
+/// goal, shows that none is shorter. Goals have 0. No step over open or unknown walls leads to a
+/// cell whose number is smaller by more than one. So from a cell with number *k* the goal is at
+/// least *k* steps away. A checker only has to look at single steps; it needs no search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Certificate {
     /// The size of the maze.
     pub grid: Grid,
-    /// Where the run begins.
+    /// Cell where the run begins.
     pub start: Cell,
-    /// Where it may end.
+    /// Cells where it may end.
     pub goals: Vec<Cell>,
     /// All walls that were looked at, and whether they stand, by number.
     pub walls: Vec<(Wall, Knowledge)>,
@@ -31,7 +29,7 @@ pub struct Certificate {
     pub closed_cost: u32,
     /// The steps of the best run that can be hoped for.
     pub open_cost: u32,
-    /// For every cell, by [`Grid::index`], how many steps the goal is away at least.
+    /// Lower bound of the steps to a goal from every cell, by [`Grid::index`].
     pub at_least: Vec<u32>,
 }
 

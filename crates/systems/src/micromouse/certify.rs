@@ -21,7 +21,7 @@ enum Explorer {
 
 impl Certify {
     /// Returns a search in a maze of the size of `grid`, for runs from `start`, by a mouse that has
-    /// seen nothing; with rollouts or without.
+    /// seen nothing. `rollouts` is `None` to search without rollouts.
     ///
     /// # Errors
     /// If a weight is out of its range.

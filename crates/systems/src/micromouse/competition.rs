@@ -1,7 +1,7 @@
 //! The competition model of the micromouse: explore, prove, run as fast as can be.
 //!
-//! How the mouse decides is told in [`speed_run`](tolman_planners::speed_run). Here it keeps its
-//! map and its place, and answers what its wall sensors see with where to drive.
+//! [`speed_run`](tolman_planners::speed_run) explains how the mouse decides. Here it keeps its map
+//! and its place, and answers each reading of its wall sensors with where to drive.
 //!
 //! ```
 //! use tolman_maze::{Cell, Direction, Grid};
@@ -38,33 +38,33 @@ use tolman_planners::{Passages, Unknown};
 
 use super::Brief;
 
-/// What came of an exploration.
+/// Result of an exploration.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpeedRunExploration {
     /// Moves from a cell to the next, from the start to the goal, wherever else, and back to the
     /// start.
     pub cells: u32,
-    /// Of them, those until the mouse was first at a goal.
+    /// Number of these cells until the mouse was first at a goal.
     pub search_cells: u32,
-    /// Of them, those from there until the run was known to be the fastest; the rest is the way
-    /// home.
+    /// Number of these cells from there until the run was known to be the fastest; the rest is the
+    /// way home.
     pub proof_cells: u32,
-    /// The run that the mouse found. Its heading is another than that of the [`Brief`] where no run
-    /// leads ahead from the start: then the mouse turns to the next side, clockwise, from which one
+    /// The run that the mouse found. If no run leads ahead from the start, its heading differs from
+    /// that of the [`Brief`]: the mouse then turns to the next side, clockwise, from which a run
     /// does.
     pub certificate: SpeedRunCertificate,
     /// The moves of that run, with where each begins and how long it takes.
     pub run: Vec<RunLeg>,
-    /// What the checker says to it: it sees the walls that the mouse knows, and no more.
+    /// Verdict of the checker, which sees only the walls that the mouse knows.
     pub verdict: Result<(), SpeedRunCertificateError>,
 }
 
 /// A move of a speed run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunLeg {
-    /// What is driven, and from where.
+    /// The step, and where it begins.
     pub step: RunStep,
-    /// How long it takes, ms.
+    /// Duration, ms.
     pub time_ms: u16,
 }
 
@@ -73,23 +73,23 @@ pub struct RunLeg {
 #[non_exhaustive]
 pub enum ExploreError {
     /// The mouse cannot be driven like that.
-    #[error("the mouse cannot be driven as its configuration says")]
+    #[error("the configuration of the mouse is invalid")]
     Config(#[from] SpeedRunConfigError),
     /// The maze has more than 32 columns or rows.
     #[error("the maze does not fit into the mouse's map")]
     TooLarge(#[from] TooLarge),
-    /// What is seen contradicts the map.
-    #[error("the mouse sees what it knows to be different")]
+    /// The reading contradicts the map.
+    #[error("the reading contradicts the mouse's map")]
     Observation(#[from] ObserveError),
     /// The mouse knows no way to a goal.
-    #[error("the mouse in {at} sees no way to a goal any more")]
+    #[error("the mouse's map has no way from {at} to a goal")]
     NoWay {
-        /// Where it is.
+        /// Cell where it is.
         at: Cell,
     },
 }
 
-/// What a mouse does next.
+/// Next action of a mouse.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CompetitionNext {
     /// It drives to the next cell on this side.
@@ -105,7 +105,7 @@ pub struct CompetitionMouse<'a, const N: usize> {
     config: &'a SpeedRunConfig,
     times: &'a SpeedRunTimes<N>,
     explorer: SpeedRunExplorer<'a, N>,
-    /// Where the mouse looks when its speed run begins.
+    /// Heading of the mouse at the start of its speed run.
     run_heading: Direction,
     walls: WallMap<N>,
     at: Cell,
@@ -173,8 +173,8 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         }
     }
 
-    /// No run leads ahead from the start, as where a wall stands ahead of it: turns to the next
-    /// side that may be open, clockwise, as a person puts the mouse down.
+    /// Turns to the next side that may be open, clockwise, as no run leads ahead from the start. A
+    /// person puts the mouse down in that direction.
     fn turn_round(&mut self) -> Result<(), ExploreError> {
         let start = self.brief.start;
         let mut next = self.run_heading.right();

@@ -7,12 +7,12 @@ use tolman_planners::{Passages, TooLarge, Unknown};
 use super::SIDE;
 use super::driver::{Next, Search, SearchView};
 
-/// The paper's *counter search* (section 3.3.2): to the adjacent cell that was visited least and is
-/// no dead end, until enough of the maze is visited; section 3.4: "the search will continue even
-/// the goal has already been visited until the threshold has been met".
+/// The paper's *counter search* (section 3.3.2): to the least visited adjacent cell that is not a
+/// dead end, until enough of the maze is visited. Section 3.4: "the search will continue even the
+/// goal has already been visited until the threshold has been met".
 ///
-/// The paper does not say how ties are broken, only that the method is stochastic: by chance. Of
-/// cells that are all dead ends the least visited one is taken.
+/// The paper does not say how ties are broken, only that the method is stochastic. Here they are
+/// broken at random. If all cells are dead ends, the least visited one is taken.
 #[derive(Clone, Debug)]
 pub struct CounterSearch {
     threshold_percent: u32,
@@ -52,7 +52,7 @@ impl Search for CounterSearch {
     }
 }
 
-/// Returns one of some leaps by chance.
+/// Returns a random leap.
 pub(super) fn pick(leaps: &[Leap], rng: &mut impl Rng) -> Option<Leap> {
     let count = u32::try_from(leaps.len()).ok().filter(|count| *count > 0)?;
     leaps.get(rng.random_range(0..count) as usize).copied()

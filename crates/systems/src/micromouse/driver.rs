@@ -1,4 +1,4 @@
-//! What all our mice have in common: the map, the place, the two runs.
+//! The part that all our mice share: the map, the place, the two runs.
 
 use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 use tolman_maze::{Cell, Direction, Walls};
@@ -7,7 +7,7 @@ use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::{Brief, Certificate, MouseError, Order, RunTwo, SIDE, Sight};
 
-/// How to explore.
+/// A strategy of exploration.
 pub trait Search {
     /// Returns what to do next in the first run.
     ///
@@ -22,20 +22,20 @@ impl<S: Search + ?Sized> Search for Box<S> {
     }
 }
 
-/// What a search decides on.
+/// Input of a search.
 #[derive(Debug)]
 pub struct SearchView<'a> {
-    /// What is known, and how often the mouse has stood where.
+    /// Known walls, and how often the mouse has been in each cell.
     pub map: &'a WallMap<SIDE>,
-    /// Where the mouse stands.
+    /// Cell of the mouse.
     pub at: Cell,
-    /// Where runs begin.
+    /// Cell where runs begin.
     pub start: Cell,
-    /// Where they end.
+    /// Cells where they end.
     pub goals: &'a [Cell],
 }
 
-/// What a search wants.
+/// Decision of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Next {
     /// Drive there.
@@ -63,7 +63,7 @@ pub struct Driver<S> {
 }
 
 impl<S: Search> Driver<S> {
-    /// Returns a mouse at the start of a maze that it was told of by `brief`.
+    /// Returns a mouse at the start of the maze that `brief` describes.
     ///
     /// # Errors
     /// If the maze is larger than [`SIDE`].
@@ -108,7 +108,7 @@ impl<S: Search> Driver<S> {
         MouseStep::of_leap(&mut self.heading, leap).into()
     }
 
-    /// The first run is over.
+    /// Ends the first run: plans the second one, and returns the reset.
     fn reset(&mut self) -> Result<Order, MouseError> {
         let known = Passages::new(&self.map, Unknown::Closed)?;
         let plan = self

@@ -40,6 +40,7 @@ mod certify;
 pub mod competition;
 mod counter;
 mod driver;
+mod grid_map;
 pub mod mms;
 mod mouse;
 pub mod noisy;

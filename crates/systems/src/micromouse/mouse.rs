@@ -1,4 +1,4 @@
-//! What a mouse is to the referee.
+//! The interface of a mouse to the referee.
 
 use tolman_maps::wall_map::{ObserveError, TooLarge};
 use tolman_planners::moves::MoveExplorerConfigError;
@@ -6,7 +6,7 @@ use tolman_planners::moves::MoveExplorerConfigError;
 /// The largest maze our mice hold, columns or rows.
 pub const SIDE: usize = 32;
 
-/// What the three sensors of a mouse see: how many cells are open as far as the next wall.
+/// Reading of the three sensors of a mouse: the number of open cells up to the next wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sight {
     /// To the left.
@@ -24,7 +24,7 @@ pub enum MouseError {
     /// The maze is larger than its map.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
-    /// What it sees cannot be, where it thinks it is.
+    /// The reading is impossible at the mouse's believed place.
     #[error("the mouse has lost its way")]
     Observe(#[from] ObserveError),
     /// It cannot search with these weights, or choose among stops with these values.

@@ -1,4 +1,4 @@
-//! What a mouse says to the referee.
+//! Orders of a mouse to the referee.
 
 use serde::{Deserialize, Serialize};
 use tolman_planners::moves::MouseStep;
@@ -35,7 +35,7 @@ pub enum Rotation {
     Reset(Reset),
 }
 
-/// How far to drive.
+/// Distance to drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Movement {

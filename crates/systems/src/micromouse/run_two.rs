@@ -6,13 +6,13 @@ use tolman_planners::{Passages, StepMap};
 
 use super::SIDE;
 
-/// How the second run is planned.
+/// Criterion of the second run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunTwo {
     /// The fewest steps.
     FewestMoves,
-    /// Among the paths of fewest cells the one of fewest steps (the paper, section 3.3.2: the value
-    /// map of A*, several shortest paths, "the one with minimum moves").
+    /// The path of fewest steps among those of fewest cells. In the paper, section 3.3.2, that is
+    /// the value map of A* and, of several shortest paths, "the one with minimum moves".
     FewestCells,
 }
 
@@ -31,7 +31,7 @@ impl RunTwo {
     }
 }
 
-/// Breadth-first over leaps that leave no shortest path.
+/// Returns a plan of fewest cells: breadth-first over leaps that stay on shortest paths.
 fn fewest_cells(known: &Passages<SIDE>, start: Cell, goals: &[Cell]) -> Option<Vec<Leap>> {
     let value = StepMap::new(known, goals.iter().copied());
     // By cell reached: the leap that led there first.

@@ -18,7 +18,7 @@ pub enum Searcher {
     Certify,
     /// The same, but until the rest of the proof no longer pays.
     CertifyWorth,
-    /// As [`Searcher::Certify`], without rollouts.
+    /// Like [`Searcher::Certify`], without rollouts.
     CertifyPlain,
     /// The paper's target search.
     Target,
@@ -65,7 +65,7 @@ impl Searcher {
         )
     }
 
-    /// Returns a mouse with this search at the start of a maze that it was told of by `brief`.
+    /// Returns a mouse with this search at the start of the maze that `brief` describes.
     ///
     /// # Errors
     /// If the maze is too large.

@@ -6,10 +6,11 @@ use super::SIDE;
 use super::driver::{Next, Search, SearchView};
 
 /// The paper's *target search* (section 3.3.2): "in each timestamp" to the nearest of the cells of
-/// largest uncertainty, by the shortest path, unknown walls taken for open. It ends when a goal was
-/// visited and the open path is as short as the close path, both in cells.
+/// largest uncertainty, by the shortest path, with unknown walls taken for open. It ends when a
+/// goal was visited and the open path is as short as the closed path, both in cells.
 ///
-/// The paper leaves open which shortest path is taken: here one that goes on straight where it can.
+/// The paper leaves open which shortest path is taken. Here it is one that goes straight on if
+/// possible.
 #[derive(Clone, Debug, Default)]
 pub struct TargetSearch {
     /// Whether a goal was visited.
@@ -63,7 +64,7 @@ fn path_to_target(view: &SearchView<'_>) -> Result<Vec<Direction>, TooLarge> {
     Ok(target.map_or_else(Vec::new, |(_, cell)| path(&hoped, view.at, &[cell])))
 }
 
-/// As far along the path as one step goes.
+/// Returns the leap along the path that one step allows.
 pub(super) fn leap(view: &SearchView<'_>, path: &[Direction]) -> Result<Option<Leap>, TooLarge> {
     let known = Passages::<SIDE>::new(view.map, Unknown::Closed)?;
     let Some(&direction) = path.first() else {
@@ -74,8 +75,8 @@ pub(super) fn leap(view: &SearchView<'_>, path: &[Direction]) -> Result<Option<L
     Ok(leaps.map(|(leap, _)| leap).last())
 }
 
-/// Returns a shortest path to the nearest of `targets`, straight on where it can: the sides by
-/// which it leaves its cells.
+/// Returns a shortest path to the nearest of `targets`, straight on if possible: the sides by which
+/// it leaves its cells.
 pub(super) fn path(passages: &Passages<SIDE>, from: Cell, targets: &[Cell]) -> Vec<Direction> {
     let steps = StepMap::new(passages, targets.iter().copied());
     let mut path = Vec::new();

@@ -5,7 +5,6 @@ pub enum Until {
     Goal,
     /// When to look on is expected to cost more than it gains in the score.
     Worth,
-    /// When no run can score less than the best one it knows, whatever the walls nobody has looked
-    /// at.
+    /// When no run can score less than the best known one, whatever the unknown walls are.
     Proof,
 }

@@ -5,8 +5,8 @@ use super::SIDE;
 use super::driver::{Next, Search, SearchView};
 use super::target::{leap, path};
 
-/// A search for the whole maze: to the nearest cell that it has not been in, until there is none
-/// left that can be reached.
+/// A search for the whole maze: it goes to the nearest unvisited cell until no such cell can be
+/// reached.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WholeMaze;
 

@@ -11,8 +11,8 @@ use crate::{Brain, Doing, RolledStep};
 
 /// The better MSLST as a whole: it explores, makes its map ready, and then navigates.
 ///
-/// Let an [`Actor`](crate::Actor) drive it. [`Task::Explore`] ends when no gap is left. Whoever
-/// puts it down before ends the exploration: it navigates by what it has learned so far.
+/// Let an [`Actor`](crate::Actor) drive it. [`Task::Explore`] ends when no gap is left. If the
+/// robot is put down elsewhere before that, exploration ends and it navigates by the map so far.
 #[derive(Clone, Debug)]
 pub struct BetterMslst {
     config: BetterConfig,
@@ -39,7 +39,7 @@ impl BetterMslst {
         }
     }
 
-    /// Returns what it has learned so far. O(map).
+    /// Returns the chart of the map so far. O(map).
     #[must_use]
     pub fn chart(&self) -> ScanChart {
         match &self.phase {
@@ -85,7 +85,7 @@ impl BetterMslst {
         Ok(Box::new(BetterNavigator::new(Arc::new(map))))
     }
 
-    /// Ends the exploration of a robot that is lifted amid it.
+    /// Ends the exploration of a robot that is lifted during it.
     fn lifted(&mut self) -> Result<(), RingError> {
         if let Phase::Exploration(explorer) = &self.phase
             && !explorer.learned().places().is_empty()

@@ -47,7 +47,7 @@ impl Mslst {
         }
     }
 
-    /// Returns what it has learned; `None` before the end of Phase II.
+    /// Returns the learned map; `None` before the end of Phase II.
     #[must_use]
     pub const fn learned(&self) -> Option<&Arc<MslstMap>> {
         match &self.phase {
@@ -56,7 +56,7 @@ impl Mslst {
         }
     }
 
-    /// Returns how many nodes its graph has so far. Their ids count up from 0.
+    /// Returns the number of nodes of its graph so far. Their ids count up from 0.
     #[must_use]
     pub fn node_count(&self) -> usize {
         match &self.phase {

@@ -2,7 +2,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ROBOT_UNIT;
 
-/// What can be chosen about MSLST.
+/// Parameters of MSLST.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MslstConfig {
     /// Phase I, the error threshold of the equilibrium GNG: squared robot units, above 0. The paper
@@ -14,7 +14,7 @@ pub struct MslstConfig {
     /// Phase II, how long it wanders: actions, at least 1. The paper does not say: "chosen largely
     /// based on how much time was available". See `docs/mslst.md`.
     pub graph_actions: u32,
-    /// Phase III, how many pairs of state and action are remembered: at least 1. "The last eight …
+    /// Number of pairs of state and action that Phase III remembers, at least 1. "The last eight …
     /// when solving the large maze, and six for the J-maze."
     pub memory: u32,
     /// Phase III, for how many actions it acts randomly once it believes to have arrived. "Eight
@@ -23,7 +23,7 @@ pub struct MslstConfig {
 }
 
 impl MslstConfig {
-    /// As in the J maze: threshold 100, a memory of six.
+    /// Returns the values for the J maze: threshold 100, a memory of six.
     #[must_use]
     pub const fn j() -> Self {
         Self {
@@ -32,7 +32,7 @@ impl MslstConfig {
         }
     }
 
-    /// As in the Large maze: a memory of eight, and a threshold of 20 or 50.
+    /// Returns the values for the Large maze: a memory of eight; its `threshold` is 20 or 50.
     #[must_use]
     pub const fn large(threshold: f64) -> Self {
         Self {
@@ -45,7 +45,8 @@ impl MslstConfig {
     }
 
     /// Returns this configuration for a robot `diameter` m across, above 0, in place of the
-    /// paper's: the threshold holds for the same scans in diameters of the robot.
+    /// paper's. The threshold is scaled such that it holds for the same scans in diameters of the
+    /// robot.
     #[must_use]
     pub const fn on_robot(self, diameter: f64) -> Self {
         let scale = diameter / ROBOT_UNIT;

@@ -4,29 +4,29 @@ use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
 
 use super::States;
 
-/// What Phases I and II leave to Phase III: all that the brain knows of the maze.
+/// Result of Phases I and II for Phase III: all that the brain knows of the maze.
 #[derive(Clone, Debug)]
 pub struct MslstMap {
     /// The states that scans are sorted into.
     pub states: States,
-    /// How actions lead from one to the next.
+    /// Actions that lead from one to the next.
     pub graph: MslstGraph,
 }
 
-/// A map, and what whoever watched it grow knows of it.
+/// A map, and what an observer with the truth recorded about it.
 #[derive(Clone, Debug)]
 pub struct Learned {
-    /// What the brain gets.
+    /// The part for the brain.
     pub map: MslstMap,
-    /// What it does not.
+    /// The part that the brain does not get.
     pub survey: GrowthRecord,
 }
 
-/// What a watcher saw while a map was learned, for pictures and scores; no brain reads it. Empty
-/// where nobody watched, as with a real robot.
+/// Truth recorded while a map was learned, for pictures and scores; no brain reads it. Empty if
+/// nothing was recorded, as with a real robot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GrowthRecord {
-    /// Where the robot truly was when each node was made, by id; metres.
+    /// True position of the robot when each node was made, by id, m.
     pub positions: Vec<Point>,
     /// The action of Phase II, from 1, that made each node; 0 for the first one.
     pub made_by: Vec<u32>,

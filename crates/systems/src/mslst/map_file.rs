@@ -9,12 +9,12 @@ use crate::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles { system: "mslst" };
 
-/// A learned map as it lies in a file: JSON, read back to the bit.
+/// Contents of a learned map's file: JSON, read back bit for bit.
 #[derive(Clone, Debug)]
 pub struct MapFile {
-    /// Where it was learned, by which robot and from which seed.
+    /// Maze, robot and seed of its origin.
     pub origin: Origin,
-    /// How it was learned.
+    /// Configuration with which it was learned.
     pub config: MslstConfig,
     /// The map.
     pub learned: Learned,
@@ -34,13 +34,13 @@ pub enum MapFileError {
     #[error("its nodes do not form a graph")]
     Graph(#[from] GraphError),
     /// A node's state is not among the states.
-    #[error("node {node}: there is no state {state}, only {count} of them")]
+    #[error("node {node} has state {state}, but there are only {count} states")]
     NoSuchState {
         /// The node.
         node: usize,
         /// Its state.
         state: u32,
-        /// How many there are.
+        /// Number found.
         count: usize,
     },
 }
@@ -59,7 +59,7 @@ struct SavedNode {
     destination: bool,
     /// Action and head; a failed action has none.
     edges: Vec<(Direction, Option<u32>)>,
-    /// Where the robot truly was, m, if somebody watched; for pictures only.
+    /// True position of the robot, m, if it was recorded; for pictures only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     made_at: Option<[f64; 2]>,
     /// The action of Phase II that made it, if somebody watched.

@@ -27,16 +27,16 @@ pub struct Navigator {
     memory: Memory,
     /// The state of the last perception that had one.
     state: Option<u32>,
-    /// What failed since the robot last moved.
+    /// Actions that failed since the robot last moved.
     failed: Vec<Direction>,
     /// Its random actions are those of Avoid.
     wander: AvoidBrain,
-    /// How many random actions are still to come after it believed to have arrived.
+    /// Number of random actions still to come after it believed to have arrived.
     doubts_left: u32,
     situation: NavigationState,
 }
 
-/// What the brain makes of where it is.
+/// State of a navigator.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum NavigationState {
     /// It acts randomly: it has no state yet, or the graph suggests nothing that has not failed.
@@ -46,7 +46,7 @@ pub enum NavigationState {
     Doubtful,
     /// It is at a node and follows the path from there.
     OnPath {
-        /// Where it may be.
+        /// Its possible places.
         belief: Localization,
         /// The actions to the destination as it sees them, the next one first.
         path: Vec<Direction>,
@@ -75,7 +75,7 @@ impl Navigator {
         &self.map
     }
 
-    /// Returns what it makes of where it is.
+    /// Returns its state.
     #[must_use]
     pub const fn situation(&self) -> &NavigationState {
         &self.situation
@@ -91,8 +91,9 @@ impl Navigator {
         self.situation = self.consult();
     }
 
-    /// "At every action, it stores its current state and the action that got it there into a list
-    /// (leaving out failed actions and the states they resulted in)."
+    /// Remembers an action and its state: "At every action, it stores its current state and the
+    /// action that got it there into a list (leaving out failed actions and the states they
+    /// resulted in)."
     fn remember(&mut self, action: Direction, seen: &TimeStep) {
         self.failed.clear();
         // Blind for a moment: what was sensed before still holds.
@@ -102,7 +103,7 @@ impl Navigator {
         }
     }
 
-    /// "The number of the GNG state that most closely matches the current input vector."
+    /// Returns "the number of the GNG state that most closely matches the current input vector".
     fn sense(&self, seen: &TimeStep) -> Option<u32> {
         self.map.states.nearest(&north_scan(seen)?).ok()
     }
@@ -128,9 +129,9 @@ impl Navigator {
         }
     }
 
-    /// Returns the path to the nearest destination node, "fully simplified": compressed, after
-    /// which "if the first action in the path is one the robot just failed at, we remove it from
-    /// the path and begin with the next action".
+    /// Returns the path to the nearest destination node, "fully simplified". That is compressed;
+    /// then "if the first action in the path is one the robot just failed at, we remove it from the
+    /// path and begin with the next action".
     fn path_from(&self, node: u32) -> Option<Vec<Direction>> {
         let path = self.map.graph.path_to_destination(node, &self.failed)?;
         let path = compressed(&path, |action| action.opposite());
@@ -140,8 +141,7 @@ impl Navigator {
 }
 
 impl Navigator {
-    /// Returns how the search for its place stands: the paper's history localization can say where
-    /// the robot is if one node alone fits what it remembers.
+    /// Returns the state of localization: done if exactly one node fits what the robot remembers.
     fn localized(&self) -> Standing {
         let Localization {
             candidates,
@@ -181,7 +181,7 @@ impl Mapper for Navigator {
         self.map.view()
     }
 
-    /// Nothing while it acts randomly.
+    /// Returns the belief; empty while it acts randomly.
     fn belief(&self) -> Vec<Guess> {
         let NavigationState::OnPath { belief, .. } = &self.situation else {
             return Vec::new();

@@ -7,9 +7,8 @@ use crate::TimeStep;
 /// scale the [threshold](super::MslstConfig::on_robot).
 pub const ROBOT_UNIT: f64 = 0.5;
 
-/// Returns a scan as MSLST's quantizer sees it: in robot units, and turned by the compass, to the
-/// nearest beam, so that "a particular location is distinct no matter which way the robot is
-/// facing".
+/// Returns a scan for MSLST's quantizer: in robot units, and turned by the compass to the nearest
+/// beam. So "a particular location is distinct no matter which way the robot is facing".
 ///
 /// Beam 0 looks north, the others follow counter-clockwise.
 ///

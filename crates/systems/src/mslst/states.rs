@@ -30,8 +30,8 @@ pub struct States {
 }
 
 impl States {
-    /// "We then ran equilibrium GNG on the sensor data to categorize these vectors into discrete
-    /// states." The scans are shown once, in the order they were recorded.
+    /// Learns the states: "We then ran equilibrium GNG on the sensor data to categorize these
+    /// vectors into discrete states." The scans are shown once, in the order they were recorded.
     ///
     /// # Errors
     /// If there are no scans, their lengths differ, or one holds NaN.
@@ -60,11 +60,11 @@ impl States {
         Ok(Self { models, quantizer })
     }
 
-    /// "The number of the GNG state that most closely matches the current input vector"; ties go to
-    /// the lower number.
+    /// Returns "the number of the GNG state that most closely matches the current input vector";
+    /// ties go to the lower number.
     ///
     /// # Errors
-    /// If the scan has another length than the models or holds what is no number.
+    /// If the scan's length differs from the models', or a value is not a number.
     pub fn nearest(&self, scan: &[f64]) -> Result<u32, InputError> {
         Ok(self.quantizer.nearest(scan)?.id.0)
     }

@@ -17,7 +17,7 @@ use crate::{Brain, Doing, TimeStep};
 /// maps it.
 ///
 /// An action that was cut short after a step succeeded ("MSLST will not record it as a failed
-/// action"). Where the robot is put down again, the graph begins again.
+/// action"). If the robot is put down again, the graph begins again.
 #[derive(Clone, Debug)]
 pub struct Topology {
     states: States,

@@ -1,22 +1,23 @@
 use tolman_maps::scan_matching::ScanMatchingConfig;
 
-/// What a [`PlacesMapper`](super::PlacesMapper) reckons with.
+/// Parameters of a [`PlacesMapper`](super::PlacesMapper).
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct PlacesConfig {
-    /// How scans are matched, and how places are compared.
+    /// Matching of scans and comparison of places.
     pub matching: ScanMatchingConfig,
-    /// How wide corridors are, m.
+    /// Width of corridors, m.
     pub corridor_width: f64,
-    /// Keyframes that pass before one is judged, so that what lies ahead of it has been seen.
+    /// Number of later keyframes before one is judged, so that the ground ahead of it has been
+    /// seen.
     pub lag: usize,
     /// Way without a corridor that makes a place, m.
     pub least_way: f64,
     /// Way without a corridor after which another place begins, m.
     pub most_way: f64,
-    /// A place is not the one that was left less way ago, m.
+    /// Minimum length of the way before a place can be recognized again, m.
     pub least_absence: f64,
-    /// Places that lie so far apart may be one, beside what the way leaves in doubt, m.
+    /// Maximum distance of places that may be one, m, in addition to the uncertainty of the way.
     pub apart: f64,
     /// Places that one is compared with at most, the nearest first.
     pub most_compared: usize,

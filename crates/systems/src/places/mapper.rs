@@ -16,7 +16,7 @@ use super::{PlacesConfig, Site, SiteKind, SitePlace, SiteStep, SiteWay};
 #[non_exhaustive]
 pub enum PlacesError {
     /// The corridor width is invalid.
-    #[error("the corridors cannot be told from junctions")]
+    #[error("the corridor detector cannot be built")]
     Corridors(#[from] RingError),
     /// A scan cannot be matched.
     #[error(transparent)]
@@ -46,8 +46,8 @@ struct Visit {
     middle: Point,
 }
 
-/// How far about a place counts to its middle, in corridor widths, and how often the middle is
-/// looked for from where it was found before.
+/// Radius within which ground counts for the middle of a place, in corridor widths, and the number
+/// of iterations of the search for it.
 const MIDDLE_WIDTHS: f64 = 1.0;
 const CLIMBED: u32 = 8;
 /// A closure of a greater squared error is not believed.
@@ -76,9 +76,8 @@ impl PlacesMapper {
         &self.matching
     }
 
-    /// Returns the places in the order that they were come to; one that was recognized, or that
-    /// lies where another does by the poses, stands again, with the number of the first. O(places²
-    /// + edges).
+    /// Returns the places in the order of the visits. A place that was recognized, or whose pose is
+    /// at another place, appears again with the number of the first. O(places² + edges).
     #[must_use]
     pub fn sites(&self) -> Vec<SitePlace> {
         let graph = self.matching.graph();
@@ -109,14 +108,14 @@ impl PlacesMapper {
         sites
     }
 
-    /// Returns how many places it has come to.
+    /// Returns the number of visits to places.
     #[must_use]
     pub const fn visit_count(&self) -> usize {
         self.visits.len()
     }
 
-    /// Returns the place that it came to as number `visit`, counted from 0, as far as it was seen.
-    /// The way by which the robot left is known when it has come to the next. O(keyframes).
+    /// Returns the place of visit number `visit`, counted from 0, as far as it was seen. The way by
+    /// which the robot left is known after the next visit. O(keyframes).
     #[must_use]
     pub fn site(&self, visit: usize) -> Option<Site> {
         let this = self.visits.get(visit)?;
@@ -246,7 +245,7 @@ impl PlacesMapper {
         }
     }
 
-    /// Judges what is left; the poses are as they were.
+    /// Judges the remaining keyframes; their poses stay the same.
     ///
     /// # Errors
     /// If a measurement does not fit.

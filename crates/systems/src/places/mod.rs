@@ -1,13 +1,13 @@
-//! A map of places from a laser on any way, such as a log's: it watches and cannot drive.
+//! A map of places from the laser scans of any way, such as a log's: it watches and cannot drive.
 //!
-//! Scans are matched to those before, which makes odometry that hardly drifts. From the scans of
-//! some way a ring is made that looks all round, and the
-//! [`CorridorDetector`](tolman_control::CorridorDetector) by which the robots tell corridors from
-//! junctions reads it. Where it sees no corridor there is a place: a junction, a bend, a dead end
-//! or a room, by which of the four ways lead on. A place is recognized where the map has one and
+//! Scans are matched to earlier ones, which gives odometry that hardly drifts. The scans of a
+//! stretch are combined to a ring that looks all round. The
+//! [`CorridorDetector`](tolman_control::CorridorDetector), by which robots tell corridors from
+//! junctions, reads it. Where it sees no corridor there is a place: a junction, a bend, a dead end
+//! or a room, by which of the four ways lead on. A place is recognized if the map has one there and
 //! both look alike; two recognitions must agree. Nothing is compared between places.
 //!
-//! Every other mapper of places learns from the same places: a [`SiteMapper`] tells it of the ways
+//! Every other mapper of places learns from the same places: a [`SiteMapper`] passes it the ways
 //! between them ([`OfSites`]).
 
 mod config;

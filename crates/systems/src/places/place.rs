@@ -11,7 +11,7 @@ pub struct SitePlace {
     pub id: u32,
 }
 
-/// What a place is, by which of the four ways lead on.
+/// Kind of a place, by which of the four ways lead on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SiteKind {
     /// One way or none.
@@ -42,8 +42,8 @@ impl SiteKind {
     }
 }
 
-/// Returns in which of the four quarters a way leads on, as a scan of a ring that looks along the
-/// axes of a building shows, where corridors are `width` m wide.
+/// Returns in which of the four quarters a way leads on, by a scan of a ring aligned with the
+/// building's axes. Corridors are `width` m wide.
 pub(super) fn ways_on(scan: &Scan, width: f64) -> [bool; 4] {
     [0, 1, 2, 3].map(|quarter| is_open(&scan.ranges, &scan.ring, quarter, width))
 }

@@ -9,7 +9,7 @@ use super::{PlacesConfig, PlacesError, PlacesMapper, Site, SiteWay};
 
 /// Tells a mapper of places that another drove to, such as the robot of a log.
 pub trait OfSites {
-    /// The mapper that is told.
+    /// The mapper that learns.
     type Mapper: Mapper;
     /// Reason why it cannot begin.
     type Error;
@@ -20,7 +20,7 @@ pub trait OfSites {
     /// If the mapper cannot begin there.
     fn begin(&self, first: &Site) -> Result<Self::Mapper, Self::Error>;
 
-    /// Returns what the mapper is told of the way to the next place.
+    /// Returns the mapper's input for the way to the next place.
     fn observation(&self, way: &SiteWay) -> <Self::Mapper as Mapper>::Observation;
 }
 
@@ -44,9 +44,9 @@ pub enum SiteMapperError<B, M> {
     },
 }
 
-/// A mapper of moves between places, shown the scans of a log: junctions, bends, dead ends and
-/// rooms are detected, and the mapper is told of the ways between them. It alone says which places
-/// it knows; where the scans match too, the poses are corrected by that.
+/// A mapper of moves between places that learns from the scans of a log. Junctions, bends, dead
+/// ends and rooms are detected, and the mapper gets the ways between them. Only the mapper
+/// recognizes places. If the scans match there, too, the poses are corrected.
 #[derive(Debug)]
 pub struct SiteMapper<O: OfSites> {
     places: PlacesMapper,
@@ -93,7 +93,7 @@ impl<O: OfSites> SiteMapper<O> {
         keyframes.zip(self.visits()).collect()
     }
 
-    /// Tells the mapper of the places before number `end` that it was not told of.
+    /// Passes the mapper the new places before number `end`.
     fn tell(&mut self, end: usize) -> Outcome<(), O> {
         for visit in self.believed.len()..end {
             let Some(site) = self.places.site(visit) else {

@@ -10,16 +10,16 @@ use super::SiteKind;
 pub struct Site {
     /// The keyframe in its middle, by its number.
     pub keyframe: usize,
-    /// Where its middle lies: that of the free ground about it, to which one comes from all sides.
+    /// Middle of the free ground about it, which is the same from all sides.
     pub middle: Point,
     /// Kind of place.
     pub kind: SiteKind,
-    /// Which of the four ways along the building's axes lead on, counter-clockwise from the first
-    /// axis.
+    /// Whether each of the four ways along the building's axes leads on, counter-clockwise from the
+    /// first axis.
     pub open: [bool; 4],
-    /// What is around the robot there. The first beam looks along the first axis.
+    /// Ranges around the robot there. The first beam looks along the first axis.
     pub around: Scan,
-    /// The way by which the robot came, a quarter.
+    /// Quarter by which the robot came.
     pub came_by: usize,
 }
 
@@ -29,9 +29,9 @@ pub struct Site {
 pub struct SiteWay {
     /// The place at its beginning.
     pub from: Site,
-    /// The way by which the robot left that, a quarter.
+    /// Quarter by which the robot left the place before.
     pub left_by: usize,
-    /// How far the robot came along the building's axes, m.
+    /// Displacement of the robot along the building's axes, m.
     pub moved: Vector,
     /// Way that the robot went for that, m.
     pub length: f64,
@@ -46,7 +46,7 @@ pub struct SiteWay {
 pub struct SiteStep {
     /// Its pose as seen from the keyframe before.
     pub moved: Pose,
-    /// What is around it. The first beam looks ahead.
+    /// Ranges around it. The first beam looks ahead.
     pub around: Scan,
 }
 

@@ -13,7 +13,7 @@ use clap::builder::PossibleValue;
 use rayon::prelude::*;
 use serde::Serialize;
 use tolman_arena::contest::{
-    Condition, Contest, ContestError, ContestRecord, ContestRobot, Contestant, LearnRecord,
+    Claim, Condition, Contest, ContestError, ContestRecord, ContestRobot, Contestant, LearnRecord,
     LocateOutcome, Located, Schooling,
 };
 use tolman_experiment::choices;
@@ -21,16 +21,16 @@ use tolman_papers::arena::{ArenaWorld, DrawnWorld};
 
 use super::{App, Failure, OrBadInput};
 
-/// Sends systems into worlds of every kind, and judges what they learn and whether they find home
+/// Sends systems into worlds of every kind, and judges their maps and whether they reach the goal
 #[derive(clap::Args)]
 #[command(after_help = "\
-Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam, gng-slam-better, micromouse; random, avoid,
-wall-follow, oracle and unlocalized-oracle go home alone. `tolman maze generate --list` names the families. The same in tables: tolman experiment arena
+Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam, gng-slam-better, micromouse, wall-belief; random, avoid,
+wall-follow, oracle and unlocalized-oracle, which only drive to the goal. `tolman maze generate --list` names the families. `tolman experiment arena` fills tables with the same.
 
 Conditions: as-made; wheels-1, wheels-2 and wheels-5 (each wheel off by a constant of up to this many percent), compass-offset, constant-odometry,
 fresh-odometry, doors, kidnapping, drop-outs.
 
-Example:
+Examples:
   tolman arena --system cpm-better --family office --worlds 4
   tolman arena --system cpm-better --family ladder --condition wheels-5
   tolman arena mazes/forks.maze mazes/cpm-1.maze --system all
@@ -41,16 +41,16 @@ pub(super) struct Arguments {
     /// Mazes, or folders of mazes, in place of the families
     #[arg(value_name = "MAZE")]
     mazes: Vec<PathBuf>,
-    /// Which system, or all
+    /// The system, or all
     #[arg(long, value_name = "NAME", default_value = "all")]
     system: String,
-    /// Which robot
+    /// The robot
     #[arg(long, value_name = "NAME", default_value = "own")]
     robot: Robot,
-    /// What is otherwise than as robots and worlds are made
+    /// The condition: how robots and worlds differ from how they are made
     #[arg(long, value_name = "NAME", default_value = "as-made")]
     condition: String,
-    /// Which family of worlds, or all
+    /// The family of worlds, or all
     #[arg(
         long,
         value_name = "NAME",
@@ -58,12 +58,12 @@ pub(super) struct Arguments {
         conflicts_with = "mazes"
     )]
     family: String,
-    /// How many worlds of each family: small and middle ones in turns; 2, or with --own-verdict at
-    /// most 40 [default: 2]
+    /// Number of worlds of each family, small and middle ones in turn; with --own-verdict at most
+    /// this many, by default 40 [default: 2]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     worlds: Option<u32>,
-    /// How often a robot is put down in each world to find out where it is, and as often to go to
-    /// the goal
+    /// Number of times that a robot is put down in each world to find out where it is, and as often
+    /// to go to the goal
     #[arg(long, value_name = "N", default_value_t = 1)]
     starts: u32,
     /// Seed of all random numbers: the same seed gives the same result
@@ -72,11 +72,11 @@ pub(super) struct Arguments {
     /// Write a line of JSON for each world instead of the table
     #[arg(long)]
     json: bool,
-    /// Measure how long a system thinks for each time step of learning, the simulator aside: one
-    /// world after the other
+    /// Measure how long a system thinks per time step of learning, without the simulator; plays one
+    /// world at a time
     #[arg(long)]
     cost: bool,
-    /// Judge what systems make of their own maps by 100 right and 100 wrong ones: worlds become
+    /// Judge what systems say about their own maps, by 100 right and 100 wrong maps; worlds become
     /// harder while most maps are right
     #[arg(long, conflicts_with_all = ["mazes", "json", "cost", "condition", "starts"])]
     own_verdict: bool,
@@ -106,14 +106,14 @@ impl clap::ValueEnum for Robot {
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         Some(match self {
-            Self::Own => PossibleValue::new("own").help("That of the system's paper"),
+            Self::Own => PossibleValue::new("own").help("The robot of the system's paper"),
             Self::LaserPioneer => PossibleValue::new("laser-pioneer")
                 .help("The Pioneer with a laser, a compass and encoders"),
         })
     }
 }
 
-/// What came of a contest, for `--json`.
+/// The result of a contest, for `--json`.
 #[derive(Serialize)]
 struct Line<'a> {
     system: &'a str,
@@ -123,6 +123,8 @@ struct Line<'a> {
     abstained: Option<&'a str>,
     right: Option<bool>,
     right_of_visited: Option<bool>,
+    /// What the system makes of its map.
+    says: Option<&'static str>,
     purity: Option<f64>,
     link_recall: Option<f64>,
     metres_over_corridors: Option<f64>,
@@ -293,6 +295,11 @@ fn line<'a>(
         abstained: record.abstained.as_deref(),
         right: judged.map(|judged| judged.is_right),
         right_of_visited: judged.map(|judged| judged.is_right_of_visited),
+        says: learned.map(|learned| match learned.claim {
+            Claim::Right => "right",
+            Claim::Wrong => "wrong",
+            Claim::Undecided => "undecided",
+        }),
         purity: judged.and_then(|judged| judged.purity),
         link_recall: judged.map(|judged| judged.link_recall),
         bytes_per_place: learned.and_then(LearnRecord::bytes_per_place),

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// What is done of a run, on a terminal, where nobody looks at the run itself.
+/// The progress of a run, shown on a terminal when the run itself is not shown.
 pub(super) struct Doing {
     bar: ProgressBar,
     next: Instant,
@@ -24,7 +24,7 @@ impl Doing {
         }
     }
 
-    /// Shows what `words` says, if it is time to.
+    /// Shows the text that `words` returns, at most once in each [`PERIOD`].
     pub(super) fn show(&mut self, words: impl FnOnce() -> String) {
         if !self.bar.is_hidden() && Instant::now() >= self.next {
             self.next = Instant::now() + PERIOD;
@@ -33,7 +33,7 @@ impl Doing {
         }
     }
 
-    /// Takes it off the terminal.
+    /// Removes the progress from the terminal.
     pub(super) fn clear(&self) {
         self.bar.finish_and_clear();
     }

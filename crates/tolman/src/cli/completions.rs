@@ -13,7 +13,7 @@ use super::Failure;
 Example:
   tolman completions bash > tolman.bash")]
 pub(super) struct Arguments {
-    /// The shell that is to complete
+    /// The shell that completes
     shell: Shell,
 }
 

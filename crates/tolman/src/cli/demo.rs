@@ -20,11 +20,11 @@ use super::{Failure, OrBadInput, file, maze};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better,
-gng-slam, gng-slam-better (or gngslam), micromouse. Exit code 1 says that the robot did not
-find itself or did not come to the goal: another --seed tries it again.
+gng-slam, gng-slam-better (or gngslam), micromouse. Exit code 1: the robot did not
+find out where it is, or did not reach the goal; try another --seed.
 
-The file is tolman-demo.html in the current folder, or tolman-demo-2.html … where
-that is taken.
+The file is tolman-demo.html in the current folder, or tolman-demo-2.html … if that
+exists.
 
 Examples:
   tolman demo
@@ -33,35 +33,35 @@ Examples:
   tolman demo --system micromouse --out mouse.html
   tolman demo --maze mazes/forks.maze --seed 3 --svg forks.svg")]
 pub(super) struct Arguments {
-    /// Which system drives
+    /// The system that drives
     #[arg(long, value_name = "NAME", default_value = "mslst-better")]
     system: String,
     /// The maze, which marks a goal [default: one that comes with the program]
     #[arg(long, value_name = "FILE")]
     maze: Option<PathBuf>,
-    /// The seed of all noise and of where the robot is put down [default: one that shows the
-    /// system well]
+    /// Seed of all noise and of the place where the robot is put down
+    /// [default: one that shows the system well]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// The file to write
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Overwrite the file even if it is no replay
+    /// Overwrite the file even if it is not a replay
     #[arg(long, requires = "out")]
     force: bool,
-    /// Write a moving picture, too
+    /// Also write a moving picture
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Show it on the terminal as it goes, with its map and where it believes to be; space pauses,
-    /// → steps, + and - change the speed, q stops looking
+    /// Show the run on the terminal with the map and the believed pose; space pauses, → steps, +
+    /// and - change the speed, q stops showing it
     #[arg(long)]
     live: bool,
 }
 
 /// The mazes come with the program, so that it runs in any folder.
-const MAZE: &str = include_str!("../../../../mazes/demo.maze");
+const MAZE: &str = include_str!("../../mazes/demo.maze");
 /// For who maps a large maze slowly, or does not find itself in it.
-const SMALL: &str = include_str!("../../../../mazes/star.maze");
+const SMALL: &str = include_str!("../../mazes/star.maze");
 
 /// Returns the contestant of a name as `tolman arena` or `tolman systems` has it.
 fn contestant(name: &str) -> Result<Contestant, Failure> {

@@ -19,8 +19,8 @@ use crate::system::MapText;
 /// Puts a robot down in a maze or a world and sends it to the goal by a learned map; exits 1 if it
 /// does not arrive
 ///
-/// It finds out where it is, goes, and plans again where something is not as the map has it. Of the
-/// maps of several mazes it finds out which is that of this one.
+/// It finds out where it is, drives, and plans again where something differs from the map. Given
+/// maps of several mazes, it finds out which one fits.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -33,7 +33,7 @@ Examples:
   tolman learn --system gngslam --world mazes/worlds/pitch.json --out pitch-map.json
   tolman drive --map pitch-map.json --world mazes/worlds/pitch.json --seed 3 --replay drive.html
 
-Ctrl-C saves the drive; --from FILE goes on with it, bit by bit as if nobody had interrupted it.")]
+Ctrl-C saves the drive; --from FILE continues it, bit for bit as if it had not been interrupted.")]
 pub(super) struct Arguments {
     /// The map, made by `tolman learn`; may be given several times, if the system can tell maps
     /// apart
@@ -41,7 +41,7 @@ pub(super) struct Arguments {
     map: Vec<PathBuf>,
     #[command(flatten)]
     sent_out: SentOut,
-    /// Drive in another maze than the map is of, or with another robot, too
+    /// Drive even if the map is of another maze or another robot
     #[arg(long)]
     anyway: bool,
     #[command(flatten)]

@@ -16,11 +16,11 @@ use tolman_experiment::{
 use super::{App, Failure, called, ink, interrupt};
 
 /// Runs an experiment, shows its tables beside the paper's, and writes a folder of results; without
-/// NAME and --all it is a tour of all experiments in about a minute
+/// NAME and --all it gives a tour of all experiments in about a minute
 #[derive(clap::Args)]
 #[command(group(clap::ArgGroup::new("which").args(["name", "all"])), after_help = "\
-The folder holds report.html (opens anywhere), summary.json, runs.jsonl (one line a run),
-figures/*.svg and config.toml. An interrupted experiment goes on where it stopped.
+The folder holds report.html (opens anywhere), summary.json, runs.jsonl (one line per run),
+figures/*.svg and config.toml. An interrupted experiment continues where it stopped.
 
 Examples:
   tolman experiment baselines
@@ -32,32 +32,31 @@ Examples:
   tolman experiment diktiometry --table 3b --runs 2
   tolman experiment baselines --replay '2 (J)' Avoid 137")]
 pub(super) struct Arguments {
-    /// The experiment; a tour of the main tables of all when left out
+    /// The experiment; without it, a tour of the main tables of all
     name: Option<String>,
-    /// All experiments in turn, with the papers' own counts
+    /// Run all experiments in turn, with the papers' own counts
     #[arg(long)]
     all: bool,
-    /// List the experiments and do nothing else
+    /// List the experiments and exit
     #[arg(long)]
     list: bool,
     #[command(flatten)]
     choice: Choice,
-    /// Play one run again and write its replay to replays/ in the folder, and nothing else
+    /// Play one run again, write its replay to replays/ in the folder, and exit
     #[arg(long, num_args = 3, value_names = ["TABLE", "ROW", "RUN"], requires = "name")]
     #[arg(allow_hyphen_values = true, conflicts_with_all = ["check", "json", "list"])]
     replay: Vec<String>,
-    /// Say which runs of two folders of results differ and in what, and nothing else; exit with 1
-    /// if any do
+    /// Compare two folders of results and exit: say which runs differ and in what; exits 1 if any
+    /// do
     #[arg(long, num_args = 2, value_names = ["DIR", "DIR"], exclusive = true)]
     compare: Vec<PathBuf>,
-    /// Play one run of each row of a folder of results again, or --runs of them, and nothing else;
-    /// exit with 1 if a value differs in a bit, a line has another checksum, or the summary is not
-    /// that of the runs
+    /// Play one run of each row of a folder of results again, or --runs of them, and exit; exits 1
+    /// if a value differs in a bit, a line has another checksum, or the summary is not that of the
+    /// runs
     #[arg(long, value_name = "DIR", requires = "name")]
     #[arg(conflicts_with_all = ["check", "json", "list", "out", "replay"])]
     verify: Option<PathBuf>,
-    /// Exit with 3 if a table disagrees with the paper, or none of the paper's values could be
-    /// judged
+    /// Exit with 3 if a table disagrees with the paper, or no value of the paper could be judged
     #[arg(long, requires = "which")]
     check: bool,
     /// Write each summary.json on standard output instead of the tables
@@ -68,22 +67,25 @@ pub(super) struct Arguments {
 /// What is run, and how.
 #[derive(clap::Args)]
 pub(super) struct Choice {
-    /// The master seed: the same one gives the same results
+    /// Master seed: the same one gives the same results
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Runs of each row, 100000 at most, instead of the paper's number
+    /// Number of runs of each row, at most 100000, instead of the paper's number
     #[arg(long, value_name = "N", requires = "which")]
     runs: Option<u32>,
-    /// Fill this table alone; may be given several times
+    /// Fill only this table; may be given several times
     #[arg(long = "table", value_name = "TABLE", requires = "name")]
     tables: Vec<String>,
-    /// Runs at a time, 256 at most, instead of one a core; results do not depend on it
+    /// Fill only this row, in each table that has it; may be given several times
+    #[arg(long = "row", value_name = "ROW", requires = "name")]
+    rows: Vec<String>,
+    /// Number of runs at a time, at most 256, instead of one per core; results do not depend on it
     #[arg(long, value_name = "N")]
     jobs: Option<u32>,
     /// A maze file of any format in place of the experiment's own; may be given several times
     #[arg(long = "maze", value_name = "FILE", requires = "which")]
     mazes: Vec<PathBuf>,
-    /// Time steps after which a run in a maze has failed, in place of the experiment's own
+    /// Time steps after which a run in a maze has failed, instead of the experiment's own limit
     /// (baselines, mslst)
     #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..))]
     #[arg(requires = "which")]
@@ -92,7 +94,7 @@ pub(super) struct Choice {
     /// --all, the folder of those folders
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Few runs, for a first look
+    /// Make few runs, for a first look
     #[arg(long, requires = "which")]
     quick: bool,
 }
@@ -252,6 +254,7 @@ impl Choice {
             jobs: self.jobs,
             mazes: self.mazes.clone(),
             tables: self.tables.clone(),
+            rows: self.rows.clone(),
             limit: self.limit,
             out: self.out.clone(),
             quick: self.quick,

@@ -4,11 +4,11 @@ use anyhow::anyhow;
 
 use super::Failure;
 
-/// What is behind a verb that has another name now.
+/// Arguments of a verb that has another name now.
 #[derive(clap::Args)]
 #[command(disable_help_flag = true)]
 pub(super) struct Arguments {
-    /// Whatever it was.
+    /// Its words, which are ignored.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
     rest: Vec<String>,
 }

@@ -20,12 +20,12 @@ pub(super) struct Ground {
     /// The maze file, of any format; - reads standard input
     #[arg(long, value_name = "FILE")]
     maze: Option<PathBuf>,
-    /// Instead of a maze, a world whose walls stand anywhere: a tolman-world file (JSON), or the
-    /// .yaml of a ROS map with its picture beside it, of which unknown cells count as occupied; -
-    /// reads a tolman-world from standard input
+    /// A world with free walls, instead of a maze: a tolman-world file (JSON), or the .yaml of a
+    /// ROS map with its picture beside it, in which unknown cells count as occupied; - reads a
+    /// tolman-world from standard input
     #[arg(long, value_name = "FILE")]
     world: Option<PathBuf>,
-    /// Put the destination of --world here, m: a disc, of radius 0.5 m if no other is given
+    /// Put the destination of --world here, m: a disc, by default of radius 0.5 m
     #[arg(
         long,
         value_name = "X,Y[,RADIUS]",
@@ -33,8 +33,8 @@ pub(super) struct Ground {
         allow_hyphen_values = true
     )]
     goal: Option<Goal>,
-    /// How wide the robot is to take the corridors of --world to be, m; if not given, as wide as
-    /// its mazes' corridors are: 0.95 for the Pioneer, 0.25 for the e-puck
+    /// Width of the corridors of --world as the robot takes them, m; by default that of the robot's
+    /// mazes: 0.95 for the Pioneer, 0.25 for the e-puck
     #[arg(long, value_name = "WIDTH", requires = "world", value_parser = width)]
     corridor: Option<f64>,
 }

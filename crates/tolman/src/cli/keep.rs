@@ -7,7 +7,7 @@ use super::Failure;
 /// Runs a program for another process, and ends it with that process
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Process id of who asks
+    /// Process id of the caller
     parent: u32,
     /// The program and its arguments
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, required = true)]

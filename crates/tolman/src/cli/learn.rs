@@ -18,14 +18,14 @@ use super::words::words;
 use super::{App, Failure, OrBadInput, file};
 use crate::system::MapText;
 
-/// Lets a system learn a map of a maze or a world, and writes the map down
+/// Lets a system learn a map of a maze or a world, and writes the map to a file
 #[derive(clap::Args)]
 #[command(after_help = "\
-Exit code 1 says that no map was learned, or that the one that was written is known to be wrong or unfinished. `tolman systems`
-lists systems, presets and robots; a --set that a system does not have is answered with those that it has.
+Exit code 1: no map was learned, or the map that was written is known to be wrong or unfinished. `tolman systems`
+lists systems, presets and robots; an unknown --set is answered with the known ones.
 
-Ctrl-C writes the map as far as it is, and saves the run beside it; --from FILE.unfinished goes on with that, and the map
-becomes the same, bit by bit, as if nobody had interrupted it.
+Ctrl-C writes the map so far, and saves the run beside it; --from FILE.unfinished continues that run, and the map
+becomes the same, bit for bit, as without an interruption.
 
 Examples:
   tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
@@ -35,26 +35,26 @@ Examples:
   tolman learn --system diktiometry --maze mazes/j-long.maze --from j-survey.json --out j-survey.json
   tolman learn --system cpm --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json")]
 pub(super) struct Arguments {
-    /// Who learns
+    /// The system that learns
     #[arg(long, value_name = "NAME")]
     system: String,
     #[command(flatten)]
     sent_out: SentOut,
-    /// When it has learned enough
+    /// When to stop learning
     #[arg(long, default_value = "explored", value_parser = words(UNTIL))]
     until: Task,
-    /// Go on with a map that was learned before, or with a run that was interrupted: for that, all
-    /// else must be said as it was
+    /// Continue a map that was learned before, or an interrupted run; for a run, repeat all other
+    /// options as they were
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
-    /// Go on with it in another maze, or with another robot, too
+    /// Continue the map in another maze, or with another robot
     #[arg(long, requires = "from")]
     anyway: bool,
     /// The file to write the map to
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Save the run to this file while it goes, once a second, so that it can be gone on with
-    /// whatever ends it [default: the name of --out with .unfinished behind it]
+    /// Save the run to this file once a second, so that it can be continued whatever ends it
+    /// [default: the name of --out with .unfinished appended]
     #[arg(long, value_name = "FILE")]
     unfinished: Option<PathBuf>,
     #[command(flatten)]

@@ -5,24 +5,25 @@ use anyhow::anyhow;
 use super::Failure;
 use super::replay_file::{self, Overwrite};
 
-/// How somebody looks at a run.
+/// Views of a run.
 #[derive(clap::Args)]
 pub(super) struct Looks {
-    /// Show it on the terminal as it goes; space pauses, → steps, + and - change the speed, q stops
-    /// looking
+    /// Show the run on the terminal; space pauses, → steps, + and - change the speed, q stops
+    /// showing it
     #[arg(long)]
     pub(super) live: bool,
-    /// Draw its way over the maze or the world
+    /// Draw the robot's way over the maze or the world
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
-    /// Write the run down step by step, as JSON lines: first what ran where, then for every step
-    /// what was commanded, what came of it and what was sensed
+    /// Write a trace of the run, as JSON lines: first the world and the robot, then the command,
+    /// the outcome and the readings of every step
     #[arg(long, value_name = "FILE")]
     pub(super) trace: Option<PathBuf>,
-    /// Write a replay: one HTML file that plays the run in any browser
+    /// Write a replay: one HTML file that plays the run in any browser; or, if the name ends in
+    /// .mcap and the feature `mcap` is on, a file for Foxglove
     #[arg(long, value_name = "FILE")]
     pub(super) replay: Option<PathBuf>,
-    /// Overwrite the replay's file even if it is no replay
+    /// Overwrite the replay's file even if it is not a replay
     #[arg(long, requires = "replay")]
     pub(super) force: bool,
     /// Write the outcome as JSON
@@ -44,7 +45,7 @@ impl Looks {
         ];
         match flags.iter().find(|(_, given)| *given) {
             Some((flag, _)) if mazes != 1 => Err(Failure::BadInput(anyhow!(
-                "{flag} is of one maze, and {} holds {mazes}: name a file",
+                "{flag} needs a single maze, but {} holds {mazes}: name a file",
                 path.display()
             ))),
             _ => Ok(()),

@@ -9,14 +9,14 @@ use clap::CommandFactory;
 
 use super::Failure;
 
-/// Writes the manual page, or those of all verbs into a folder
+/// Writes the manual page, or the pages of all verbs into a folder
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
   tolman man | man -l -
   tolman man --out ~/.local/share/man/man1")]
 pub(super) struct Arguments {
-    /// The folder to write tolman.1, tolman-run.1, … into
+    /// Folder to write tolman.1, tolman-run.1, … to
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

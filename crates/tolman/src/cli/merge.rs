@@ -10,22 +10,22 @@ use tolman_experiment::{Options, Terminal, command_of_chunks, merge, open};
 use super::experiment::{self, classify, show};
 use super::{App, Failure, OrBadInput, interrupt};
 
-/// Puts the shares of an experiment together and shows its tables
+/// Merges the shares of an experiment and shows its tables
 #[derive(clap::Args)]
 #[command(after_help = "\
-The results are those that one machine makes, to the byte. If runs are missing, it says which shares
+The results are those of one machine, byte for byte. If runs are missing, it says which shares
 to play again.
 
 Examples:
   tolman trial --experiment baselines --chunk 1/1 --quick --out whole
   tolman merge whole")]
 pub(super) struct Arguments {
-    /// The folder that `tolman trial` was given with --out
+    /// The folder given to `tolman trial` with --out
     #[arg(value_name = "DIR")]
     results: PathBuf,
 }
 
-/// The command that the shares are a part of, without the program.
+/// The command of which the shares are parts, without the program.
 #[derive(Parser)]
 struct Whole {
     #[command(flatten)]

@@ -24,28 +24,28 @@ use super::{Failure, OrBadInput, interrupt, keep, maze};
 #[derive(clap::Args)]
 #[command(after_help = "\
 The mouse starts in the south-west cell and looks north; the goal is the middle of the maze. Its score
-is the best run's turns and effective distance and a tenth of all turns and effective distance: less is
-better, 2000 is a maze unsolved. The code of mms measures in half-steps, its README in cells; both are told.
+is the best run's turns and effective distance plus a tenth of all turns and effective distance: less is
+better, 2000 means unsolved. The code of mms measures in half-steps, its README in cells; both scores are shown.
 
---live, --svg, --trace and --replay are of one maze, whose cells are drawn 0.18 m wide, and of what the mouse did when it was hosted. A line of
---trace has a move or turn, what it was answered, where it led, and which walls the mouse had asked for before it. --json writes one
-object a maze and line.
+--live, --svg, --trace and --replay need a single maze, whose cells are drawn 0.18 m wide, and show the mouse as it was hosted. A line of
+--trace has a move or turn, its answer, where it led, and which walls the mouse had asked for before it. --json writes one
+object per maze, one per line.
 
 A mouse is ended with all processes that it started, however this program ends (on Linux). Ctrl-C ends the
-mice and tells the scores until then.
+mice and shows the scores so far.
 
 Examples:
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/braided-2.txt
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid --jobs 1 --json
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --replay hosted.html")]
 pub(super) struct Arguments {
-    /// The mouse's command, split into words as a shell does, and run without one
+    /// The mouse's command, split into words like a shell does, but run without one
     #[arg(long, value_name = "CMD")]
     mouse: String,
     /// A maze file of any format, or a folder of them
     #[arg(long, value_name = "FILE|DIR")]
     maze: PathBuf,
-    /// Stop a mouse after so much time in a maze
+    /// Stop a mouse after this time in a maze
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
     /// Stop a mouse after this many moves, turns and crashes in a maze
@@ -54,7 +54,7 @@ pub(super) struct Arguments {
     /// Press the reset button after this many moves and turns
     #[arg(long, value_name = "N")]
     reset_after: Option<u64>,
-    /// Mazes at a time, instead of one a core
+    /// Number of mazes at a time, instead of one per core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
     /// Show what the mouse writes to stderr

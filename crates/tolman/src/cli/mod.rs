@@ -15,6 +15,7 @@ mod failure;
 mod file;
 mod former;
 mod ground;
+mod host;
 mod interrupt;
 mod keep;
 mod kind;
@@ -104,6 +105,7 @@ enum Verb {
     Mouse(mouse::Arguments),
     Race(race::Arguments),
     MmsHost(mms_host::Arguments),
+    Host(host::Arguments),
     Experiment(experiment::Arguments),
     Trial(trial::Arguments),
     Merge(merge::Arguments),
@@ -166,7 +168,7 @@ impl App<'_> {
         let named = systems.find(|system| system.name() == map.system);
         named.copied().ok_or_else(|| {
             Failure::BadInput(anyhow!(
-                "{}: its system, {}, is not known here",
+                "{}: its system, {}, is unknown to this program",
                 map.name,
                 map.system
             ))
@@ -215,6 +217,7 @@ impl Verb {
             Self::Pitch(verb) => verb.carry_out(out),
             Self::Mouse(arguments) => mouse::carry_out(&arguments, out),
             Self::Race(arguments) => race::carry_out(&arguments, out),
+            Self::Host(arguments) => host::carry_out(&arguments, out),
             Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
             Self::Experiment(arguments) => experiment::carry_out(app, &arguments, out),
             Self::Trial(arguments) => trial::carry_out(app, &arguments, out),

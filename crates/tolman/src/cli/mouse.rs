@@ -28,14 +28,14 @@ pub(super) use way::{Came, Way, WayStep, half_cells};
 /// Sends a micromouse through mazes: it explores, proves its run, and makes it
 #[derive(clap::Args)]
 #[command(after_help = "\
-The rules are those of \"Plot and Navigate a Virtual Maze\": at most 1000 steps for both runs, each a quarter turn or none
-and then up to three cells; the score is a thirtieth of the steps of the first run and those of the second. The
+The rules are those of \"Plot and Navigate a Virtual Maze\": at most 1000 steps for both runs. A step is a quarter turn or
+none, then up to three cells. The score is a thirtieth of the steps of the first run plus those of the second. The
 floor is the score of a mouse that knows the maze. With --mms the rules are those of the simulator mms, which hosts the
-mouse: it speaks with it on stdin and stdout, and logs to stderr.
+mouse: they exchange lines on stdin and stdout, and the mouse logs to stderr.
 
---live, --svg, --trace and --replay are of one maze, whose cells are drawn 0.18 m wide. A line of --trace has a step's \"rotation\"
+--live, --svg, --trace and --replay need a single maze, whose cells are drawn 0.18 m wide. A line of --trace has a step's \"rotation\"
 (-90, 0, 90 or \"Reset\") and \"movement\" (-3 to 3 cells or \"Reset\"), where it led, and how many cells the mouse had seen open to its left,
-ahead and to its right before it. --json writes one object a maze and line.
+ahead and to its right before it. --json writes one object per maze, one per line.
 
 Examples:
   tolman mouse mazes/grid/braided-2.txt
@@ -50,22 +50,22 @@ pub(super) struct Arguments {
     /// Speak the protocol of the simulator mms on stdin and stdout
     #[arg(long, conflicts_with_all = ["maze", "search", "seed", "worst", "jobs", "json", "live", "svg", "trace", "replay"])]
     mms: bool,
-    /// When the mouse has explored enough; by default when its run is proven, with --mms when it
+    /// When the mouse has explored enough; by default once its run is proven, with --mms once it
     /// has been at the goal
     #[arg(long, value_parser = words(UNTIL), conflicts_with = "search")]
     until: Option<Until>,
-    /// How to explore: certify (until the run is proven), certify-worth (what --until worth does),
-    /// certify-plain (as certify, without rollouts), or as the paper does: target, counter-50,
+    /// How to explore: certify (until the run is proven), certify-worth (like --until worth),
+    /// certify-plain (like certify, without rollouts), or the paper's target, counter-50,
     /// counter-75, random
     #[arg(long, value_name = "SEARCH", default_value_t = Searcher::Certify)]
     search: Searcher,
-    /// What the chance of the searches that have any follows from
+    /// Seed of the searches that use random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Draw this many of the mazes with the worst score above the floor
     #[arg(long, value_name = "N", default_value_t = 1)]
     worst: usize,
-    /// Mazes at a time, instead of one a core
+    /// Number of mazes at a time, instead of one per core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
     #[command(flatten)]

@@ -31,8 +31,8 @@ pub(super) enum Verb {
     Score(Score),
 }
 
-/// Writes an arena as a tolman-world, for --world: the destination lies before the blue goal, the
-/// start before the yellow one
+/// Writes an arena as a tolman-world, for --world; the destination is in front of the blue goal,
+/// the start in front of the yellow one
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
@@ -47,8 +47,8 @@ pub(super) struct World {
     out: Option<PathBuf>,
 }
 
-/// Lets a Pioneer 2-DX wander in an arena and writes down the records of places that it takes, with
-/// the truth beside them
+/// Lets a Pioneer 2-DX wander in an arena, and writes the records of places that it takes, with the
+/// truth
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
@@ -57,21 +57,21 @@ pub(super) struct Gather {
     /// The arena
     #[arg(value_name = "ARENA")]
     name: String,
-    /// How many records; the paper has 1006
+    /// Number of records; the paper has 1006
     #[arg(long, value_name = "N", default_value_t = 1006)]
     records: usize,
     /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// By which share each wheel may count wrongly at most
+    /// Maximum calibration error of each wheel, as a share
     #[arg(long, value_name = "SHARE", default_value = "0", value_parser = share)]
     calibration: f64,
-    /// The file to write: a line of JSON for all, then one a record
+    /// The file to write: a line of JSON for all, then one per record
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
 
-/// Tells what a data set holds, and draws where its records were taken
+/// Describes a data set, and draws where its records were taken
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
@@ -261,7 +261,7 @@ fn score(arguments: &Score, out: &mut dyn Write) -> Result<(), Failure> {
     }
     let Some(score) = scored else {
         return Err(Failure::Failed(anyhow!(
-            "a map of {nodes} nodes has one for both goals, so that it cannot be turned and has no score; give another --seed, or a smaller \
+            "the map of {nodes} nodes has one node for both goals, so it cannot be turned and has no score; give another --seed, or a smaller \
              --growth-period"
         )));
     };

@@ -27,17 +27,17 @@ use params::Params;
 #[derive(clap::Args)]
 #[command(after_help = "\
 The mouse drives cell by cell and looks at the walls around it. Once it has been at a goal and no run can be faster than the
-one it knows, whatever the walls it has not seen, it drives home. The fast run has straights, diagonals and slalom turns; how
-fast they are says --mouse. Without it, mazes of more than 16 cells a side are driven as half-size ones. A mouse with a wall
+one it knows, whatever the walls it has not seen, it drives home. The fast run has straights, diagonals and slalom turns; --mouse
+sets their speeds. Without it, mazes of more than 16 cells a side are driven as half-size ones. A mouse with a wall
 ahead of its start turns to the next open side, clockwise.
 
-The search is what it drives until it is first at a goal, the proof what it drives from there until no run can be faster.
---json writes one object a maze and line: the cells of search, proof and way home, and the run's moves with their times. Both
-ways are letters, too, those of kerikun11/micromouse-maze-library. Exploring: S a cell ahead, L and R to the left and right, T
+The search is the way until it is first at a goal, the proof the way from there until no run can be faster.
+--json writes one object per maze, one per line: the cells of search, proof and way home, and the run's moves with their times. Both
+ways are also given as letters, those of kerikun11/micromouse-maze-library. Exploring: S a cell ahead, L and R to the left and right, T
 back. Running: S a cell, w half a diagonal, z c F45, q Q F90, a d F135, u U F180, p P FV90 to the left and right, and Z C A D
 out of a diagonal.
 
---live, --svg, --trace and --replay are of one maze.
+--live, --svg, --trace and --replay need a single maze.
 
 Examples:
   tolman race mazes/grid/braided-2.txt --svg race.svg --replay race.html
@@ -55,7 +55,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "classic", value_parser = words(KINDS),
         conflicts_with_all = ["maze", "mouse", "jobs", "json", "live", "svg", "trace", "replay"])]
     template: Option<Kind>,
-    /// Mazes at a time, instead of one a core
+    /// Number of mazes at a time, instead of one per core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
     #[command(flatten)]

@@ -16,8 +16,8 @@ use super::{Failure, OrBadInput, maze};
 /// Makes a replay of a trace: one HTML file that plays it in any browser
 #[derive(clap::Args)]
 #[command(after_help = "\
-Traces are written by `--trace` of `tolman run`, `learn` and `drive`. Several of the same world play side by side on one slider; then
-it is told at which step each first differs from the first trace, and that step is marked.
+Traces are written by `--trace` of `tolman run`, `learn` and `drive`. Several of the same world play side by side on one slider. The
+step at which each first differs from the first trace is reported and marked.
 
 Examples:
   tolman run wall-follow --maze mazes/j.maze --trace one.jsonl
@@ -27,10 +27,11 @@ pub(super) struct Arguments {
     /// The traces; - reads standard input
     #[arg(required = true, value_name = "TRACE")]
     traces: Vec<PathBuf>,
-    /// The file to write; beside the first trace, with the extension .html, if not given
+    /// The file to write; by default beside the first trace, with the extension .html. With .mcap,
+    /// and the feature `mcap`, it is one for Foxglove
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Overwrite the file even if it is no replay
+    /// Overwrite the file even if it is not a replay
     #[arg(long)]
     force: bool,
 }

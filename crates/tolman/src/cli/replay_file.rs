@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use anyhow::{Context, anyhow};
+use anyhow::{Context, Error, anyhow};
 use tolman_replay::{Replay, is_replay, page};
 
 use super::{Failure, OrBadInput, called, file};
@@ -25,22 +25,51 @@ impl Overwrite {
     }
 }
 
-/// Writes a replay to the file at `path`, whole or not at all.
+/// Writes a replay to the file at `path`, whole or not at all: a page, or what Foxglove reads if
+/// the name ends in `.mcap`.
 ///
 /// # Errors
 /// Bad input if the file exists and is not a replay; a failure if it cannot be written.
 pub(super) fn write(path: &Path, replay: Replay, overwrite: Overwrite) -> Result<(), Failure> {
     check(path, overwrite)?;
     let replay = replay.fact("made by", called::command());
-    let page = page(&replay).context("cannot write the replay")?;
-    file::write(path, &page)
+    let context = "cannot write the replay";
+    if is_mcap(path) {
+        return file::write(path, mcap(&replay).context(context)?);
+    }
+    file::write(path, &page(&replay).context(context)?)
 }
+
+fn is_mcap(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|extension| extension == "mcap")
+}
+
+#[cfg(feature = "mcap")]
+fn mcap(replay: &Replay) -> Result<Vec<u8>, Error> {
+    Ok(tolman_replay::mcap(replay)?)
+}
+
+/// [`check`] has refused it before.
+#[cfg(not(feature = "mcap"))]
+fn mcap(_: &Replay) -> Result<Vec<u8>, Error> {
+    Err(anyhow!(NO_MCAP))
+}
+
+const NO_MCAP: &str =
+    "this tolman writes no MCAP: build it with --features mcap, or name a file that ends in .html";
+
+/// What an MCAP file begins with.
+const MCAP: &[u8] = b"\x89MCAP0\r\n";
 
 /// Checks before the work is done that the file at `path` does not exist yet, or is a replay.
 ///
 /// # Errors
-/// Bad input if it is anything else.
+/// Bad input if it is anything else, or is to be one for Foxglove and this program writes none.
 pub(super) fn check(path: &Path, overwrite: Overwrite) -> Result<(), Failure> {
+    if is_mcap(path) && !cfg!(feature = "mcap") {
+        return Err(Failure::BadInput(anyhow!("{}: {NO_MCAP}", path.display())));
+    }
     if overwrite == Overwrite::Anything || !path.is_file() {
         return Ok(());
     }
@@ -49,7 +78,7 @@ pub(super) fn check(path: &Path, overwrite: Overwrite) -> Result<(), Failure> {
         .and_then(|file| file.take(1000).read_to_end(&mut beginning))
         .with_context(|| format!("cannot read {}", path.display()))
         .or_bad_input()?;
-    if beginning.is_empty() || is_replay(&beginning) {
+    if beginning.is_empty() || is_replay(&beginning) || beginning.starts_with(MCAP) {
         return Ok(());
     }
     Err(Failure::BadInput(anyhow!(

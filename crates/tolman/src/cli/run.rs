@@ -11,7 +11,7 @@ use super::Failure;
 use super::words::words;
 pub(super) use outing::{Name, Outing, carry_out as send};
 
-/// Sends one robot through a maze or a world and tells what became of it
+/// Sends one robot through a maze or a world and reports the result
 #[derive(clap::Args)]
 #[command(after_help = "\
 The same brain, maze, start and seed make the same run, on any machine. With the seed of a line of
@@ -26,7 +26,7 @@ Examples:
   tolman run wall-follow --world mazes/worlds/rooms.json --seed 3
   tolman run wall-follow --world mazes/worlds/hall.yaml --goal 2,0 --seed 2")]
 pub(super) struct Arguments {
-    /// Who chooses the actions
+    /// The brain that chooses the actions
     #[arg(value_parser = words(BRAINS.map(|(word, agent)| (word, agent.description(), (word, agent)))))]
     brain: (&'static str, Agent),
     #[command(flatten)]

@@ -13,8 +13,8 @@ use tolman_robot::Trajectory;
 
 use super::{Failure, OrBadInput};
 
-/// Tells how right a trajectory is: against relative poses that were verified, or against another
-/// trajectory
+/// Measures the error of a trajectory: against relative poses that were verified, or against
+/// another trajectory
 #[derive(clap::Args)]
 #[command(
     group(ArgGroup::new("judge").args(["relations", "truth"]).required(true)),
@@ -25,13 +25,13 @@ Example:
   tolman score --trajectory office/odometry.tum --truth office/noted.tum --json"
 )]
 pub(super) struct Arguments {
-    /// The trajectory, one pose a line, `time x y z qx qy qz qw`; plain or packed by gzip
+    /// The trajectory, one pose per line, `time x y z qx qy qz qw`; plain or packed by gzip
     #[arg(long, value_name = "FILE")]
     trajectory: PathBuf,
-    /// Relative poses, one a line, `from to x y z roll pitch yaw`, in the times of the trajectory
+    /// Relative poses, one per line, `from to x y z roll pitch yaw`, in the times of the trajectory
     #[arg(long, value_name = "FILE")]
     relations: Option<PathBuf>,
-    /// Another trajectory; the two are laid over each other as well as a turn and a shift can
+    /// Another trajectory, which is aligned with the first by the best rotation and translation
     #[arg(long, value_name = "FILE")]
     truth: Option<PathBuf>,
     /// Write the figures as JSON
@@ -72,7 +72,7 @@ fn pairs(found: &Trajectory, truth: &Trajectory) -> Vec<(Point, Point)> {
 
 fn no_times(what: &str) -> Failure {
     Failure::BadInput(anyhow!(
-        "no {what} lies within the times of the trajectory; do both count time from the same moment?"
+        "no {what} lies within the times of the trajectory; make both count time from the same moment"
     ))
 }
 

@@ -20,14 +20,14 @@ pub(super) struct SentOut {
     /// The robot, if the system can drive several
     #[arg(long, value_name = "NAME")]
     robot: Option<String>,
-    /// How the system is set: one of its presets
+    /// The system's preset
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Change a setting of the preset; may be given several times
     #[arg(long, value_name = "SETTING=VALUE", value_parser = setting)]
     set: Vec<(String, String)>,
-    /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
-    /// and degrees, from the south-west corner of a maze or as a world has it, counter-clockwise
+    /// Where the robot starts: random, marked (the maze's start), X,Y or X,Y,DEG in metres and
+    /// degrees, from the south-west corner of a maze or in a world's own frame, counter-clockwise
     /// from east
     #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
     start: Option<Start>,

@@ -11,8 +11,8 @@ use super::{App, Failure, interrupt};
 #[derive(clap::Args)]
 #[command(group(clap::ArgGroup::new("which").args(["name"])), after_help = "\
 The share lies in chunk-I-of-K in the experiment's folder. Give every machine the same program and the
-same options but I, gather the shares in one folder, and call `tolman merge`. A share that was
-interrupted goes on where it stopped. docs/many-machines.md has recipes.
+same options except I, gather the shares in one folder, and call `tolman merge`. An interrupted
+share continues where it stopped. docs/many-machines.md has recipes.
 
 Examples:
   tolman trial --experiment baselines --chunk 1/2 --quick --out shared

@@ -18,15 +18,14 @@ use tolman_geom::Pose;
 use super::kind::Kind;
 use super::{Failure, OrBadInput, called, file};
 
-/// How an interrupted run is kept and gone on with, of verbs that keep nothing else.
+/// How an interrupted run is saved and continued, for verbs that keep nothing else.
 #[derive(clap::Args)]
 pub(super) struct GoingOn {
-    /// Go on with an interrupted run; all else must be said as it was
+    /// Continue an interrupted run; repeat all other options as they were
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
-    /// Save the run to this file while it goes, once a second, so that it can be gone on with
-    /// whatever ends it. Ctrl-C saves it in any case, to drive.unfinished or run.unfinished if this
-    /// is not given
+    /// Save the run to this file once a second, so that it can be continued whatever ends it.
+    /// Ctrl-C always saves it, by default to drive.unfinished or run.unfinished
     #[arg(long, value_name = "FILE")]
     unfinished: Option<PathBuf>,
 }
@@ -141,7 +140,7 @@ impl Unfinished {
         match read.version {
             VERSION => Ok(read),
             other => Err(anyhow!(
-                "its version is {other}, and this program reads {VERSION}; take the one that wrote it"
+                "its version is {other}, and this program reads {VERSION}; use the one that wrote it"
             )),
         }
     }
@@ -195,6 +194,8 @@ fn read(path: &Path) -> Result<Former, Failure> {
 /// When a run is saved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Saving {
+    /// Never: what drives it cannot be made to do the same again.
+    Never,
     /// When it is interrupted.
     AtItsEnd,
     /// Now and then, too, for whatever else may end it.
@@ -235,7 +236,7 @@ impl Keeper {
             && let Some(difference) = call.difference(&former.run.call)
         {
             return Err(Failure::BadInput(anyhow!(
-                "{} is another run: {difference}; say all as it was said for it",
+                "{} is another run: {difference}; repeat all options of that run",
                 former.path.display()
             )));
         }
@@ -250,6 +251,21 @@ impl Keeper {
             done: Done::default(),
             next: Instant::now() + PERIOD,
         })
+    }
+
+    /// Keeps nothing of a run.
+    pub(super) fn of_nothing(verb: &str) -> Self {
+        Self {
+            path: PathBuf::new(),
+            call: Call::new(verb),
+            saving: Saving::Never,
+            map: None,
+            written: Vec::new(),
+            former: None,
+            trail: Trail::default(),
+            done: Done::default(),
+            next: Instant::now() + PERIOD,
+        }
     }
 
     /// Says when it is saved.
@@ -302,6 +318,9 @@ impl Keeper {
     /// # Errors
     /// If its file cannot be written.
     pub(super) fn save(&mut self, state: &impl Fn() -> State) -> Result<(), Failure> {
+        if self.saving == Saving::Never {
+            return Ok(());
+        }
         let run = match &self.former {
             Some(former) => former.run.clone(),
             None => Unfinished {
@@ -323,10 +342,11 @@ impl Keeper {
     /// Returns how an interrupted run is gone on with.
     pub(super) fn told(&self) -> String {
         let Done { actions, steps } = self.again().unwrap_or(self.done);
-        format!(
-            "interrupted after {actions} actions, {steps} steps; go on with: {}",
-            called::going_on(&self.path)
-        )
+        let told = format!("interrupted after {actions} actions, {steps} steps");
+        match self.saving {
+            Saving::Never => told,
+            _ => format!("{told}; go on with: {}", called::going_on(&self.path)),
+        }
     }
 
     /// Removes what was saved of a run that has come to its end.
@@ -355,7 +375,7 @@ impl Keeper {
 fn parted(former: &Former) -> Failure {
     let Done { actions, .. } = former.run.done;
     Failure::Failed(anyhow!(
-        "{}: its first {actions} actions, made again, came to something else; go on with the program that wrote it, or \
+        "{}: its first {actions} actions, repeated, gave another result; continue with the program that wrote it, or \
          begin again without --from",
         former.path.display()
     ))

@@ -56,7 +56,7 @@ fn modes() -> [Mode; 3] {
 const EPUCK: &str = "e-puck";
 
 /// Where common patterns are learned.
-const LEARNING_MAZE: &str = include_str!("../../../../mazes/cpm-learning.maze");
+const LEARNING_MAZE: &str = include_str!("../../mazes/cpm-learning.maze");
 
 impl SystemEntry for CpmEntry {
     fn name(&self) -> &'static str {
@@ -366,8 +366,8 @@ impl LearnedMap for MapFile {
     fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
         if let Terrain::Free(_) = terrain {
             return Err(anyhow!(
-                "a common-pattern map does not say where its junctions lie, and in a world whose walls stand anywhere they cannot be \
-                 laid over cells: leave --svg out; `tolman learn --replay` shows where the robot took them to be"
+                "a common-pattern map has no positions of its junctions, and a world of free walls has no cells to draw them \
+                 over: leave --svg out; `tolman learn --replay` shows where the robot took them to be"
             ));
         }
         Ok(drawing::over_maze(&self.map, &course_of(self, terrain)?))
@@ -415,8 +415,8 @@ impl LearnedMap for MapFile {
             return match unfinished(&self.map) {
                 Some(why) => Ok(Some(why)),
                 None => Err(anyhow!(
-                    "the map knows of nothing that is missing, and in a world whose walls stand anywhere nobody has counted the fragments \
-                     that there truly are: drive by it with `tolman drive`"
+                    "nothing is missing by the map itself, and the true fragments of a world of free walls are unknown: \
+                     drive by it with `tolman drive`"
                 )),
             };
         }

@@ -95,7 +95,7 @@ impl SystemEntry for DiktiometryEntry {
         setup.settings.preset(PRESETS)?;
         if setup.start.is_some_and(|start| start != Start::Random) {
             return Err(anyhow!(
-                "the diktiometry begins at a place that chance chooses: leave --start out"
+                "the diktiometry begins at a random place: leave --start out"
             ));
         }
         if let Some(map) = setup.from {
@@ -270,7 +270,7 @@ impl Outing for Surveying {
     fn act(&mut self, task: Task) -> Result<Standing, BoxError> {
         if task != Task::Explore {
             return Ok(Standing::gave_up(
-                "a survey is made until all its moves are made: leave --until out",
+                "a survey ends after all its moves: leave --until out",
             ));
         }
         if self.made == self.moves {

@@ -338,7 +338,7 @@ impl LearnedMap for MapFile {
     fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
         let course = course_of(self, terrain)?;
         let laid = LaidOver::of(&self.graph, &self.sites).ok_or_else(|| {
-            anyhow!("nobody watched where its places truly lie, so it cannot be laid over a world: leave --svg out")
+            anyhow!("the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out")
         })?;
         let mut map: MapView = self.graph.map();
         for place in &mut map.places {
@@ -387,7 +387,7 @@ impl LearnedMap for MapFile {
             return Ok(Some(why.to_owned()));
         }
         if self.sites.is_empty() {
-            return Err(anyhow!("nobody watched where its places truly lie"));
+            return Err(anyhow!("the map has no true positions of its places"));
         }
         Ok(complaint(
             &self.graph,

@@ -180,7 +180,7 @@ impl LearnedMap for MapFile {
     fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
         if to.is_some() {
             return Err(anyhow!(
-                "mslst's graph leads to the goal alone: leave --to out"
+                "mslst's graph only leads to the goal: leave --to out"
             ));
         }
         let graph = &self.learned.map.graph;

@@ -218,7 +218,7 @@ impl LearnedMap for BetterMapFile {
     fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
         let course = terrain.course(&self.origin.world, &body())?;
         let laid = laid(self).ok_or_else(|| {
-            anyhow!("nobody watched where its places truly lie, so it cannot be laid over a world: leave --svg out")
+            anyhow!("the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out")
         })?;
         let mut map = self.chart.view();
         for place in &mut map.places {
@@ -253,7 +253,7 @@ impl LearnedMap for BetterMapFile {
             return Ok(Some(why.to_owned()));
         }
         if self.sites.is_empty() {
-            return Err(anyhow!("nobody watched where its places truly lie"));
+            return Err(anyhow!("the map has no true positions of its places"));
         }
         Ok(complaint(&self.chart, &self.sites, &course))
     }

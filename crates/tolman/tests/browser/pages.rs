@@ -1,8 +1,9 @@
 //! Every kind of page that the command writes, in dark and light, at a desk and on a phone: no
 //! complaint of the console, no label over another, nothing cut off, everything legible.
 //!
-//! The counts are small. `TOLMAN_PAGES=FOLDER cargo test -p tolman --test browser -- --ignored
-//! pages_of_a_folder` looks at all pages below a folder, such as those of `experiment --all`.
+//! `TOLMAN_PAGES=FOLDER cargo test -p tolman --test browser -- --ignored pages_of_folders` looks at
+//! all pages below a folder, such as those of `experiment --all`, or below several, as in `PATH`.
+//! `cargo xtask ci` names those of the golden runs and of the commands that are shown.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -84,13 +85,17 @@ fn below(folder: &Path) -> Vec<PathBuf> {
 
 #[test]
 #[ignore = "needs a browser, and TOLMAN_PAGES"]
-fn pages_of_a_folder() {
+fn pages_of_folders() {
     let Some(named) = env::var_os("TOLMAN_PAGES") else {
         tell("left out: TOLMAN_PAGES names no folder");
         return;
     };
-    let named = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(named);
-    let pages = below(&named);
-    assert!(!pages.is_empty(), "no page below {}", named.display());
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+    let mut pages = Vec::new();
+    for folder in env::split_paths(&named) {
+        let found = below(&root.join(&folder));
+        assert!(!found.is_empty(), "no page below {}", folder.display());
+        pages.extend(found);
+    }
     assert_faultless(&pages);
 }

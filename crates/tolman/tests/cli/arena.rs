@@ -31,7 +31,7 @@ fn files_are_worlds_too_and_every_world_is_a_line_of_json() {
         .lines()
         .map(|line| serde_json::from_str(line).unwrap())
         .collect();
-    assert_eq!(lines.len(), 14);
+    assert_eq!(lines.len(), 15);
     let cpm = lines
         .iter()
         .find(|line| line["system"] == "CPM Better")

@@ -221,7 +221,7 @@ fn corridors_of_a_width_that_the_robot_cannot_tell_are_told() {
             "corridor_width = 0.25",
             &format!("corridor_width = {width}"),
         );
-        let told = format!("corridors of {width} m");
+        let told = format!("corridors are {width} m wide");
         refused_maze(
             "cpm-width",
             &wide,

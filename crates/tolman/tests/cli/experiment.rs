@@ -268,6 +268,23 @@ fn a_table_is_filled_alone_and_the_others_runs_are_kept() {
     let one = baselines(&folder, "out", &chosen);
     assert_eq!(one.code, Some(0), "{}", one.err);
     assert_eq!(tables(&one.out), both[1..]);
+    // Of that table one row.
+    let row = |summary: &str| {
+        let summary: Value = serde_json::from_str(summary).unwrap();
+        let rows = summary["rows"].as_array().unwrap().clone();
+        rows.iter()
+            .map(|row| row["row"].as_str().unwrap().to_owned())
+            .collect::<Vec<_>>()
+    };
+    let first = row(&one.out)[0].clone();
+    let alone = baselines(&folder, "out", &[&chosen[..], &["--row", &first]].concat());
+    assert_eq!(alone.code, Some(0), "{}", alone.err);
+    assert!(
+        row(&alone.out).iter().all(|name| *name == first),
+        "{}",
+        alone.out
+    );
+    baselines(&folder, "out", &["--row", "nope"]).refused(2, &["nope", &first]);
     // All runs are still there, so that none is played.
     let again = baselines(&folder, "out", &["--json"]);
     assert!(again.err.contains("there from before"), "{}", again.err);

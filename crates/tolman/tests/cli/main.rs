@@ -16,6 +16,8 @@ mod gngslam;
 mod help;
 mod helpful;
 #[cfg(unix)]
+mod host;
+#[cfg(unix)]
 mod interrupted;
 mod learn;
 #[cfg(unix)]

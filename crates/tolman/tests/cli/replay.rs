@@ -176,3 +176,27 @@ fn a_trace_comes_from_standard_input_too() {
     tolman_fed(&trace, &["replay", "-", "--out", out.to_str().unwrap()]).done();
     assert_eq!(data(&out)["title"], "standard input");
 }
+
+#[test]
+fn a_replay_for_foxglove_needs_the_feature() {
+    let folder = folder("replay-mcap");
+    fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
+    let run = [
+        "run",
+        "avoid",
+        "--maze",
+        "corridor.maze",
+        "--replay",
+        "run.mcap",
+    ];
+    if cfg!(not(feature = "mcap")) {
+        tolman_in(&folder, &run).refused(2, &["run.mcap", "--features mcap"]);
+        return;
+    }
+    for _ in 0..2 {
+        let told = tolman_in(&folder, &run).done();
+        assert!(told.contains("run.mcap"), "{told}");
+    }
+    let written = fs::read(folder.join("run.mcap")).unwrap();
+    assert!(written.starts_with(b"\x89MCAP0\r\n") && written.ends_with(b"\x89MCAP0\r\n"));
+}

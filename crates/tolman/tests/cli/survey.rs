@@ -188,7 +188,7 @@ fn a_file_that_is_no_sound_survey_is_refused() {
     );
     check(
         &text.replacen("\"moves\":5,", "\"moves\":9,", 1),
-        "cut off: 5 of 9",
+        "cut off: it has 5 of 9 moves",
     );
     tolman_in(&folder, &["learn", "--out", "never.json"]).refused(2, &["--maze"]);
     for (former, now) in [

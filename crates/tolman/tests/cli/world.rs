@@ -118,7 +118,7 @@ fn a_map_of_cpm_says_what_it_can_of_a_world() {
     let show = [
         "map", "show", "map.json", "--svg", "map.svg", "--world", world,
     ];
-    tolman_in(&folder, &show).refused(2, &["does not say where its junctions lie", "--svg"]);
+    tolman_in(&folder, &show).refused(2, &["has no positions of its junctions", "--svg"]);
 }
 
 #[test]

@@ -5,14 +5,14 @@ use alloc::vec::Vec;
 use super::{PlaneMaze, WorldPort};
 use tolman_maps::cpm::{CpMap, JunctionId, Port};
 
-/// How a map compares with the world.
+/// Comparison of a map with the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapCheck {
     /// The map is the world: each place and corridor once, all ports in order.
     Right,
-    /// What the map has is right, each thing once; some corridors are missing.
+    /// All that the map has is right, each thing once; some corridors are missing.
     Partial,
-    /// What the map has is right, but some things are there more than once.
+    /// All that the map has is right, but some things are there more than once.
     Redundant,
     /// Somewhere the map leads to another place than the world does.
     Wrong,
@@ -38,8 +38,8 @@ impl PlaneMaze {
         }
     }
 
-    /// For each junction that the map has ways to, the port of this world that is its port 0, given
-    /// where the robot is on both, or `None` if the map is wrong somewhere. O(fragments · log
+    /// Returns, for each junction that the map has ways to, the port of this world that is its port
+    /// 0, given the robot's place on both. `None` if the map is wrong somewhere. O(fragments · log
     /// fragments).
     #[must_use]
     pub fn correspondence(

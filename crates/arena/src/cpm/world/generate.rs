@@ -10,37 +10,37 @@ use super::{PlaneMaze, PlaneMazeError, WorldBuilder};
 use tolman_maps::cpm::{Dictionary, DictionaryError, FragmentMatching, PatternId, Similarity};
 use tolman_robot::Landmark;
 
-/// What a random world shall be like.
+/// Parameters of a random world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MazeConfig {
     /// Cells from west to east, at least 2.
     pub columns: u32,
     /// Cells from south to north, at least 2.
     pub rows: u32,
-    /// How many of the openings that a tree of corridors can do without are there; 0 to 1.
+    /// Share of the openings beyond a tree of corridors that exist, 0 to 1.
     pub loops: f64,
-    /// How many cells have an opening across their corner that could be used: 0 for ports in four
-    /// directions only, up to 1 for junctions of up to eight ports.
+    /// Share of cells with a usable opening across their corner: 0 for ports in four directions
+    /// only, up to 1 for junctions of up to eight ports.
     pub diagonals: f64,
     /// Common patterns of the dictionary, at least 2; the paper has 31.
     pub patterns: u32,
     /// Observations to a cell's length, at least 1.
     pub observations_per_cell: f64,
-    /// How likely an observation is like the one before it; 0 to 1. Walls go on.
+    /// Probability that an observation equals the one before it, 0 to 1: walls go on.
     pub persistence: f64,
-    /// How corridors differ.
+    /// Differences between corridors.
     pub likeness: Likeness,
-    /// How many corridors look the same from both ends; 0 to 1.
+    /// Share of corridors that look the same from both ends, 0 to 1.
     pub symmetrical: f64,
 }
 
-/// How the corridors of a random world differ.
+/// Differences between the corridors of a random world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Likeness {
     /// "Every path-fragment in the environment is distinctive": f_S < 0.8 for all pairs in both
-    /// directions, and, unless they shall be symmetrical, for each and its inverse.
+    /// directions, and, unless they are symmetrical, for each and its inverse.
     Distinctive,
-    /// As many kinds of corridors, at least 1. Those of one kind and length look the same.
+    /// This number of kinds of corridors, at least 1. Those of one kind and length look the same.
     Kinds(u32),
 }
 
@@ -55,12 +55,12 @@ pub enum MazeConfigError {
         field: &'static str,
         /// The value given.
         value: f64,
-        /// What it may be, in words.
+        /// Allowed values, in words.
         range: &'static str,
     },
     /// Too many corridors: they cannot all differ.
     #[error(
-        "corridor {corridor} is like another in a thousand draws: take more patterns or observations"
+        "all of a thousand draws of corridor {corridor} look like another one: use more patterns or observations"
     )]
     NotDistinctive {
         /// Its number.
@@ -92,7 +92,7 @@ impl MazeConfig {
         }
     }
 
-    /// Returns one of the mazes of all sorts: from trees to all loops there may be, ports in four
+    /// Returns one of the mazes of all sorts: from trees to all possible loops, ports in four
     /// directions or in eight.
     #[must_use]
     pub fn any(number: u32) -> Self {
@@ -105,7 +105,8 @@ impl MazeConfig {
         }
     }
 
-    /// [One of all sorts](Self::any) whose corridors look alike and whose loops may be symmetrical.
+    /// Returns [one of all sorts](Self::any) whose corridors look alike and whose loops may be
+    /// symmetrical.
     #[must_use]
     pub fn any_alike(number: u32) -> Self {
         Self {
@@ -151,8 +152,8 @@ impl MazeConfig {
 }
 
 impl PlaneMaze {
-    /// Returns a random maze: a random tree of corridors on a grid of cells, some loops, a start
-    /// and a goal, in dead ends if there are any. Cells with two ways out are no places but bends
+    /// Returns a random maze on a grid of cells: a random tree of corridors, some loops, a start
+    /// and a goal, in dead ends if there are any. Cells with two ways out are not places but bends
     /// of a corridor.
     ///
     /// # Errors
@@ -303,9 +304,9 @@ fn openings(config: &MazeConfig, rng: &mut impl Rng) -> Vec<(u32, u32)> {
     candidates
 }
 
-/// Random prototypes of 11 features from 0 to 1, as the paper's, in pairs that are each other half
-/// turned, and a last one that is its own if the number is odd. To turn half round is to exchange
-/// the first five features with the next five, which keeps distances.
+/// Returns random prototypes of 11 features from 0 to 1, like the paper's. They come in pairs that
+/// are each other half turned; with an odd number the last one is its own. To turn half round is to
+/// exchange the first five features with the next five, which keeps distances.
 fn random_dictionary(patterns: u32, rng: &mut impl Rng) -> Result<Dictionary, DictionaryError> {
     let mut prototypes: Vec<(Vec<f64>, PatternId)> = Vec::with_capacity(patterns as usize);
     for id in 0..patterns {
@@ -332,7 +333,7 @@ fn half_turned_features(features: &[f64]) -> Vec<f64> {
     turned
 }
 
-/// What corridors look like, one by one.
+/// Generator of the corridors' looks, one by one.
 struct Looks<'a> {
     config: &'a MazeConfig,
     kinds: Vec<Vec<PatternId>>,
@@ -402,7 +403,7 @@ impl<'a> Looks<'a> {
     }
 }
 
-/// Makes the second half what the first is, seen the other way.
+/// Makes the second half the first one seen the other way.
 fn mirror(patterns: &mut [PatternId], dictionary: &Dictionary) {
     let count = patterns.len();
     for place in 0..count / 2 {

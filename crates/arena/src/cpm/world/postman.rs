@@ -6,22 +6,21 @@ use tolman_planners::{Graph, steps_from};
 use super::{PlaneMaze, WorldPort};
 
 impl PlaneMaze {
-    /// Returns how many corridors the shortest walk passes that begins at the start, ends anywhere,
-    /// and has been through all that can be reached: the baseline of an exploration, with perfect
-    /// knowledge. None where more than 16 places have an odd number of ports, for which there is no
-    /// patience.
+    /// Returns the number of corridors of the shortest walk from the start through all that can be
+    /// reached, ending anywhere: the baseline of an exploration, with perfect knowledge. `None` if
+    /// more than 16 places have an odd number of ports, as that would take too long.
     #[must_use]
     pub fn shortest_covering_walk(&self) -> Option<u32> {
         shortest_covering_walk(self, self.start.place)
     }
 }
 
-/// Returns how many arcs the shortest walk passes that begins at a start, ends anywhere, and has
-/// been through all that can be reached: the baseline of an exploration, with perfect knowledge.
-/// None where more than 16 places have an odd number of ports, for which there is no patience.
+/// Returns the number of arcs of the shortest walk from `start` through all that can be reached,
+/// ending anywhere: the baseline of an exploration, with perfect knowledge. `None` if more than 16
+/// places have an odd number of ports, as that would take too long.
 ///
 /// The open Chinese postman's walk: odd places are joined in pairs by shortest ways, walked twice,
-/// but for one, where the walk ends. O(2ⁿ · n) in the number n of odd places.
+/// except for one, where the walk ends. O(2ⁿ · n) in the number n of odd places.
 pub(in crate::cpm) fn shortest_covering_walk(graph: &impl Graph, start: u32) -> Option<u32> {
     let from_start = steps_from(graph, [start]);
     let reached = |place: u32| from_start[place as usize].is_some();

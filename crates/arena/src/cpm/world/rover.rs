@@ -10,7 +10,7 @@ use tolman_maps::cpm::{
 };
 use tolman_systems::cpm::{Aim, Done, Explorer, JunctionDecision, Leg};
 
-/// How a rover's senses err.
+/// Errors of a walker's senses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WalkerNoise {
     /// The chance that an observation is taken for another pattern, any; 0 to 1.
@@ -19,15 +19,15 @@ pub struct WalkerNoise {
     pub insertion: f64,
     /// The chance that an observation is not made; 0 to 1.
     pub deletion: f64,
-    /// Slip: how much longer or shorter than it is the robot takes a fragment for at most, as a
-    /// part of its length; 0 to less than 1. It makes as many more or fewer observations.
+    /// Slip: maximum error of a fragment's length, as a share of it; 0 to less than 1. The number
+    /// of observations changes with it.
     pub slip: f64,
-    /// How far the heading that it believes to have may be off, rad; not negative.
+    /// Maximum error of the believed heading, rad; not negative.
     pub heading: f64,
 }
 
 impl WalkerNoise {
-    /// What is, is seen.
+    /// No errors.
     pub const NONE: Self = Self {
         substitution: 0.0,
         insertion: 0.0,
@@ -36,7 +36,8 @@ impl WalkerNoise {
         heading: 0.0,
     };
 
-    /// What the paper's robot has and more: 10 % slip, one observation in ten mistaken.
+    /// Errors like those of the paper's robot, and more: 10 % slip, one observation in ten
+    /// mistaken.
     pub const NOISY: Self = Self {
         substitution: 0.1,
         insertion: 0.03,
@@ -65,7 +66,7 @@ pub struct PlaneWalker<'a> {
     observations: u32,
 }
 
-/// What came of a walk.
+/// Result of a walk.
 #[derive(Clone, Debug, PartialEq)]
 pub enum WalkOutcome {
     /// It reached the end of the fragment.
@@ -76,7 +77,7 @@ pub enum WalkOutcome {
 }
 
 impl<'a> PlaneWalker<'a> {
-    /// At the world's start.
+    /// Returns a walker at the world's start.
     #[must_use]
     pub const fn new(world: &'a PlaneMaze, noise: WalkerNoise, reckoning: Reckoning) -> Self {
         Self {
@@ -101,13 +102,13 @@ impl<'a> PlaneWalker<'a> {
         }
     }
 
-    /// Returns how many observations it has made.
+    /// Returns the number of observations it has made.
     #[must_use]
     pub const fn observations(&self) -> u32 {
         self.observations
     }
 
-    /// Returns what it sees where it is.
+    /// Returns the sighting of its present place.
     #[must_use]
     pub fn sighting(&self) -> Sighting {
         self.world.sighting(self.at.place)
@@ -159,7 +160,7 @@ impl<'a> PlaneWalker<'a> {
         }))
     }
 
-    /// Walks as `explorer` decides until there is nothing more to do for `aim`. `see` is told of
+    /// Walks as `explorer` decides until there is nothing more to do for `aim`. Calls `see` with
     /// every fragment that was walked to its end.
     ///
     /// # Errors
@@ -293,7 +294,7 @@ impl<'a> PlaneWalker<'a> {
     }
 }
 
-/// From 0 to less than 1.
+/// Returns a random number from 0 to less than 1.
 pub(super) fn uniform(rng: &mut impl Rng) -> f64 {
     f64::from(rng.random::<u32>()) / 4_294_967_296.0
 }

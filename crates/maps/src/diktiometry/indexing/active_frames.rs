@@ -34,9 +34,9 @@ impl ActiveFrame {
 /// Returns the active frames after a displacement: "dropping frames which are not informative, and
 /// adding neighbors of active frames which appear both informative and relevant".
 ///
-/// `here` is the frame of the robot's place with the robot in it: always active, and where it says
-/// more of a neighbour than was carried along, that holds too. At most `cap` frames are kept, those
-/// with the narrowest box. O(active frames · degree · log).
+/// `here` is the frame of the robot's place, with the robot in it. It is always active. If its box
+/// for a neighbour is better than the one carried along, the better one holds. At most `cap` frames
+/// are kept, those with the narrowest box. O(active frames · degree · log).
 pub(crate) fn moved(
     map: &Diktiometry,
     active: &[ActiveFrame],
@@ -88,23 +88,24 @@ pub(crate) fn moved(
 }
 
 /// Returns the envelope of a frame, "the bounding interval of the position intervals of F's
-/// places"; of their nominal envelopes, since a frame that one place alone defines is a point
-/// otherwise. None without places.
+/// places". It is that of the nominal envelopes, as a frame defined by one place would otherwise be
+/// a point. `None` without places.
 fn envelope(map: &Diktiometry, frame: FrameId) -> Option<PointBox> {
     let places = map.frame(frame).places.iter();
     let boxes = places.map(|place| map.place(*place).envelope);
     boxes.reduce(PointBox::hull)
 }
 
-/// "(a) the robot's estimated position interval with respect to F contains the origin (ie, F), and
-/// (b) the center of the interval … is not within F's envelope": then it is not.
+/// Returns whether a frame is informative. It is not if "(a) the robot's estimated position
+/// interval with respect to F contains the origin (ie, F), and (b) the center of the interval … is
+/// not within F's envelope".
 fn is_informative(map: &Diktiometry, frame: &ActiveFrame) -> bool {
     envelope(map, frame.frame).is_some_and(|envelope| {
         !frame.robot.contains(Point::origin()) || envelope.contains(frame.robot.middle())
     })
 }
 
-/// "The current position estimate intersects the frame's envelope."
+/// Returns whether "the current position estimate intersects the frame's envelope".
 fn is_relevant(map: &Diktiometry, frame: &ActiveFrame) -> bool {
     envelope(map, frame.frame).is_some_and(|envelope| envelope.meets(frame.robot))
 }

@@ -4,8 +4,9 @@ use crate::diktiometry::{
     Candidate, Config, Diktiometry, Expectation, PlaceId, Projection, WorldKind,
 };
 
-/// "Given a particular current place, the expectational candidates are those which are predicted by
-/// the last action taken from that place." One set. O(degree · log degree).
+/// Returns the expectational candidates: "Given a particular current place, the expectational
+/// candidates are those which are predicted by the last action taken from that place." One set.
+/// O(degree · log degree).
 ///
 /// Beyond the paper, in a static world the reverse of the action that led here leads back.
 pub(crate) fn expected(

@@ -3,9 +3,9 @@ use alloc::vec::Vec;
 use super::{Candidate, Expectation};
 use crate::diktiometry::{Diktiometry, Projection, Reached};
 
-/// Places of the frames that a search reached whose position may be the robot's, one set for each
-/// number of relations on the way: "each ply of the search is less plausible". O(places in these
-/// frames).
+/// Returns the places of the reached frames whose position may be the robot's. There is one set for
+/// each number of relations on the way: "each ply of the search is less plausible". O(places in
+/// these frames).
 pub(crate) fn plies(
     map: &Diktiometry,
     reached: &[Reached],

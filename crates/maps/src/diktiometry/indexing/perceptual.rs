@@ -1,4 +1,4 @@
-//! Places that look like what the robot sees, wherever they are.
+//! Places that look like the robot's view, wherever they are.
 
 mod columns;
 mod feature_tree;
@@ -14,11 +14,11 @@ use triangles::{Seen, TriangleIndex};
 
 use crate::diktiometry::{Config, PathGraph, Percepts, PerceptualIndexing, PlaceId, Signature};
 
-/// How often the hypercube's size is doubled at most: from the tolerance to eight times it.
+/// Maximum number of times that the hypercube's size is doubled: from the tolerance to eight times
+/// it.
 const DOUBLINGS: u32 = 3;
 
-/// All views of all places, by their columns and, if that is asked for, by triangles of their
-/// edges.
+/// All views of all places, by their columns and, if configured, by triangles of their edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ViewIndex {
     /// Whose they are.
@@ -91,12 +91,12 @@ impl ViewIndex {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Vote {
     view: u32,
-    /// By how many columns the view is turned against the percept, if it is the same feature.
+    /// Rotation of the view against the percept, in columns, if this is the same feature.
     offset: u32,
 }
 
 impl Vote {
-    /// For a feature that the percept has at `column` of `columns`.
+    /// Returns the vote for a feature that the percept has at `column` of `columns`.
     fn of(known: &Feature, column: u32, columns: usize) -> Self {
         let columns = columns as u32;
         Self {

@@ -3,12 +3,12 @@ use alloc::vec::Vec;
 use super::matcher::find;
 use crate::diktiometry::{Candidate, Matcher, PlaceId, Similarity, Situation};
 
-/// What the matching engine decided.
+/// Decision of the matching engine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Choice {
     /// The maximal applicable matchers, the best first; never empty.
     pub(crate) matches: Vec<Chosen>,
-    /// Places that the robot may be at, but the boxes are too wide to tell.
+    /// Places at which the robot may be, but whose boxes are too wide to tell.
     pub(crate) doubts: Vec<PlaceId>,
     /// Places that the robot is at for certain, beside the best match: they are one with it.
     pub(crate) twins: Vec<PlaceId>,
@@ -47,7 +47,7 @@ impl Chosen {
         matches!(self.matcher, Matcher::Continue | Matcher::Link)
     }
 
-    /// Returns how far the middle of the place is from the robot's, squared, m².
+    /// Returns the squared distance from the robot to the middle of the place, m².
     fn distance(&self) -> f64 {
         self.candidate.map_or(0.0, |candidate| {
             let middle = candidate.offset.middle();
@@ -61,12 +61,12 @@ impl Chosen {
     }
 }
 
-/// Applies the matchers to the sets of candidates, the best set first: "the maximal applicable
-/// matchers are used … If no matchers apply, a new place is created."
+/// Applies the matchers to the sets of candidates, the best set first, and returns the choice: "the
+/// maximal applicable matchers are used … If no matchers apply, a new place is created."
 ///
-/// `expected` is the first set; `plies` gives the sets of the other modules, asked for only where
-/// no CONTINUE takes precedence over all they could bring. The first set with a match that posits
-/// no error wins; only if there is none, the first with one that does stands against a new place.
+/// `expected` is the first set. `plies` gives the sets of the other modules, and is called only if
+/// no CONTINUE takes precedence over them. The first set with a match that posits no error wins. If
+/// none has one, the first set with any match competes with a new place.
 pub(crate) fn choose(
     situation: &Situation<'_>,
     expected: &[Candidate],
@@ -123,8 +123,8 @@ fn matched(situation: &Situation<'_>, set: &[Candidate], doubts: &mut Vec<PlaceI
     found.flatten().collect()
 }
 
-/// Returns the matches of the first set that has some without an error or, if there is none, some
-/// with one; these stand against a new place.
+/// Returns the matches without an error of the first set that has some. If none has, returns those
+/// of the first set with any; these compete with a new place.
 fn applicable(sets: &[Vec<Chosen>]) -> Vec<Chosen> {
     let normal = |set: &Vec<Chosen>| -> Vec<Chosen> {
         let all = set.iter().copied();

@@ -4,9 +4,10 @@ use super::engine::Chosen;
 use super::view::agrees;
 use crate::diktiometry::{
     Candidate, Config, Diktiometry, Expectation, Identity, PlaceId, Signature, Similarity, Use,
+    WorldKind,
 };
 
-/// How a track came to its place.
+/// Matcher by which a track came to its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Matcher {
     /// "Matches a place that was expected with consistent position estimate and view."
@@ -23,7 +24,7 @@ pub enum Matcher {
     Beta,
 }
 
-/// What matchers look at beside the candidate.
+/// Input of the matchers beside the candidate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Situation<'a> {
     pub(crate) map: &'a Diktiometry,
@@ -31,17 +32,28 @@ pub(crate) struct Situation<'a> {
     pub(crate) percept: Option<&'a Signature>,
     /// Distance since the last CONTINUE, m.
     pub(crate) astray: f64,
-    /// How often the region just traversed was traversed before.
+    /// Number of earlier traversals of the region just traversed.
     pub(crate) traversals: u32,
     /// The track's confidence.
     pub(crate) confidence: f64,
 }
 
-/// What a candidate turned out to be.
+impl Situation<'_> {
+    /// Returns whether the robot is at a place that it cannot be at by its odometry. In a world
+    /// where an action leads to one place, what contradicts that is an outlier.
+    fn is_led_to(&self, candidate: &Candidate, look: Similarity) -> bool {
+        candidate.expectation == Expectation::Expected
+            && look == Similarity::Alike
+            && self.config.world == WorldKind::Static
+            && self.config.matching.identity == Identity::Certain
+    }
+}
+
+/// Result of applying the matchers to a candidate.
 enum Applicable {
     /// A matcher applies.
     Matcher(Matcher),
-    /// None does, but the robot may be there: the box is too wide to tell.
+    /// None applies, but the robot may be there: the box is too wide to tell.
     Doubtful,
     /// The robot is elsewhere.
     None,
@@ -113,6 +125,9 @@ fn applicable(
         if config.matching.identity == Identity::Meets || expected || near {
             return Applicable::Matcher(Matcher::Alpha);
         }
+    }
+    if config.matching.beta == Use::On && situation.is_led_to(candidate, look) {
+        return Applicable::Matcher(Matcher::Beta);
     }
     let reach = config.matching.beta_reach * situation.astray;
     let near = candidate.offset.norm().low() <= config.separation.min(reach);

@@ -1,4 +1,4 @@
-use crate::diktiometry::{Matcher, Precedence, Situation, Tracking};
+use crate::diktiometry::{Matcher, Precedence, Situation, Tracking, WorldKind};
 
 impl Situation<'_> {
     /// Returns whether matcher `a` takes precedence over `b`: the *dynamic partial order*. `visits`
@@ -20,6 +20,8 @@ impl Situation<'_> {
             (Continue, Link) => self.traversals >= matching.well_traversed,
             (Continue | Link, Alpha | NewPlace | Beta) => true,
             (Alpha, NewPlace) => visits < matching.alpha_visits,
+            (Beta, NewPlace) if self.config.world == WorldKind::Static => true,
+            (NewPlace, Beta) if self.config.world == WorldKind::Static => false,
             (Alpha | NewPlace, Beta) => self.confidence >= high,
             (Beta, Alpha | NewPlace) => self.confidence <= low,
             _ => false,

@@ -8,8 +8,8 @@ pub(crate) fn agrees(place: &Place, percept: Option<&Signature>, percepts: &Perc
     place.views.is_empty() || place.views.iter().any(|view| alike(view, percept, kind))
 }
 
-/// Returns whether two places may look alike: a view of one does as one of the other, or one has
-/// none.
+/// Returns whether two places may look alike: a view of one is like one of the other's, or a place
+/// has no view.
 pub(crate) fn share_a_view(a: &Place, b: &Place, percepts: &Percepts) -> bool {
     a.views.is_empty() || a.views.iter().any(|view| agrees(b, Some(view), percepts))
 }
@@ -20,8 +20,8 @@ pub(crate) fn similarity(a: &Place, b: &Place, percepts: &Percepts) -> Similarit
 }
 
 impl Percepts {
-    /// Returns whether two looks may be of one place, turned by a column at most: a compass errs
-    /// now by another angle than before. They may if one is missing.
+    /// Returns whether two looks may be of one place, rotated by at most one column, as a compass
+    /// errs differently each time. True if one is missing.
     #[must_use]
     pub fn are_alike(&self, one: Option<&Signature>, other: Option<&Signature>) -> bool {
         let (Self::Signatures(kind), Some(one), Some(other)) = (self, one, other) else {

@@ -7,8 +7,8 @@ use tolman_geom::PointBox;
 use super::JournalSpan;
 use super::identities::Joined;
 
-/// All that the journal says of where places lie, as constraints on differences: along each axis
-/// one place lies at most so far beyond another. The tightest of each two places is kept.
+/// The journal's knowledge of positions, as constraints on differences: along each axis, how far
+/// one place lies beyond another at most. The tightest of each pair is kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Constraints {
     /// By the places' classes, from one to the other.
@@ -48,7 +48,7 @@ impl Constraints {
         }
     }
 
-    /// Two classes have become one.
+    /// Merges the constraints of two classes that have become one.
     pub(super) fn join(&mut self, Joined { kept, lost }: Joined) {
         let others = self.tightest.remove(&lost).unwrap_or_default();
         for (other, forth) in others {
@@ -66,9 +66,9 @@ impl Constraints {
         }
     }
 
-    /// Returns the routes that bound where one place lies as seen from another from each of the
-    /// four sides, none twice; none if they are not connected, or if the constraints contradict
-    /// each other. Bellman's and Ford's algorithm. O(places · pairs of neighbours).
+    /// Returns the routes that bound the position of `to` relative to `from` on each of the four
+    /// sides, without duplicates. Empty if the two are not connected, or if the constraints
+    /// contradict each other. Bellman's and Ford's algorithm. O(places · pairs of neighbours).
     pub(super) fn routes(&mut self, from: usize, to: usize) -> Vec<Vec<JournalSpan>> {
         let mut routes = Vec::new();
         for axis in 0..2 {

@@ -3,10 +3,10 @@ use alloc::vec::Vec;
 
 use crate::diktiometry::{Action, Config, WorldKind};
 
-/// Which visits are known to be to one place, and what follows: in a static world an action leads
-/// from one place to one place, and its reverse from there back.
+/// Visits that are known to be to one place, and all that follows. In a static world an action
+/// leads from one place to one place, and its reverse from there back.
 ///
-/// A visit stands for its class by its number or that of any other in it.
+/// A class is named by the number of any visit in it.
 #[derive(Clone, Debug)]
 pub(super) struct Identities<'a> {
     config: &'a Config,
@@ -26,7 +26,7 @@ pub(super) struct Joined {
 }
 
 impl<'a> Identities<'a> {
-    /// Returns what is known at the start: visit 0 was somewhere.
+    /// Returns the initial state, with visit 0 only.
     pub(super) fn new(config: &'a Config) -> Self {
         Self {
             config,
@@ -53,8 +53,7 @@ impl<'a> Identities<'a> {
         self.find(one) == self.find(other)
     }
 
-    /// Returns where an action leads from the place of a visit, as a visit that stands for its
-    /// class.
+    /// Returns where an action leads from the place of a visit, as the number of a visit there.
     pub(super) fn leads(&self, visit: usize, action: Action) -> Option<usize> {
         let to = self.leads[self.find(visit)].get(&action)?;
         Some(self.find(*to))
@@ -122,8 +121,8 @@ mod tests {
 
     use super::*;
 
-    /// Returns what follows by the letter: visits after the same action from one place are to one
-    /// place, and so is one that a reverse leads back to.
+    /// Returns the classes by direct application of the rules. Visits after the same action from
+    /// one place are to one place, and so is one that a reverse leads back to.
     fn by_the_letter(config: &Config, actions: &[Action], joined: &[[usize; 2]]) -> Vec<usize> {
         let mut class: Vec<usize> = (0..=actions.len()).collect();
         let rename = |class: &mut Vec<usize>, one: usize, other: usize| {

@@ -4,7 +4,7 @@ use super::{LookEvidence, LookPair};
 use crate::diktiometry::{Config, Journal, Looks, Percepts, Signature, alike};
 
 impl LookEvidence {
-    /// Returns the evidence of two visits alone, of which no chance is known yet.
+    /// Returns the evidence of two visits alone, with a provisional chance of 1.
     pub(super) fn first(visits: [usize; 2], looks: Looks) -> Self {
         let after = None;
         Self {
@@ -14,15 +14,15 @@ impl LookEvidence {
         }
     }
 
-    /// Returns the probability that this many kinds of looks agree at two places, one of which may
-    /// be taken for as many as there are kinds, and two more.
+    /// Returns the probability that the agreement is a coincidence. The number of places that one
+    /// may be mistaken for is taken as the number of kinds of looks, plus two.
     pub(super) fn stated(&self, config: &Config, journal: &Journal) -> f64 {
         let others = f64::from(self.looks.kinds) + 2.0;
         let chance = self.looks.chance(self.kinds(config, journal));
         (others * chance).min(1.0)
     }
 
-    /// Returns how many different looks there are among the pairs.
+    /// Returns the number of different looks among the pairs.
     fn kinds(&self, config: &Config, journal: &Journal) -> usize {
         let mut kinds: Vec<usize> = Vec::new();
         for pair in &self.pairs {

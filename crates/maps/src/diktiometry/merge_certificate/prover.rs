@@ -13,7 +13,7 @@ use crate::diktiometry::{
     Config, Journal, JournalError, Looks, MoveOutcome, Observer, PlaceId, Restructured, StepReport,
 };
 
-/// What is to be said of the merges of a map.
+/// Certificates for the merges of a map.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CertifiedMerges {
@@ -61,7 +61,7 @@ struct Prover<'a> {
     config: &'a Config,
     journal: &'a Journal,
     identities: Identities<'a>,
-    /// What of it holds without looks.
+    /// Identities that hold without looks.
     proven: Identities<'a>,
     constraints: Constraints,
     /// By class: visits that look different.
@@ -103,8 +103,8 @@ impl Prover<'_> {
             .extend(open.into_iter().filter_map(|claim| claim.last().copied()));
     }
 
-    /// Returns what the map now takes for one place: each claim is several pairs of visits of which
-    /// one is enough.
+    /// Returns the identities that the map has added. Each claim is several pairs of visits, one of
+    /// which is enough.
     fn claims(
         &mut self,
         visit: usize,

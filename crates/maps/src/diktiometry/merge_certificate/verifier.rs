@@ -18,7 +18,7 @@ pub enum MergeCertificateError {
         number: usize,
     },
     /// The journal has no such visit.
-    #[error("certificate {number} speaks of visit {visit}, and the journal has {visits}")]
+    #[error("certificate {number} names visit {visit}, but the journal has only {visits} visits")]
     NoSuchVisit {
         /// Number of the certificate.
         number: usize,
@@ -28,13 +28,15 @@ pub enum MergeCertificateError {
         visits: usize,
     },
     /// A route or a chain of looks does not hang together.
-    #[error("certificate {number} has a gap: what it leads through is not known to be one place")]
+    #[error(
+        "certificate {number} has a gap: two visits that it joins are not known to be at one place"
+    )]
     Gap {
         /// Number of the certificate.
         number: usize,
     },
     /// It is said to rest on looks and does not, or the other way round.
-    #[error("certificate {number} does not say rightly whether it rests on looks")]
+    #[error("certificate {number} states wrongly whether it rests on looks")]
     Ground {
         /// Number of the certificate.
         number: usize,
@@ -58,7 +60,7 @@ pub enum MergeCertificateError {
         other: usize,
     },
     /// A span is invalid: it has no moves, more than five, or a blocked one.
-    #[error("certificate {number} has a span from visit {} to {} that no bound is known of", span.begin, span.end)]
+    #[error("certificate {number} has a span from visit {} to {} without known bounds", span.begin, span.end)]
     NoSpan {
         /// Number of the certificate.
         number: usize,
@@ -70,13 +72,13 @@ pub enum MergeCertificateError {
     TooWide {
         /// Number of the certificate.
         number: usize,
-        /// The most that the two may be apart, m.
+        /// Maximum distance between the two, m.
         most: f64,
         /// The least that two places are, m.
         least: f64,
     },
     /// Two visits do not look alike.
-    #[error("certificate {number} has visits {one} and {other} look alike, and they do not")]
+    #[error("certificate {number} says that visits {one} and {other} look alike, but they do not")]
     Unlike {
         /// Number of the certificate.
         number: usize,
@@ -86,19 +88,19 @@ pub enum MergeCertificateError {
         other: usize,
     },
     /// The chance is another.
-    #[error("certificate {number} states a chance of {stated}, and it is {found}")]
+    #[error("certificate {number} states a chance of {stated}, but it is {found}")]
     Chance {
         /// Number of the certificate.
         number: usize,
-        /// As it says.
+        /// Stated in the certificate.
         stated: f64,
-        /// As it is.
+        /// Found by the checker.
         found: f64,
     },
 }
 
-/// Checks certificates, one by one: each may rest on those before it. It reads the journal and what
-/// was told at first, and no map.
+/// Checks certificates in order: each may rest on those before it. It reads the journal and the
+/// configuration, but no map.
 ///
 /// O(moves + certificates · length of their routes).
 ///
@@ -132,7 +134,7 @@ struct Verifier<'a> {
     config: &'a Config,
     journal: &'a Journal,
     identities: Identities<'a>,
-    /// What of it holds without looks.
+    /// Identities that hold without looks.
     proven: Identities<'a>,
 }
 
@@ -267,7 +269,7 @@ impl Verifier<'_> {
     }
 }
 
-/// Returns how far apart the places of two visits are at the least if they are two, m.
+/// Returns the minimum distance between the places of two visits if they are different, m.
 pub(super) fn least_distance([one, other]: [usize; 2], config: &Config, journal: &Journal) -> f64 {
     let may_be_alike = match config.percepts {
         Percepts::None => true,

@@ -18,14 +18,14 @@ pub(crate) struct Reached {
     pub(crate) hops: u32,
 }
 
-/// Returns the frames around `start`, those of best known position first, `start` itself before
-/// all.
+/// Returns the frames around `start` by rising uncertainty of their position, `start` itself first.
 ///
-/// Dijkstra's algorithm on the width of the box; where several ways lead to a frame from frames
-/// reached before, its position is what they all allow. O(frames · degree · log frames).
+/// Dijkstra's algorithm on the width of the box. If several ways lead to a frame from frames
+/// reached before, its box is their intersection. O(frames · degree · log frames).
 ///
 /// The paper searches the graph by plies and says that "the farther a frame is in the reference
-/// graph, the less useful information (in general) it gives"; width is that information itself.
+/// graph, the less useful information (in general) it gives". The width measures that information
+/// itself.
 pub(crate) fn search(
     graph: &ReferenceGraph,
     start: FrameId,
@@ -80,7 +80,7 @@ pub(crate) fn search(
     reached
 }
 
-/// What a search knows of a frame.
+/// State of a frame in a search.
 #[derive(Clone, Copy)]
 enum Way {
     Unknown,

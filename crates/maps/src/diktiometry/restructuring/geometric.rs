@@ -16,11 +16,11 @@ use crate::diktiometry::{
 pub(super) struct Pair {
     pub(super) a: PlaceId,
     pub(super) b: PlaceId,
-    /// Where b lies as seen from a, m.
+    /// Position of b relative to a, m.
     pub(super) offset: PointBox,
 }
 
-/// Places of the frames around that of `place`, with where they are as seen from its frame, m.
+/// Returns the places of the frames around that of `place`, with their positions in its frame, m.
 pub(super) fn around(map: &Diktiometry, place: PlaceId) -> Vec<(PlaceId, PointBox)> {
     let relations = &map.frame(map.place(place).frame).relations;
     let places = relations.iter().flat_map(|relation| {
@@ -30,8 +30,8 @@ pub(super) fn around(map: &Diktiometry, place: PlaceId) -> Vec<(PlaceId, PointBo
     places.collect()
 }
 
-/// Returns those of some places that may be one: once two places are merged, what lies around them
-/// follows. There may be as many pairs as the square of the places, so that nobody keeps them.
+/// Returns the pairs of places that may be one. Once two places are merged, those around them
+/// follow. There may be O(places²) pairs, so they are not stored.
 pub(super) fn meeting(near: &[(PlaceId, PointBox)]) -> impl Iterator<Item = Pair> {
     near.iter().enumerate().flat_map(|(number, &(a, at))| {
         let others = near.iter().skip(number + 1);
@@ -43,7 +43,7 @@ pub(super) fn meeting(near: &[(PlaceId, PointBox)]) -> impl Iterator<Item = Pair
     })
 }
 
-/// Returns whether it is noted at a place that another may be one with it by its position.
+/// Returns whether a place has a note that another may be the same by its position.
 pub(super) fn is_nearness_noted(map: &Diktiometry, place: PlaceId) -> bool {
     let notes = &map.place(place).notes;
     notes.iter().any(|note| note.ground == Ground::Position)
@@ -103,7 +103,7 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
     pairs
 }
 
-/// Returns whether two places may be merged by where they are.
+/// Returns the opinion on merging two places by their positions.
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     match config.restructuring.geometric_merge {
         GeometricMerge::Off => Verdict::Abstain,
@@ -116,7 +116,7 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     }
 }
 
-/// Returns how far apart the two are at the least if they are two.
+/// Returns the minimum distance of the two if they are different, m.
 fn least_distance(map: &Diktiometry, pair: &Pair, config: &Config) -> f64 {
     let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
     if share_a_view(a, b, &config.percepts) {
@@ -126,9 +126,10 @@ fn least_distance(map: &Diktiometry, pair: &Pair, config: &Config) -> f64 {
     }
 }
 
-/// "When two places have estim sets that can be merged such that the resultant set has one estim
-/// with weight greater than a threshold and no other estim's weight is greater than a threshold
-/// fraction of the first, a merge is indicated."
+/// Returns whether the estims of two places merge into one mode: "When two places have estim sets
+/// that can be merged such that the resultant set has one estim with weight greater than a
+/// threshold and no other estim's weight is greater than a threshold fraction of the first, a merge
+/// is indicated."
 fn have_one_mode(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
     let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
     let shift = pair.offset.middle() + (a.position.middle() - b.position.middle());
@@ -146,8 +147,9 @@ fn heaviest_first(mut estims: Vec<Estim>) -> Vec<Estim> {
     estims
 }
 
-/// "Eventually the estim set will contain two estims with weight greater than a threshold, and with
-/// weight ratio (max/min) less than a threshold. So when this occurs, a split is indicated."
+/// Returns the diagnosis by which a place's estims are two. "Eventually the estim set will contain
+/// two estims with weight greater than a threshold, and with weight ratio (max/min) less than a
+/// threshold. So when this occurs, a split is indicated."
 pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     let limits = &config.restructuring;
     if limits.geometric_split == Use::Off {

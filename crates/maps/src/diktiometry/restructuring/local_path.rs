@@ -9,10 +9,13 @@ use super::geometric::Pair;
 use super::{Diagnosis, Verdict};
 use crate::diktiometry::{Action, Config, Diktiometry, Link, LinkId, PlaceId, Use};
 
-/// "If two places have nearly identical incoming and outgoing action link sets (greater than a
-/// large fraction go to the same place via equivalent actions), then the places should be merged.
-/// The places also should have been visited often enough." No ground where proofs are asked for.
-/// Where an action certainly leads to different places from the two, they are not one. O(degree²).
+/// Returns the opinion on merging by links: "If two places have nearly identical incoming and
+/// outgoing action link sets (greater than a large fraction go to the same place via equivalent
+/// actions), then the places should be merged. The places also should have been visited often
+/// enough."
+///
+/// It abstains where proofs are required. It rejects if an action certainly leads to different
+/// places from the two. O(degree²).
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     let limits = &config.restructuring;
     if limits.local_merge == Use::Off {
@@ -58,14 +61,14 @@ fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bo
             .is_none_or(|(a, b)| (a - b).contains(Point::origin()))
 }
 
-/// "If the incoming links can be partitioned into two sets such that the sets' 'images' (the sets
-/// of outgoing links taken after coming in on each link in a set) are (nearly) disjoint, then a
-/// split is indicated."
+/// Returns the diagnosis by which links show that a place is two: "If the incoming links can be
+/// partitioned into two sets such that the sets' 'images' (the sets of outgoing links taken after
+/// coming in on each link in a set) are (nearly) disjoint, then a split is indicated."
 ///
-/// Images of different *actions* say only that the robot turned here or there; a split is indicated
-/// where the same action led to different places. The paper's images are of links, so that is what
-/// they are compared by: two incoming links belong together when some action led from both to the
-/// same place, and apart when it never did although both know the action. O(degree²).
+/// Images of different *actions* only show that the robot turned in different ways. A split is
+/// indicated if the same action led to different places. Two incoming links belong together if some
+/// action led from both to the same place. They belong apart if none did although both know the
+/// action. O(degree²).
 pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     let limits = &config.restructuring;
     let here = map.place(place);
@@ -110,7 +113,7 @@ struct Image {
 struct Taken {
     action: Action,
     to: PlaceId,
-    /// How often.
+    /// Number of times.
     count: u32,
 }
 

@@ -1,8 +1,8 @@
 //! Looks as evidence of identity, where the map has learned that they are.
 //!
 //! Beyond the paper, which compares histories of places that were considered and rejected. After a
-//! long way the box of a position has room for several places; where looks are many, it is told by
-//! what the places along the same actions look like.
+//! long way the box of a position has room for several places. Where looks are many, the places
+//! along the same actions tell which it is.
 
 use alloc::vec::Vec;
 
@@ -17,22 +17,23 @@ use crate::diktiometry::{
 /// Pairs of places that are compared at most.
 const COMPARED: usize = 64;
 
-/// For how many places one may be taken where an action relates the two to one place
-/// ([`share_a_way`]): how often, at most, it leads elsewhere than it did, or not back, since the
-/// world has changed or the place is two.
+/// Number of places that one may be mistaken for if an action relates the two to one place
+/// ([`share_a_way`]). It is the maximum rate at which the action leads elsewhere than before, or
+/// not back, as the world has changed or the place is two.
 const ELSEWHERE: f64 = 1e-3;
 
-/// Returns whether two places may be merged by what they and the places along the same actions look
-/// like.
+/// Returns the opinion on merging two places by their looks, and those of the places along the same
+/// actions.
 ///
-/// Where the same actions lead from one place, there is the same place. If the two are different,
-/// so are the places that the same actions lead to from them, and each pair of them looks alike by
-/// a chance of about p ([`Looks`](crate::diktiometry::Looks)). With k kinds of looks in agreement
-/// and n places that the one may be taken for, one that it is not does all that with a chance of
-/// about n · pᵏ at most: p is the mean over all pairs, and some looks are commoner than others.
-/// There are as many places as kinds of looks, and two more, for all that is known: how many are on
-/// the map says nothing while it is not folded. Where one action led from one place to both, the
-/// one is taken for the other only if the action has led elsewhere.
+/// The same actions lead from one place to the same places. If the two are different, so are the
+/// places that the same actions lead to. Each pair of those looks alike with a probability of about
+/// p ([`Looks`](crate::diktiometry::Looks)).
+///
+/// With k kinds of looks in agreement and n places to be mistaken for, the error probability is at
+/// most about n · pᵏ. There p is the mean over all pairs, and some looks are commoner than others.
+/// The number of places is taken as that of the kinds of looks, plus two. The number on the map
+/// says nothing while it is not folded. If one action led from one place to both, a mistake
+/// requires that the action has led elsewhere.
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     if config.restructuring.look_merge == Use::Off {
         return Verdict::Abstain;
@@ -97,7 +98,7 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
     pairs
 }
 
-/// Geometry has told two places apart: what that says of looks.
+/// Learns about looks from two places that geometry has told apart.
 pub(crate) fn learn_of_two(
     map: &mut Diktiometry,
     pair: [PlaceId; 2],
@@ -111,8 +112,8 @@ pub(crate) fn learn_of_two(
     map.looks.count(look, neighbours);
 }
 
-/// Returns how two places look from which the same action leads to those of a pair, or else to
-/// which it leads from them, or `None` if there are none of either.
+/// Returns how the places look from which the same action leads to the pair, or else those to which
+/// it leads from the pair. `None` if neither exist.
 fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Option<Similarity> {
     let paths = &map.paths;
     let before = paths.incoming(a).find_map(|(_, link)| {
@@ -140,17 +141,17 @@ pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usiz
     }
 }
 
-/// Returns how many kinds of looks have to agree if there is room for `room` places, or `None` if
-/// there are not as many kinds.
+/// Returns the number of kinds of looks that have to agree if there is room for `room` places, or
+/// `None` if there are fewer kinds.
 fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
     let others = room.min(f64::from(map.looks.kinds) + 2.0);
     map.looks.enough(config.restructuring.look_error / others)
 }
 
-/// How far looks agree along the same actions from two places.
+/// Agreement of looks along the same actions from two places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Agreement {
-    /// As many kinds of looks agree as have to.
+    /// Enough kinds of looks agree.
     Enough,
     /// Fewer do, as far as is known.
     TooLittle,
@@ -158,8 +159,8 @@ pub(super) enum Agreement {
     Broken,
 }
 
-/// Returns whether `wanted` kinds of looks agree along the same actions from two places, wherever
-/// they are, and nothing speaks against it that the two are one.
+/// Returns whether `wanted` kinds of looks agree along the same actions from two places, and
+/// nothing contradicts that the two are one.
 pub(super) fn agreement(
     map: &Diktiometry,
     a: PlaceId,

@@ -55,9 +55,9 @@ pub(super) fn merge(
     Some(kept)
 }
 
-/// Puts both places at one point, and brings what is known of the one's frame to the other's. Where
-/// the frame that was left lies in that of `kept`; none, and nothing done, if that contradicts a
-/// relation.
+/// Puts both places at one point and transfers the relations of one's frame to the other's. Returns
+/// the position of the frame that was left in that of `kept`. `None`, with nothing done, if that
+/// contradicts a relation.
 fn join_frames(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) -> Option<PointBox> {
     let [(home, there), (left, here)] = [kept, lost].map(|place| map.site(place));
     let shift = if home == left {
@@ -90,8 +90,7 @@ fn join_frames(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) -> Option<Po
     Some(shift)
 }
 
-/// Lets the links of `lost` begin and end at `kept`; what becomes the same link is counted
-/// together.
+/// Moves the ends of `lost`'s links to `kept`; links that become the same one add their counts.
 fn move_links(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) {
     let mut renamed: Vec<(LinkId, LinkId)> = Vec::new();
     let mut ids = map.place(lost).links();

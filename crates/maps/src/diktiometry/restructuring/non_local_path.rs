@@ -5,11 +5,11 @@ use super::Verdict;
 use super::geometric::Pair;
 use crate::diktiometry::{Config, Diktiometry, PlaceId, TrackEntry, Use};
 
-/// A history that tells of fewer moves in a row says nothing.
+/// Minimum number of moves of a history that counts as evidence.
 const LEAST: usize = 3;
 
-/// Leaves a copy of a track's history at the place it matched, if there was ever a doubt in it:
-/// "when a track matches a place, it deposits copies of its histories at the place".
+/// Leaves a copy of a track's history at the place it matched, if there was any doubt in it: "when
+/// a track matches a place, it deposits copies of its histories at the place".
 pub(crate) fn deposit(
     map: &mut Diktiometry,
     place: PlaceId,
@@ -41,9 +41,9 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::propose_if(limits.geometric_merge.trusts_paths() && count >= limits.histories)
 }
 
-/// Returns how many pairs of places there are along a history that ended at the one and, with the
-/// same actions, could have ended at the other place: matched, and considered but rejected. From
-/// the newest on, as far back as the map has the links.
+/// Returns the number of pairs of places along a history that, with the same actions, could also
+/// have ended at the other place, which was considered but rejected. Counts from the newest on, as
+/// far back as the map has the links.
 fn seam(map: &Diktiometry, history: &[TrackEntry], other: PlaceId) -> usize {
     let mut pairs = 0;
     let mut there = other;

@@ -65,8 +65,7 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
     new
 }
 
-/// Returns a link of the same action as another. It counts as gone once: what it is worth has to
-/// show.
+/// Returns a link of the same action as another, with a count of one, as its worth has yet to show.
 fn copy(map: &mut Diktiometry, link: &Link, from: PlaceId, to: PlaceId) -> LinkId {
     let id = map.paths.link_to(from, link.action, to);
     let new = map.link_mut(id);

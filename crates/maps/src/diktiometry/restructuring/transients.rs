@@ -7,9 +7,8 @@ use crate::diktiometry::{
     Config, Counts, Diktiometry, Fate, LinkStatus, PlaceId, Restructured, Transients, Use,
 };
 
-/// Elides the links from `place`'s neighbours to it and from it, and the places they lead to, that
-/// are met far less often than they are expected. A place that tracks are at (`occupied`) stays.
-/// O(degree).
+/// Elides links from and to `place`, and the places they lead to, that are met far less often than
+/// expected. Returns the changes. A place with tracks (`occupied`) stays. O(degree).
 pub(super) fn elide(
     map: &mut Diktiometry,
     place: PlaceId,

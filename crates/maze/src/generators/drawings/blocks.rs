@@ -47,7 +47,7 @@ pub fn blocks(size: (u16, u16), rng: &mut impl Rng) -> Result<Maze, GenerateErro
     Ok(pen.finish(Cell::new(0, 0), rng))
 }
 
-/// Walls a way up unless that cuts something off; whether it did.
+/// Walls a way up unless that cuts something off, and returns whether it did.
 fn wall_up(pen: &mut Pen, crossing: Cell, way: Direction) -> bool {
     let Some(middle) = crossing.beyond(way) else {
         return false;

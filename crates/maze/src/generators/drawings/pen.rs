@@ -97,7 +97,7 @@ impl Pen {
         self.maze
     }
 
-    /// [`finish`](Self::finish) with any drawn cell as start.
+    /// Ends like [`finish`](Self::finish), with any drawn cell as start.
     pub(super) fn finish_anywhere(self, rng: &mut impl Rng) -> Maze {
         let drawn = self.drawn();
         let start = drawn.get(chance::position(drawn.len().max(1), rng));

@@ -5,14 +5,14 @@ use super::light::Shine;
 use super::texture::stain;
 use crate::WallSegment;
 
-/// What one column of a picture looks along: a vertical plane through the camera.
+/// View along one column of a picture: a vertical plane through the camera.
 #[derive(Clone, Debug)]
 pub(super) struct Column<'a> {
     eye: Point,
-    /// How high the eye sits, m.
+    /// Height of the eye, m.
     eye_height: f64,
-    /// Where it looks, of length 1 along the camera's axis, so that depths are distances from the
-    /// picture's plane.
+    /// Direction of view, of length 1 along the camera's axis, so that depths are distances from
+    /// the picture's plane.
     direction: Vector,
     /// The walls it meets, the nearest first.
     met: Vec<Met<'a>>,
@@ -28,12 +28,12 @@ struct Met<'a> {
     normal: Vector,
 }
 
-/// How a pixel comes about.
+/// Parts of a pixel's colour.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pixel {
     /// Red, green and blue, 255 at full light, or more.
     pub(super) colour: [f64; 3],
-    /// How much of it is light of its own, 0 … 1.
+    /// Share of its own light, 0 to 1.
     pub(super) glow: f64,
 }
 
@@ -67,8 +67,8 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// Returns what it sees at `upward` of the axis, as the tangent of the angle: the first wall
-    /// that reaches up and down to there, or the floor before it.
+    /// Returns the pixel at `upward` of the axis, as the tangent of the angle: the first wall that
+    /// covers this height, or the floor before it.
     pub(super) fn pixel(&self, upward: f64, backdrop: &Backdrop, shine: &Shine) -> Pixel {
         let floor = if upward < 0.0 {
             -self.eye_height / upward

@@ -2,27 +2,26 @@ use tolman_geom::{Heading, Vector};
 
 use crate::Draws;
 
-/// How a room is lit, and how that changes from one picture to the next.
+/// Lighting of a room, and its changes between pictures.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Light {
-    /// How bright all is on average, 1 as the colours say.
+    /// Average brightness; 1 shows colours as they are.
     pub brightness: f64,
-    /// How bright red, green and blue are on average, each 1 in white light.
+    /// Average brightness of red, green and blue, each 1 in white light.
     pub cast: [f64; 3],
     /// From where most of it comes.
     pub from: Heading,
-    /// How much brighter a wall is that faces the light, as a share; one that faces away is as much
-    /// darker.
+    /// Additional brightness of a wall that faces the light, as a share; one that faces away is as
+    /// much darker.
     pub shade: f64,
-    /// How much of full light glowing walls cast over the whole picture, as a share, where they
-    /// fill it.
+    /// Share of full light that glowing walls cast over the whole picture if they fill it.
     pub glare: f64,
-    /// How all that changes.
+    /// Changes of the light.
     pub drift: LightDrift,
 }
 
-/// How light drifts: slowly to and fro round its average, by chance.
+/// Drift of the light: slow random changes round its average.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LightDrift {
@@ -41,7 +40,7 @@ pub struct LightDrift {
 }
 
 impl Light {
-    /// White light from everywhere that never changes.
+    /// Returns white light from everywhere that never changes.
     #[must_use]
     pub const fn steady() -> Self {
         Self {
@@ -61,9 +60,9 @@ impl Light {
         }
     }
 
-    /// Daylight through windows that look to `from`, and lamps: it changes within some fifty
-    /// pictures, and windows glare. The paper names changing light and gives no values (section
-    /// 3.4).
+    /// Returns daylight through windows that look to `from`, and lamps. It changes within some
+    /// fifty pictures, and windows glare. The paper names changing light but gives no values
+    /// (section 3.4).
     #[must_use]
     pub const fn daylight(from: Heading) -> Self {
         Self {
@@ -105,8 +104,7 @@ impl Light {
     }
 }
 
-/// Where the light has drifted: standard normal numbers, each to be scaled by its standard
-/// deviation.
+/// Drift of the light: standard normal numbers, each to be scaled by its standard deviation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Weather {
     now: Option<Drifts>,
@@ -175,7 +173,7 @@ impl Shine {
         core::array::from_fn(|part| colour[part] * self.gain[part])
     }
 
-    /// Returns how much of full light lies over a picture of which `share` glows.
+    /// Returns the share of full light that lies over a picture whose share `share` glows.
     pub(super) fn veil(&self, share: f64) -> f64 {
         (self.glare * self.outside * share).min(0.9)
     }

@@ -1,5 +1,5 @@
-/// Returns how much lighter or darker a surface is at a point of the room than its colour says, −1
-/// … 1: stains that are always at the same place, larger ones and smaller ones on top.
+/// Returns the brightness change of a surface at a point of the room, −1 to 1: stains at fixed
+/// places, larger ones with smaller ones on top.
 pub(super) fn stain(x: f64, y: f64, height: f64) -> f64 {
     0.6 * patch([x, y, height], 0.43, 1) + 0.4 * patch([x, y, height], 0.11, 2)
 }

@@ -8,26 +8,26 @@ pub enum PlayError {
     /// The simulator has closed its end.
     #[error("the simulator went away and left `{command}` without a reply")]
     HostGone {
-        /// What it was asked last.
+        /// The last command.
         command: String,
-        /// Why, if the pipe says it.
+        /// Reason, if the pipe gives one.
         source: Option<std::io::Error>,
     },
     /// The simulator says what it cannot say.
     #[error("the simulator replied {reply:?} to `{command}`: {expected} was expected")]
     Reply {
-        /// What it was asked.
+        /// The command.
         command: String,
         /// Its reply.
         reply: String,
-        /// What it could have said.
+        /// Possible answers.
         expected: &'static str,
     },
     /// The maze is larger than the mouse's map.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
     /// It sees walls where it has seen none, or the other way round.
-    #[error("the mouse sees what it knows to be different")]
+    #[error("the reading contradicts the mouse's map")]
     Observe(#[from] ObserveError),
     /// No way leads to the goal.
     #[error("the mouse has found that no way leads to the goal")]
@@ -35,7 +35,7 @@ pub enum PlayError {
     /// It runs against walls it does not see.
     #[error("the mouse crashed {crashes} times: walls are not where the simulator says they are")]
     Crashes {
-        /// How often.
+        /// Number of crashes.
         crashes: u32,
     },
     /// The log cannot be written.

@@ -1,4 +1,4 @@
-//! Where a mouse of mms can be: on a lattice of half-steps.
+//! Possible positions of a mouse of mms: a lattice of half-steps.
 
 use tolman_maze::{Cell, Direction, Grid};
 
@@ -59,7 +59,7 @@ impl LatticePoint {
     }
 }
 
-/// What lies half a step ahead of a place.
+/// What lies half a step ahead of a position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gate {
     /// The middle of a cell: nothing can stand there.
@@ -75,7 +75,7 @@ pub enum Gate {
 pub struct LatticeHeading(u8);
 
 impl LatticeHeading {
-    /// Where every mouse looks at the start.
+    /// Heading of every mouse at the start.
     pub const NORTH: Self = Self(0);
 
     /// Returns the heading turned clockwise by `eighths` eighths of a circle.
@@ -96,7 +96,7 @@ impl LatticeHeading {
         }
     }
 
-    /// 0 for north, then clockwise by eighths.
+    /// Returns the heading's number: 0 for north, then clockwise by eighths.
     #[must_use]
     pub const fn index(self) -> u32 {
         self.0 as u32
@@ -108,7 +108,7 @@ impl LatticeHeading {
         Self((index % 8) as u8)
     }
 
-    /// Half a step that way: to the east, to the north.
+    /// Returns half a step in that direction, to the east and to the north.
     const fn half_step(self) -> (i32, i32) {
         match self.0 {
             0 => (0, 1),

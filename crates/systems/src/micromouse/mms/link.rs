@@ -93,7 +93,7 @@ impl<R: BufRead, W: Write> Link<R, W> {
     }
 }
 
-/// How a movement ended.
+/// Result of a movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Driven {
     Arrived,

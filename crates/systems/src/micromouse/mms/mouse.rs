@@ -12,35 +12,35 @@ use super::roads::{Roads, Stand, TurnsAtStart};
 use super::{LatticeHeading, LatticePoint, PlayError};
 use crate::micromouse::Until;
 
-/// What a mouse has done.
+/// Result of a game.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Played {
-    /// What the run it made scores, in half-steps, without the tenth of all movements.
+    /// Score of the run it made, in half-steps, without the tenth of all movements.
     pub run: f32,
-    /// What the best run scores that the walls it knows leave possible.
+    /// Score of the best run that the known walls leave possible.
     pub possible: f32,
-    /// How often the reset button was pressed or a crash made it go back to the start.
+    /// Number of times that the reset button was pressed or a crash made it go back to the start.
     pub resets: u32,
 }
 
 /// Crashes after which a mouse no longer believes that its map comes right.
 const MOST_CRASHES: u32 = 8;
 
-/// What an observation may have to be taken back after a crash: that of the last two stops.
+/// Number of last observations that a crash makes doubtful.
 const DOUBTFUL: usize = 2;
 
-/// Plays one maze, from `mazeWidth` to the end of the best run: `output` goes to the simulator,
-/// `input` comes from it, and `log` is for people.
+/// Plays one maze, from `mazeWidth` to the end of the best run, and returns the result. `output`
+/// goes to the simulator, `input` comes from it, and `log` is for people.
 ///
 /// The mouse starts in the south-west and looks north; its goal is the middle of the maze. In every
-/// cell where it stops it asks how far it sees to the four sides. It plans in what the simulator
-/// scores, diagonals included, and explores like the mouse of the [speed
-/// run](tolman_planners::speed_run): of the best run that can be hoped for it looks at the walls
-/// nobody has looked at, the nearest first. When the reset button is pressed it goes on from the
-/// start; after a crash too, without what it saw last.
+/// cell where it stops it asks for the distances to walls on all four sides. It plans in the
+/// simulator's score, diagonals included. It explores like the mouse of the
+/// [speed run](tolman_planners::speed_run): it looks at the unknown walls of the best run that can
+/// be hoped for, the nearest first. After a press of the reset button it continues from the start.
+/// After a crash it does so too, and forgets its last observations.
 ///
 /// # Errors
-/// If the simulator goes away or talks nonsense, the maze has more than 32 columns or rows, or no
+/// If the simulator goes away or answers nonsense, the maze has more than 32 columns or rows, or no
 /// way leads to its goal.
 pub fn play(
     input: impl BufRead,
@@ -139,7 +139,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         }
     }
 
-    /// Until the mouse has been at the goal and knows enough.
+    /// Explores until the mouse has been at the goal and knows enough.
     fn explore(&mut self) -> Result<Course, PlayError> {
         loop {
             self.look()?;
@@ -157,8 +157,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         }
     }
 
-    /// Takes in how far the mouse sees to the four sides, and draws the walls it has not seen
-    /// before.
+    /// Takes in the distances to walls on all four sides, and draws the walls that are new.
     fn look(&mut self) -> Result<(), PlayError> {
         let cell = self.at.place.cell();
         let mut rays = Vec::with_capacity(4);
@@ -185,7 +184,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         Ok(())
     }
 
-    /// Returns how far the mouse sees to one side. What is known is not asked for again.
+    /// Returns the view to one side. Known walls are not asked for again.
     fn ray(&mut self, command: &str, cell: Cell, side: Direction) -> Result<CellRay, PlayError> {
         let (mut open, mut end) = (0, cell);
         loop {
@@ -255,7 +254,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         ends_run(stand, &self.goals)
     }
 
-    /// To where the mouse can look on, on known ground: the place from which a target is near.
+    /// Returns the way on known ground to where the mouse can see more: the position from which a
+    /// target is nearest.
     fn way_to(&self, targets: &[Cell]) -> Result<Option<Plan>, TooLarge> {
         let grid = self.walls.grid();
         let hoped = Passages::<N>::new(&self.walls, Unknown::Open)?;
@@ -291,7 +291,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         }))
     }
 
-    /// Home on known ground.
+    /// Returns the way home on known ground.
     fn way_home(&self) -> Result<Option<Plan>, TooLarge> {
         let known = Passages::<N>::new(&self.walls, Unknown::Closed)?;
         let roads = Roads::new(self.walls.grid(), &known, TurnsAtStart::Count);
@@ -300,7 +300,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         }))
     }
 
-    /// Drives from stand to stand, the first of which is a turn away at most.
+    /// Drives from stand to stand; the first of them is at most a turn away.
     fn follow(&mut self, stands: &[Stand]) -> Result<Course, PlayError> {
         for stand in stands {
             if self.link.truth("wasReset")? {
@@ -386,7 +386,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
     }
 }
 
-/// What a cell costs, about, on a way nobody has seen, in halves.
+/// Approximate cost of a cell on an unknown way, in halves.
 const ONE_CELL: u32 = 5;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Where a mouse of mms can drive, and what it costs in the score.
+//! Movements of a mouse of mms, with their costs in the score.
 
 use tolman_maze::{Cell, Direction, Grid};
 use tolman_planners::{Graph, Passages};
@@ -13,7 +13,7 @@ pub(super) struct Stand {
 }
 
 impl Stand {
-    /// Where every mouse of mms starts.
+    /// Start of every mouse of mms.
     pub(super) const START: Self = Self {
         place: LatticePoint::START,
         heading: LatticeHeading::NORTH,
@@ -21,17 +21,17 @@ impl Stand {
 }
 
 /// All movements on some passages: turns in place by 45° and 90°, and straights, which may be
-/// diagonal. Costs are those of the score in half-steps, counted in halves so that they are whole.
+/// diagonal. Costs are those of the score, counted in halves of a half-step.
 pub(super) struct Roads<'a, const N: usize> {
     grid: Grid,
     passages: &'a Passages<N>,
     at_start: TurnsAtStart,
 }
 
-/// What turns on the start's place cost.
+/// Cost of turns at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TurnsAtStart {
-    /// What they cost everywhere.
+    /// The same cost as everywhere.
     Count,
     /// Nothing: a run begins with the first movement that leaves the start.
     Free,

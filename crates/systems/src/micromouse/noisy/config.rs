@@ -8,6 +8,8 @@ use tolman_planners::moves::MoveExplorerConfigError;
 pub struct NoisyMouseConfig {
     /// How it knows where it is.
     pub localization: PoseSource,
+    /// How it knows how far it drove and turned in a time step.
+    pub motion: MotionSource,
     /// What its filter takes for noise.
     pub filter: PoseFilterConfig,
     /// From the middle of a cell to the next, m. > 0.
@@ -27,6 +29,15 @@ pub enum PoseSource {
     DeadReckoning,
     /// It compares what it sees with the walls it knows.
     ParticleFilter,
+}
+
+/// How a mouse knows how far it drove and turned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MotionSource {
+    /// As far as its wheels were told.
+    Commands,
+    /// As far as its encoders say, and as far as told where they say nothing.
+    Encoders,
 }
 
 /// Reason why there is no such mouse.

@@ -9,6 +9,7 @@
 
 mod config;
 mod mouse;
+mod system;
 
-pub use config::{NoisyMouseConfig, NoisyMouseError, PoseSource};
+pub use config::{MotionSource, NoisyMouseConfig, NoisyMouseError, PoseSource};
 pub use mouse::{NoisyBody, NoisyMouse, NoisyNext};

@@ -8,18 +8,15 @@ use tolman_planners::moves::{
     Leap, MouseStep, MoveDecision, MoveExplorer, MoveExplorerConfig, MoveMap,
 };
 use tolman_planners::{Passages, Unknown};
-use tolman_robot::{Bumps, Ranges, Robot, TurnTranslate};
+use tolman_robot::{Bumps, Ranges, Robot, Rolls, TurnTranslate};
 
-use super::{NoisyMouseConfig, NoisyMouseError, PoseSource};
-use crate::micromouse::Brief;
-
-/// The largest maze, columns or rows.
-const SIDE: usize = 16;
+use super::{MotionSource, NoisyMouseConfig, NoisyMouseError, PoseSource};
+use crate::micromouse::{Brief, SIDE};
 
 /// A robot that a noisy mouse can drive.
-pub trait NoisyBody: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps> {}
+pub trait NoisyBody: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps + Rolls> {}
 
-impl<R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>> NoisyBody for R {}
+impl<R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps + Rolls>> NoisyBody for R {}
 
 /// What a noisy mouse has done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,29 +32,32 @@ pub enum NoisyNext {
 /// A mouse that drives by what it believes.
 #[derive(Debug)]
 pub struct NoisyMouse {
-    config: NoisyMouseConfig,
-    brief: Brief,
-    filter: PoseFilter,
+    pub(super) config: NoisyMouseConfig,
+    pub(super) brief: Brief,
+    pub(super) filter: PoseFilter,
     /// Where its wheels alone have brought it.
-    reckoned: Pose,
-    belief: WallBelief<SIDE>,
+    pub(super) reckoned: Pose,
+    pub(super) belief: WallBelief<SIDE>,
+    /// Whether it was put down somewhere and does not know yet where: it drives by its wheels from
+    /// where it most likely is, and learns no walls.
+    pub(super) is_lost: bool,
     explorer: MoveExplorer<SIDE>,
-    rng: ChaCha8Rng,
+    pub(super) rng: ChaCha8Rng,
 }
 
 /// Readings taken in a stop at least, and at most while a side of the cell that a sensor looks at
 /// is not known.
 const LOOKS: (u32, u32) = (4, 16);
-/// A mouse nearer to a wall ahead does not drive on, from its middle, m: with the number of
-/// readings in a row that have to say so.
-const TOO_NEAR: (f64, u32) = (0.055, 3);
+/// A mouse nearer to a wall ahead does not drive on, from its middle, as a share of the pitch: with
+/// the number of readings in a row that have to say so.
+const TOO_NEAR: (f64, u32) = (0.055 / 0.18, 3);
 /// How far ahead of the middle of its cell, as a share of the pitch, a mouse is that bumps into the
 /// wall of that cell, and not into a post.
 const AT_WALL: (f64, f64) = (0.1, 0.4);
 /// How often what is believed is doubted before the mouse takes itself for stuck.
 const DOUBTS: u32 = 12;
-/// A turn or a place this near is reached, rad and m.
-const CLOSE: (f64, f64) = (0.03, 0.004);
+/// A turn this near is reached, rad, and a place, as a share of the pitch.
+const CLOSE: (f64, f64) = (0.03, 0.004 / 0.18);
 /// The share of its full speed that the mouse drives with. What its wheels and sensors get wrong in
 /// a time step is independent of the next: the smaller the time steps, the more of it averages out,
 /// and the rules count no time.
@@ -78,6 +78,7 @@ impl NoisyMouse {
             filter: PoseFilter::new(config.filter, pose)?,
             reckoned: pose,
             belief,
+            is_lost: false,
             explorer: MoveExplorer::new(MoveExplorerConfig::tuned(), brief.start)?,
             rng: ChaCha8Rng::seed_from_u64(seed),
             brief,
@@ -108,8 +109,8 @@ impl NoisyMouse {
     #[must_use]
     pub fn pose(&self) -> Pose {
         match self.config.localization {
-            PoseSource::DeadReckoning => self.reckoned,
-            PoseSource::ParticleFilter => self.filter.estimate(),
+            PoseSource::ParticleFilter if !self.is_lost => self.filter.estimate(),
+            PoseSource::DeadReckoning | PoseSource::ParticleFilter => self.reckoned,
         }
     }
 
@@ -118,6 +119,9 @@ impl NoisyMouse {
     /// # Errors
     /// If the robot fails.
     pub fn look<R: NoisyBody>(&mut self, robot: &mut R) -> Result<(), R::Error> {
+        if self.is_lost {
+            return self.look_for_itself(robot);
+        }
         for looks in 0..LOOKS.1 {
             if looks >= LOOKS.0 && self.knows_its_cell() {
                 break;
@@ -163,7 +167,7 @@ impl NoisyMouse {
         if self.brief.goals.contains(&self.cell()) {
             return Ok(NoisyNext::Done);
         }
-        let Some(leap) = self.unless_stuck(None, |mouse| mouse.leap_to_goal()) else {
+        let Some(leap) = self.unless_stuck(None, |mouse| mouse.leap_to(&mouse.brief.goals)) else {
             return Ok(NoisyNext::Stuck);
         };
         self.leap(robot, leap)?;
@@ -180,7 +184,11 @@ impl NoisyMouse {
     /// Returns what `plan` comes to. Every maze has a way to its goal: while `plan` is `stuck`,
     /// some wall is believed in that does not stand, and all are doubted, so that the mouse looks
     /// again at those for which least speaks.
-    fn unless_stuck<T: PartialEq>(&mut self, stuck: T, plan: impl Fn(&mut Self) -> T) -> T {
+    pub(super) fn unless_stuck<T: PartialEq>(
+        &mut self,
+        stuck: T,
+        plan: impl Fn(&mut Self) -> T,
+    ) -> T {
         for _ in 0..DOUBTS {
             let planned = plan(self);
             if planned != stuck {
@@ -191,29 +199,36 @@ impl NoisyMouse {
         stuck
     }
 
-    /// Returns the next leap to a goal: over walls believed open, or else over those not believed
-    /// to stand.
-    fn leap_to_goal(&self) -> Option<Leap> {
+    /// Returns the next leap to the nearest of `targets`: over walls believed open, or else over
+    /// those not believed to stand.
+    pub(super) fn leap_to(&self, targets: &[Cell]) -> Option<Leap> {
         [Unknown::Closed, Unknown::Open]
             .into_iter()
-            .find_map(|unknown| {
-                // `new` has refused a maze that is too large.
-                let passages = Passages::<SIDE>::new(&self.belief, unknown).ok()?;
-                let map = MoveMap::new(&passages, self.brief.goals.iter().copied());
-                map.way(&passages, self.cell()).next()
-            })
+            .find_map(|unknown| self.first_leap(unknown, targets.iter().copied()))
+    }
+
+    /// Returns the next leap to the nearest of `targets`, walls that are not known being `unknown`.
+    pub(super) fn first_leap(
+        &self,
+        unknown: Unknown,
+        targets: impl IntoIterator<Item = Cell>,
+    ) -> Option<Leap> {
+        // `new` has refused a maze that is too large.
+        let passages = Passages::<SIDE>::new(&self.belief, unknown).ok()?;
+        let map = MoveMap::new(&passages, targets);
+        map.way(&passages, self.cell()).next()
     }
 
     /// Returns the cell the mouse thinks it is in; the start, if it thinks that it has left the
     /// maze.
-    fn cell(&self) -> Cell {
+    pub(super) fn cell(&self) -> Cell {
         self.belief
             .cell_at(self.pose().position)
             .unwrap_or(self.brief.start)
     }
 
     /// Returns where it looks, about.
-    fn looks_to(&self) -> Direction {
+    pub(super) fn looks_to(&self) -> Direction {
         let pose = self.pose();
         let off = |side: &Direction| pose.heading.turn_to(heading_of(*side)).abs();
         Direction::ALL
@@ -223,7 +238,7 @@ impl NoisyMouse {
     }
 
     /// Returns one step of the paper's rules: a turn, then cells ahead or back.
-    fn leap<R: NoisyBody>(&mut self, robot: &mut R, leap: Leap) -> Result<(), R::Error> {
+    pub(super) fn leap<R: NoisyBody>(&mut self, robot: &mut R, leap: Leap) -> Result<(), R::Error> {
         let mut looks = self.looks_to();
         let MouseStep { cells, .. } = MouseStep::of_leap(&mut looks, leap);
         self.turn_to(robot, looks)?;
@@ -236,13 +251,11 @@ impl NoisyMouse {
             let pose = self.pose();
             let away = target - pose.position;
             let way = ahead * away.dot(&along);
-            let front = robot
-                .sensing()
-                .scan()
-                .and_then(|scan| scan.ranges.get(1).copied());
-            let is_near = ahead > 0.0 && front.is_some_and(|range| range < TOO_NEAR.0);
+            let front = front_range(robot.sensing());
+            let too_near = TOO_NEAR.0 * self.config.pitch;
+            let is_near = ahead > 0.0 && front.is_some_and(|range| range < too_near);
             near = if is_near { near + 1 } else { 0 };
-            if way < CLOSE.1 || near >= TOO_NEAR.1 {
+            if way < CLOSE.1 * self.config.pitch || near >= TOO_NEAR.1 {
                 return Ok(());
             }
             // Towards the middle of the corridor, the more the farther from it.
@@ -270,6 +283,9 @@ impl NoisyMouse {
     /// Takes in that it touched something while it drove to `side`: the wall of its cell there,
     /// unless that is too near or far.
     fn bumped(&mut self, side: Direction) {
+        if self.is_lost {
+            return;
+        }
         let cell = self.cell();
         let off = self.pose().position - self.belief.middle(cell);
         let ahead = off.dot(&heading_of(side).unit()) / self.belief.pitch();
@@ -278,7 +294,11 @@ impl NoisyMouse {
         }
     }
 
-    fn turn_to<R: NoisyBody>(&mut self, robot: &mut R, side: Direction) -> Result<(), R::Error> {
+    pub(super) fn turn_to<R: NoisyBody>(
+        &mut self,
+        robot: &mut R,
+        side: Direction,
+    ) -> Result<(), R::Error> {
         for _ in 0..PATIENCE {
             let off = self.pose().heading.turn_to(heading_of(side));
             if off.abs() < CLOSE.0 {
@@ -294,37 +314,51 @@ impl NoisyMouse {
     }
 
     /// Returns one time step; whether the mouse touched a wall.
-    fn time_step<R: NoisyBody>(
+    pub(super) fn time_step<R: NoisyBody>(
         &mut self,
         robot: &mut R,
         command: TurnTranslate,
     ) -> Result<bool, R::Error> {
         robot.step(&command)?;
         let sensing = robot.sensing();
-        let (turn, distance) = (
-            command.turn * self.config.turn_per_step,
-            command.translate * self.config.translate_per_step,
-        );
+        let (turn, distance) = match (self.config.motion, sensing.odometry()) {
+            (MotionSource::Encoders, Some(rolled)) => (rolled.turn, rolled.distance),
+            _ => (
+                command.turn * self.config.turn_per_step,
+                command.translate * self.config.translate_per_step,
+            ),
+        };
         self.reckoned = self.reckoned.displaced(distance, turn);
         if self.config.localization == PoseSource::ParticleFilter {
             let readings = readings(sensing);
             self.filter.drive(distance, turn, &mut self.rng);
-            self.filter.sense(&self.belief, &readings, &mut self.rng);
+            if !self.is_lost {
+                self.filter.sense(&self.belief, &readings, &mut self.rng);
+            }
         }
         Ok(sensing.bump() == Some(true))
     }
 }
 
-fn readings(sensing: &impl Ranges) -> Vec<RangeReading> {
+/// Returns the range of the beam that looks most nearly ahead.
+fn front_range(sensing: &impl Ranges) -> Option<f64> {
+    let scan = sensing.scan()?;
+    let off = |beam: u32| scan.ring.bearing(beam).abs();
+    let beams = (0..).zip(&scan.ranges);
+    let ahead = beams.min_by(|(a, _), (b, _)| off(*a).total_cmp(&off(*b)));
+    ahead.map(|(_, range)| *range)
+}
+
+pub(super) fn readings(sensing: &impl Ranges) -> Vec<RangeReading> {
     let Some(scan) = sensing.scan() else {
         return Vec::new();
     };
-    (0..)
-        .zip(&scan.ranges)
-        .map(|(beam, range)| RangeReading {
-            bearing: scan.ring.bearing(beam),
-            range: *range,
-            max_range: scan.ring.max_range,
-        })
-        .collect()
+    let beams = (0..).zip(&scan.ranges);
+    let read = beams.filter(|(_, range)| range.is_finite());
+    read.map(|(beam, range)| RangeReading {
+        bearing: scan.ring.bearing(beam),
+        range: *range,
+        max_range: scan.ring.max_range,
+    })
+    .collect()
 }

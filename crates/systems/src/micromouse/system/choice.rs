@@ -3,7 +3,7 @@
 use tolman_maze::{Cell, Direction};
 use tolman_planners::moves::Leap;
 use tolman_planners::{Passages, TooLarge, Unknown};
-use tolman_robot::{Goal, Landmark, Standing, Task};
+use tolman_robot::{Standing, Task};
 
 use super::MazeMouse;
 use crate::micromouse::{Next, Search, SearchView};
@@ -22,7 +22,7 @@ impl<S: Search> MazeMouse<S> {
     pub(super) fn choose(&mut self, task: Task) -> Choice {
         let choice = match task {
             Task::Explore => self.choose_to_explore(),
-            Task::Reach(goal) => match self.cells_of(goal) {
+            Task::Reach(goal) => match self.brief.cells_of(goal) {
                 Some(targets) => self.choose_to_reach(&targets),
                 None => Ok(give_up(
                     "the mouse knows the start, the goals, and cells of the maze",
@@ -77,19 +77,6 @@ impl<S: Search> MazeMouse<S> {
     ) -> Result<Option<Vec<Leap>>, TooLarge> {
         let passages = Passages::new(&self.walls, unknown)?;
         Ok(self.run_two.plan(&passages, from, targets))
-    }
-
-    /// Returns the cells where a goal is reached, if there are any.
-    fn cells_of(&self, goal: Goal) -> Option<Vec<Cell>> {
-        match goal {
-            Goal::Landmark(Landmark::Start) => Some(vec![self.brief.start]),
-            Goal::Landmark(Landmark::Goal) => Some(self.brief.goals.clone()),
-            Goal::Landmark(Landmark::Numbered(_)) => None,
-            Goal::Place(id) => {
-                let cell = self.brief.grid.cells().nth(id as usize)?;
-                Some(vec![cell])
-            }
-        }
     }
 }
 

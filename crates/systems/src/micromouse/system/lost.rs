@@ -11,10 +11,10 @@ use super::MazeMouse;
 use super::pilot::Body;
 use crate::micromouse::{SIDE, Search};
 
-/// What a mouse knows of where it is that was put down somewhere in the maze.
+/// Belief of a mouse that was put down somewhere in the maze.
 #[derive(Clone, Debug)]
 pub(super) struct Lost {
-    /// Where it can be; it knows how it looks, by its compass.
+    /// Its possible poses; the compass gives its heading.
     pub(super) poses: PoseSet<SIDE>,
     looks: Direction,
     /// The middle of its cell, m, in a frame that is right but for whole cells.

@@ -1,11 +1,12 @@
 //! What a mouse has learned.
 
 use tolman_maps::wall_map::ObserveError;
-use tolman_maze::{Cell, Direction, Knowledge, Walls};
-use tolman_robot::{Guess, Landmark, MapLink, MapPlace, MapView, Mapper, Position};
+use tolman_maze::Cell;
+use tolman_robot::{Guess, MapView, Mapper, Position};
 
 use super::{CellSight, MazeMouse};
 use crate::micromouse::Search;
+use crate::micromouse::grid_map::{grid_map, place_of};
 
 /// Places are the cells known to be open to some side, and the start; links are the openings.
 impl<S: Search> Mapper for MazeMouse<S> {
@@ -22,20 +23,7 @@ impl<S: Search> Mapper for MazeMouse<S> {
     }
 
     fn map(&self) -> MapView {
-        let mut map = MapView::default();
-        for cell in self.brief.grid.cells() {
-            let links = map.links.len();
-            let from = self.id(cell);
-            map.links
-                .extend(self.open_sides(cell).map(|beside| MapLink {
-                    from,
-                    to: self.id(beside),
-                }));
-            if map.links.len() > links || cell == self.brief.start {
-                map.places.push(self.place(cell));
-            }
-        }
-        map
+        grid_map(&self.walls, &self.brief, |cell| self.config.middle(cell))
     }
 
     fn map_bytes(&self) -> Option<usize> {
@@ -48,36 +36,9 @@ impl<S: Search> Mapper for MazeMouse<S> {
             None => vec![self.at],
         };
         let guess = |cell: &Cell| Guess {
-            at: Position::Place(self.id(*cell)),
+            at: Position::Place(place_of(&self.brief, *cell)),
             weight: 1.0 / cells.len() as f64,
         };
         cells.iter().map(guess).collect()
-    }
-}
-
-impl<S: Search> MazeMouse<S> {
-    fn id(&self, cell: Cell) -> u32 {
-        self.brief.grid.index(cell) as u32
-    }
-
-    /// Returns what lies beyond the sides of a cell that are known to be open.
-    fn open_sides(&self, cell: Cell) -> impl Iterator<Item = Cell> {
-        let open = move |side| self.walls.knowledge(cell, side) == Knowledge::Open;
-        let sides = Direction::ALL.into_iter().filter(move |side| open(*side));
-        sides.filter_map(move |side| self.brief.grid.neighbour(cell, side))
-    }
-
-    fn place(&self, cell: Cell) -> MapPlace {
-        let landmark = if cell == self.brief.start {
-            Some(Landmark::Start)
-        } else {
-            let is_goal = self.brief.goals.contains(&cell);
-            is_goal.then_some(Landmark::Goal)
-        };
-        MapPlace {
-            id: self.id(cell),
-            position: Some(self.config.middle(cell)),
-            landmark,
-        }
     }
 }

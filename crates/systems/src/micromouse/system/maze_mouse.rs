@@ -23,12 +23,12 @@ use crate::micromouse::{
 /// - `Reach` drives a best run on walls known to be open, or else on those not known to stand. The
 ///   landmarks are the start and the goals; a place is a cell, by
 ///   [`Grid::index`](tolman_maze::Grid::index).
-/// - `Localize` is done when one cell is left in which it can be. Where it starts it is told; put
-///   down elsewhere, it drives to where the cells it has been in differ. `Explore` and `Reach`
-///   begin with that.
+/// - `Localize` is done when only one cell is possible. The mouse knows its cell at the start. Put
+///   down elsewhere, it drives to where the possible cells differ. `Explore` and `Reach` begin with
+///   that.
 ///
 /// Every action is one cell: the mouse looks at the walls, chooses, and drives to the middle of the
-/// next cell. It gives up where the walls contradict its map, or the robot does not get there.
+/// next cell. It gives up if the walls contradict its map, or if the robot does not get there.
 #[derive(Clone, Debug)]
 pub struct MazeMouse<S> {
     pub(super) brief: Brief,
@@ -38,11 +38,11 @@ pub struct MazeMouse<S> {
     pub(super) walls: WallMap<SIDE>,
     pub(super) at: Cell,
     pub(super) pilot: Pilot,
-    /// What it was last asked to do.
+    /// Its last task.
     task: Option<Task>,
-    /// The sides by which it leaves the next cells, the next one last.
+    /// Sides by which it leaves the next cells, the next one last.
     pub(super) route: Vec<Direction>,
-    /// What it knows of where it is, from when it was put down until it has found itself.
+    /// Belief about its place, from when it was put down until it has found itself.
     pub(super) lost: Option<Lost>,
 }
 

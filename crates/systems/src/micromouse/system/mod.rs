@@ -2,8 +2,8 @@
 //! cell by cell.
 //!
 //! Behind the interface of all systems: a [`MazeMouse`] is a [`Mapper`](tolman_robot::Mapper) of
-//! cells and a [`System`](tolman_robot::System) for every robot that turns and translates. It is
-//! told the size of the maze, its start, its goals and its pitch. Exploration ends when its
+//! cells and a [`System`](tolman_robot::System) for every robot that turns and translates. It knows
+//! the size of the maze, its start, its goals and its pitch. Exploration ends when its
 //! [`Search`](super::Search) has its proof, or has been everywhere. Put down somewhere, it finds
 //! out where by the walls it sees.
 //!

@@ -8,7 +8,7 @@ use tolman_robot::Scan;
 
 use super::MazeMouseConfig;
 
-/// What a mouse sees of the walls from one cell.
+/// A mouse's view of the walls from one cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CellSight {
     /// The cell it stands in.
@@ -22,13 +22,13 @@ pub struct CellSight {
 pub(super) struct Beam {
     /// The side it looks to.
     pub(super) side: Direction,
-    /// How far it sees in that direction, m.
+    /// Range in that direction, m.
     pub(super) along: f64,
     /// Whether it met something there.
     pub(super) met: bool,
     /// Its angle off the grid, as metres to the left of `side` for a metre along it.
     slope: f64,
-    /// Where it begins, m to the left of the middle of its row of cells.
+    /// Origin of the beam, m to the left of the middle of its row of cells.
     aside: f64,
 }
 
@@ -38,8 +38,8 @@ const STRAIGHT: f64 = 0.99;
 /// A beam this far from the middle of its row, as a share of the pitch, may meet a post.
 const INTERIOR: f64 = 0.35;
 
-/// How far from where a wall can stand a range may end and still count as that wall, as a share of
-/// the pitch.
+/// Maximum distance of a range's end from the place of a wall at which it still shows that wall, as
+/// a share of the pitch.
 pub(super) const TOLERANCE: f64 = 0.2;
 
 /// Returns the beams of a scan made at `pose` that look along the grid.
@@ -77,7 +77,7 @@ fn nearest_middle(point: Point, pitch: f64) -> Point {
     Point::new(middle(point.x), middle(point.y))
 }
 
-/// Returns what a scan made at `pose` says of the walls, seen from the cell whose middle is
+/// Returns the readings of the walls by a scan made at `pose`, seen from the cell whose middle is
 /// `middle`.
 pub(super) fn rays(
     scan: &Scan,

@@ -1,4 +1,4 @@
-//! Where a mouse is: dead reckoning, set right by the walls it sees.
+//! Pose of a mouse: dead reckoning, corrected by the walls it sees.
 
 use tolman_geom::{Pose, Vector};
 use tolman_maze::Direction;
@@ -7,11 +7,11 @@ use tolman_robot::{Compass, Odometry, Ranges, Rolls, Scan, TurnTranslate};
 use super::MazeMouseConfig;
 use super::sight::{self, TOLERANCE};
 
-/// Returns where a mouse is that was at `pose` a time step before and was told `command`, by its
+/// Returns the pose of a mouse that was at `pose` a time step before and drove `command`, by its
 /// wheels, its compass and the walls.
 ///
-/// Walls stand on the lines of the grid. A range that ends near a line tells how far the robot is
-/// from it, so that the wheels need be right to less than half a cell between two walls.
+/// Walls stand on the lines of the grid. A range that ends near a line gives the robot's distance
+/// from it. The wheels' error therefore only has to stay below half a cell between two walls.
 pub(super) fn next_pose(
     pose: Pose,
     sensing: &(impl Ranges + Compass + Rolls),
@@ -32,8 +32,8 @@ pub(super) fn next_pose(
     pose
 }
 
-/// From `pose` to where the walls say that the mouse is: the mean over all beams that meet one, on
-/// each axis.
+/// Returns the displacement from `pose` to where the walls show the mouse: the mean over all beams
+/// that meet one, on each axis.
 fn correction(scan: &Scan, pose: Pose, config: &MazeMouseConfig) -> Vector {
     let pitch = config.pitch;
     let (mut sum, mut count) = (Vector::zeros(), Vector::zeros());

@@ -9,9 +9,9 @@ use super::BetterMap;
 pub(super) struct ChangedMap {
     learned: Arc<BetterMap>,
     now: Arc<BetterMap>,
-    /// How often such a wall has barred the way.
+    /// Number of times that such a wall has blocked the way.
     barred: u32,
-    /// Whether walls bar every way, so that it goes by what it has learned.
+    /// Whether such walls block every way, so that it follows the map as learned.
     is_cut_off: bool,
 }
 

@@ -3,7 +3,7 @@ use thiserror::Error;
 
 use crate::mslst::ROBOT_UNIT;
 
-/// What the better system reckons with.
+/// Parameters of the better system.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BetterConfig {
@@ -14,17 +14,17 @@ pub struct BetterConfig {
     /// Standard deviation of how far a wall pushed the robot aside in a time step in which it
     /// touched one, m.
     pub slide_sd: f64,
-    /// What its motors do.
+    /// Errors of its motors.
     pub motors: Motors,
-    /// From wall to wall of a corridor, m: what the layers are made for.
+    /// Width of a corridor from wall to wall, m, for which the layers are made.
     pub corridor_width: f64,
-    /// How far an action leads, m.
+    /// Length of an action, m.
     pub action_way: f64,
     /// Standard deviation of that, as a share of it.
     pub action_sd: f64,
     /// Ranges below which the layers refuse to go on, m.
     pub buffer: f64,
-    /// What it does without, to see what that is worth.
+    /// Part that is switched off, to measure its effect.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub without: Option<BetterPart>,
 }
@@ -35,7 +35,7 @@ pub struct BetterConfig {
 pub struct BetterConfigError {
     /// The field.
     pub field: &'static str,
-    /// What it holds.
+    /// Its value.
     pub value: f64,
     /// The least it may hold.
     pub least: f64,
@@ -51,10 +51,10 @@ pub enum BetterPart {
     Fit,
     /// It goes where its map has gaps; without it, it wanders like Avoid until there are none.
     Exploration,
-    /// It plans for a robot that misses; without it for one whose motors do as they are told.
+    /// Plans for motors that err. Without it, plans for exact ones.
     Chances,
-    /// It does what is best on average over all it believes; without it what is best where it most
-    /// likely is.
+    /// Chooses the action that is best on average over the belief. Without it, chooses the best one
+    /// at the likeliest standpoint.
     Average,
     /// It takes the absence of the goal's landmark as evidence.
     Absence,
@@ -124,7 +124,7 @@ impl BetterConfig {
     }
 }
 
-/// What motors do, as far as a plan reckons with it.
+/// Errors of motors, as a plan expects them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Motors {
@@ -139,7 +139,7 @@ pub struct Motors {
 }
 
 impl Motors {
-    /// Returns the same motors if they did as they are told.
+    /// Returns the same motors without errors.
     pub(super) const fn exact(self) -> Self {
         Self {
             turn_sd: 0.0,

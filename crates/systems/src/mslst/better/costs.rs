@@ -1,21 +1,20 @@
 use tolman_planners::Decisions;
 
-/// What each action costs at each standpoint, facing along either axis, until the goal is reached,
-/// on average: ten bytes a standpoint.
+/// Average cost of each action until the goal, at each standpoint and facing along either axis: ten
+/// bytes per standpoint.
 ///
-/// The plan's decisions themselves take thirty times as much, and are not needed once this is
-/// known.
+/// The plan's decisions take thirty times as much, and are not needed afterwards.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ActionCosts {
     /// The least cost at each standpoint, in [`LEAST_UNIT`]s.
     least: Vec<u16>,
-    /// What each action costs beyond that, in [`MORE_UNIT`]s.
+    /// Additional cost of each action, in [`MORE_UNIT`]s.
     more: Vec<[u8; OPTIONS]>,
 }
 
 /// Axes and actions at a standpoint.
 const OPTIONS: usize = 8;
-/// What it costs to be where no way leads to the goal, time steps.
+/// Cost of a standpoint from which no way leads to the goal, time steps.
 pub(super) const HOPELESS: f32 = 1e4;
 /// Steps in which the least costs are kept, time steps.
 const LEAST_UNIT: f64 = 0.25;

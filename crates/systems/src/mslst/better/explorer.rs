@@ -16,15 +16,15 @@ use crate::{Brain, Doing, RolledStep};
 pub struct BetterExplorer {
     config: BetterConfig,
     map: ScanMap,
-    /// What its laser is known to do wrong.
+    /// Known errors of its laser.
     beams: StuckBeams,
     reckoning: Reckoning,
-    /// What failed since the robot last moved.
+    /// Actions that failed since the robot last moved.
     failed: Vec<Direction>,
-    /// What it went for last.
+    /// Its last choice.
     last: Option<Direction>,
     plan: Plan,
-    /// Where it believed to be after each action.
+    /// Its believed position after each action.
     trail: Vec<Point>,
 }
 
@@ -38,11 +38,11 @@ enum Plan {
     Finished,
 }
 
-/// How likely its map is right where something speaks against it, and where nothing does: by 250
-/// maps of the arena.
+/// Probability that its map is right if something contradicts it, and if nothing does: by 250 maps
+/// of the arena.
 const DOUBTFUL: f64 = 0.01;
 const SURE: f64 = 0.98;
-/// What turning round a quarter costs, as metres of way.
+/// Cost of a quarter turn, in metres of way.
 const TURN: f64 = 0.35;
 
 impl BetterExplorer {
@@ -65,13 +65,13 @@ impl BetterExplorer {
         }
     }
 
-    /// Returns what it has learned so far.
+    /// Returns the map as learned so far.
     #[must_use]
     pub const fn learned(&self) -> &ScanMap {
         &self.map
     }
 
-    /// Returns the places and ways of what it has learned so far. O(cells · log cells).
+    /// Returns the places and ways learned so far. O(cells · log cells).
     #[must_use]
     pub fn corridors(&self) -> CorridorMap {
         CorridorMap::of(&self.map.chart(), self.config.corridor_width)
@@ -87,7 +87,7 @@ impl BetterExplorer {
         self.map.chart().doubt()
     }
 
-    /// Returns what it has learned.
+    /// Returns the learned map.
     #[must_use]
     pub fn into_learned(self) -> ScanMap {
         self.map
@@ -139,7 +139,7 @@ impl BetterExplorer {
         }
     }
 
-    /// Returns how far it is to the gap once an action has led as far as it does, m, on average.
+    /// Returns the average distance to the gap after an action, m.
     fn left_after(
         &self,
         action: Direction,

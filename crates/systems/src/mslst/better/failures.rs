@@ -3,10 +3,10 @@ use alloc::collections::VecDeque;
 use tolman_geom::Point;
 use tolman_maze::Direction;
 
-/// Which actions failed of late, and where the robot believed to be.
+/// Actions that failed lately, with the robot's believed position.
 ///
-/// A map does not say why an action fails again and again; whatever the reason is, something else
-/// is worth a try.
+/// A map does not tell why an action fails repeatedly. Whatever the reason, another action is worth
+/// a try.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Failures {
     last: VecDeque<(Point, Direction)>,
@@ -18,7 +18,7 @@ const MOST: usize = 24;
 const NEAR: f64 = 0.35;
 /// An action may fail so often at a place before it costs more there.
 const FREE: usize = 1;
-/// What an action costs for each failure more, time steps.
+/// Extra cost of an action per failure, time steps.
 const COST: f64 = 15.0;
 
 impl Failures {

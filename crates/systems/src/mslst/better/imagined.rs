@@ -8,8 +8,8 @@ use tolman_robot::{LaserSensing, Ring, Robot, TurnTranslate};
 
 use super::Motors;
 
-/// The robot as it imagines itself on its own map: it senses what the nearest standpoint would
-/// show, and its motors miss as its own do.
+/// An imagined robot on its own map. It senses the view of the nearest standpoint, and its motors
+/// err like the real ones.
 pub(super) struct Imagined<'a> {
     standpoints: &'a Standpoints,
     views: StandpointViews,
@@ -23,7 +23,7 @@ pub(super) struct Imagined<'a> {
 
 /// It goes in steps of that, m, and feels for a wall after each.
 const STRIDE: f64 = 0.05;
-/// How far a wall may push it aside in a stride, m.
+/// Maximum sideways push by a wall in a stride, m.
 const ASIDE: f64 = 0.05;
 
 impl<'a> Imagined<'a> {
@@ -63,7 +63,7 @@ impl<'a> Imagined<'a> {
         }
     }
 
-    /// Any number with this standard deviation, none beyond 1.7 of them.
+    /// Returns a random number with this standard deviation, none beyond 1.7 of them.
     fn off(&mut self, sd: f64) -> f64 {
         let most = libm::sqrt(3.0) * sd;
         if most > 0.0 {

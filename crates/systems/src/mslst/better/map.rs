@@ -9,11 +9,11 @@ use super::BetterConfig;
 use super::costs::{ActionCosts, HOPELESS};
 use super::rehearsal::{rehearse, state};
 
-/// What the better system has learned, made ready for navigation: where it can stand, what it sees
-/// there, and what it costs to get to the goal.
+/// A learned map made ready for navigation: standpoints, their views, and the costs of reaching the
+/// goal.
 ///
-/// With the belief of who navigates it takes less than 1 KiB for each place. While it is made
-/// ready, its plan takes some hundred times as much.
+/// With the navigator's belief it takes less than 1 KiB per place. Preparing the plan takes some
+/// hundred times as much.
 #[derive(Clone, Debug)]
 pub struct BetterMap {
     pub(super) config: BetterConfig,

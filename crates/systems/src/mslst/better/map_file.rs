@@ -10,17 +10,17 @@ const FILES: MapFiles = MapFiles {
     system: "mslst-better",
 };
 
-/// What the better system has learned, as it lies in a file: JSON, read back to the bit.
+/// Contents of the better system's map file: JSON, read back bit for bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BetterMapFile {
-    /// Where it was learned, by which robot and from which seed.
+    /// Maze, robot and seed of its origin.
     pub origin: Origin,
-    /// What the system reckoned with.
+    /// Configuration of the system.
     pub config: BetterConfig,
     /// The map.
     pub chart: ScanChart,
-    /// Where the robot truly was when each place was made, m, for pictures and for whoever checks
-    /// the map alone; none if nobody watched.
+    /// True position of the robot when each place was made, m, for pictures and for checks of the
+    /// map alone; empty if unknown.
     pub sites: Vec<Point>,
 }
 
@@ -32,21 +32,23 @@ pub enum BetterMapFileError {
     #[error(transparent)]
     File(#[from] FileError),
     /// The configuration fits no robot.
-    #[error("its configuration is not sound")]
+    #[error("its configuration is invalid")]
     Config(#[from] BetterConfigError),
     /// The map is not sound.
-    #[error("its chart is not sound")]
+    #[error("its chart is invalid")]
     Chart(#[from] ChartError),
-    /// Not as many places were watched as there are.
-    #[error("{found} places were watched, and there are {places}: learn the map again")]
+    /// The number of true positions differs from that of places.
+    #[error(
+        "the number of true positions is {found}, but that of places is {places}: learn the map again"
+    )]
     Sites {
-        /// How many were watched.
+        /// Number of true positions.
         found: usize,
-        /// How many there are.
+        /// Number of places.
         places: usize,
     },
-    /// A place was watched nowhere.
-    #[error("place {place} was watched at ({}, {}) m, which is nowhere: learn the map again", at.x, at.y)]
+    /// A true position is invalid.
+    #[error("the true position of place {place}, ({}, {}) m, is invalid: learn the map again", at.x, at.y)]
     Site {
         /// The place.
         place: usize,
@@ -180,7 +182,7 @@ mod tests {
             (
                 "\"sites\":[",
                 "\"sites\":[[0,0],[0,0],[0,0],",
-                "places were watched",
+                "number of true positions",
             ),
             ("mslst-better", "mslst", "this is a map of mslst"),
             ("\"rows\":[\"", "\"rows\":[\"?", "row 0"),

@@ -3,13 +3,13 @@
 //!
 //! - [`BetterExplorer`] learns: it merges places while its map grows, and goes where the map has
 //!   gaps until it has none.
-//! - [`BetterMap`] is what it has learned, made ready: the robot tries every action in thought from
-//!   everywhere it can stand, and so knows what the ways to the goal cost a robot that misses.
-//! - [`BetterMapFile`] keeps what it has learned.
-//! - [`BetterNavigator`] navigates: it believes in places rather than in strings of states, and
-//!   does what costs least on average over all it believes.
+//! - [`BetterMap`] is the learned map made ready. The robot tries every action in thought from
+//!   every standpoint, and so knows the cost of each way to the goal for a robot that errs.
+//! - [`BetterMapFile`] keeps the learned map.
+//! - [`BetterNavigator`] navigates: it believes in places instead of strings of states, and chooses
+//!   the action of least average cost.
 //!
-//! Its layers see scans [straightened](tolman_control::straightened): by a laser that errs by 2 %
+//! Its layers see scans [straightened](tolman_control::straightened): with a laser that errs by 2 %
 //! Orient turns to and fro.
 //!
 //! ```

@@ -20,12 +20,12 @@ use crate::{Brain, Doing, RolledStep};
 #[derive(Clone, Debug)]
 pub struct BetterNavigator {
     maps: ChangedMap,
-    /// What its laser is known to do wrong.
+    /// Known errors of its laser.
     beams: StuckBeams,
     belief: StandpointBelief,
     reckoning: Reckoning,
     heading: Heading,
-    /// What failed since the robot last moved.
+    /// Actions that failed since the robot last moved.
     failed: Vec<Direction>,
     failures: Failures,
     next: Option<Direction>,
@@ -91,14 +91,14 @@ impl BetterNavigator {
         self.current().standpoints.position(number)
     }
 
-    /// Returns how much it believes to know where it is, 0 … 1.
+    /// Returns the share of its belief near the likeliest standpoint, 0 to 1.
     fn sure(&self) -> f64 {
         let map = self.current();
         let within = map.config.diameter;
         self.belief.certainty(&map.standpoints, within)
     }
 
-    /// Whether it believes to be at a place of its map.
+    /// Returns whether its likeliest standpoint is at a place of its map.
     fn is_at_a_place(&self) -> bool {
         let corridors = self.maps.learned().corridors();
         self.likeliest()

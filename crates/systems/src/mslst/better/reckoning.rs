@@ -5,15 +5,15 @@ use tolman_maze::Direction;
 use super::BetterConfig;
 use crate::{Doing, RolledStep};
 
-/// How far the robot came since it was last asked, along the compass's axes.
+/// Displacement of the robot since it was last asked, along the compass's axes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Reckoning {
     heading: Option<Heading>,
-    /// Whether the compass told it at the end of the step before.
+    /// Whether the compass gave a heading at the end of the step before.
     is_fresh: bool,
     moved: Vector,
     variance: Vector,
-    /// How far the wheels say that the action under way has led.
+    /// Displacement of the action under way, by the wheels.
     rolled: Vector,
     /// In how many of its time steps they said so, and in how many they said nothing.
     heard: u32,
@@ -30,7 +30,7 @@ const LEADS_ON: f64 = 0.1;
 const ASIDE: f64 = 0.05;
 
 impl Reckoning {
-    /// Adds a time step. Where the wheels tell nothing, what the action is made of stands for it.
+    /// Adds a time step. If the wheels give nothing, the action's expected motion counts.
     pub(super) fn add(&mut self, seen: &RolledStep, config: &BetterConfig) {
         let along = self.along(seen.step.heading);
         if let (Some(along), Some(odometry)) = (along, seen.odometry) {
@@ -76,8 +76,7 @@ impl Reckoning {
         self.moved + self.rolled
     }
 
-    /// Ends an action. Of the steps in which such actions lead on, those that the wheels did not
-    /// tell led as far as such steps do.
+    /// Ends an action. Steps without odometry count with the usual length of such steps.
     fn end(&mut self, action: Direction, outcome: Outcome, config: &BetterConfig) {
         let steps = match outcome {
             Outcome::Completed => STEPS_OF_ACTION,
@@ -106,8 +105,8 @@ mod tests {
     use super::*;
     use crate::TimeStep;
 
-    /// Returns how far to the east a robot comes that goes there in steps of which the wheels tell
-    /// so much, m, and how sure that is.
+    /// Returns the displacement to the east, m, of a robot whose wheels give these distances per
+    /// step, and its standard deviation.
     fn reckoned(told: &[Option<f64>], outcome: Outcome) -> (Vector, Vector) {
         let step = |doing, distance: Option<f64>| RolledStep {
             step: TimeStep {

@@ -15,16 +15,16 @@ use crate::stream;
 
 /// The axes a robot faces along: east–west, north–south.
 const AXES: [Direction; 2] = [Direction::East, Direction::North];
-/// How often each action is tried in thought from each standpoint and axis.
+/// Number of trials of each action from each standpoint and axis.
 const TRIES: u32 = 4;
 /// By how much a robot looks past its axis, rad.
 const ASKEW: f64 = 5.0 * core::f64::consts::PI / 180.0;
 /// An action that has not ended by then counts as one that leads nowhere, time steps.
 const LONGEST_ACTION: u32 = 40;
 
-/// Tries every action in thought, with the robot's own layers on its own map, from every standpoint
-/// along every axis: what it costs in time steps, and where it leads. O(standpoints · tries · steps
-/// · beams).
+/// Tries every action in thought, from every standpoint and along every axis, with the robot's own
+/// layers on its own map. Returns costs in time steps, and where each action leads. O(standpoints ·
+/// tries · steps · beams).
 ///
 /// # Errors
 /// If the layers cannot read the ring.

@@ -24,7 +24,7 @@ const VERSION: u32 = 1;
 pub(super) struct CertificateFile {
     format: String,
     version: u32,
-    /// What every standard deviation is multiplied by.
+    /// Factor by which every standard deviation is multiplied.
     sigma_scale: f64,
     /// Standard deviations within which a cycle agrees.
     k: f64,
@@ -86,7 +86,7 @@ pub(super) enum CertificateFileError {
         "it has format `{format}`, version {version}; this program reads `{FORMAT}`, version {VERSION}"
     )]
     Version { format: String, version: u32 },
-    #[error("it says {told} {what}, but the graph has {found}: name the graph it was made of")]
+    #[error("it says {told} {what}, but the graph has {found}: name the graph it was made from")]
     OtherGraph {
         what: &'static str,
         told: usize,

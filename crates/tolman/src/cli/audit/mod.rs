@@ -32,18 +32,17 @@ Example:
 pub(super) struct Arguments {
     /// The pose graph as g2o writes it (VERTEX_SE2, EDGE_SE2), plain or gzipped
     graph: PathBuf,
-    /// What every stated standard deviation is multiplied by, or auto: as the graph's own short
-    /// cycles tell
+    /// Factor of every stated standard deviation, or auto for the factor that the graph's own short
+    /// cycles show
     #[arg(long, value_name = "S|auto", default_value = "1", value_parser = scale)]
     sigma_scale: Scale,
-    /// Measure the certificates in the folder again instead of making them; exits 1 if one does not
-    /// hold
+    /// Check the certificates in the folder instead of making them; exits 1 if one does not hold
     #[arg(long)]
     verify: bool,
-    /// The folder for what is found [default: results/audit/NAME]
+    /// Folder for the results [default: results/audit/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Leave undecided closures out of cleaned.g2o too
+    /// Leave undecided closures out of cleaned.g2o as well
     #[arg(long, conflicts_with = "verify")]
     strict: bool,
 }

@@ -12,10 +12,10 @@ use tolman_papers::real::GraphFile;
 
 use super::Audited;
 
-/// How many closures and faults are told one by one.
+/// Greatest number of closures and faults that are listed one by one.
 const TOLD: usize = 10;
 
-/// Tells on stderr what of a file is not used.
+/// Prints on stderr which parts of a file are not used.
 pub(super) fn left_out(path: &Path, file: &G2o) {
     let (path, count) = (path.display(), file.left_out.len());
     // Nobody is left to be told that stderr cannot be written.
@@ -55,7 +55,7 @@ impl Audited<'_> {
         Ok(())
     }
 
-    /// Returns how many closures are what.
+    /// Returns a sentence with the number of closures of each verdict.
     pub(super) fn counted(&self) -> String {
         let count = |is: fn(&ClosureVerdict) -> bool| self.audit.count(is);
         let alone = count(|verdict| {

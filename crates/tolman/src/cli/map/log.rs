@@ -26,7 +26,7 @@ Examples:
   tolman map --log logs/office.clf.gz --system matching --out office-open
   tolman score --trajectory office/trajectory.tum --truth office/noted.tum";
 
-/// What a log is mapped with.
+/// How a log is mapped.
 #[derive(clap::Args)]
 #[group(skip)]
 pub(super) struct Arguments {
@@ -34,37 +34,35 @@ pub(super) struct Arguments {
     /// feature `mcap`)
     #[arg(long, value_name = "FILE", required = true)]
     log: Option<PathBuf>,
-    /// What finds the way
+    /// The system that finds the way
     #[arg(long, value_enum, default_value = "scan-matching")]
     system: System,
-    /// The folder that the results go to; made if it is not there
+    /// Folder for the results; made if it does not exist
     #[arg(long, value_name = "DIR", required = true)]
     out: Option<PathBuf>,
 }
 
-/// What finds the way of a robot in its log.
+/// A system that finds the way of a robot in its log.
 #[derive(Clone, Copy, ValueEnum)]
 enum System {
-    /// Scans are matched to those before, and to places seen before: the dense baseline
+    /// Scans are matched to earlier ones, and to places seen before: the dense baseline
     ScanMatching,
-    /// Scans are matched to those before; junctions, bends, dead ends and rooms are places, and
+    /// Scans are matched to earlier ones; junctions, bends, dead ends and rooms are places, and are
     /// recognized
     Places,
-    /// Scans are matched to those before alone
+    /// Scans are only matched to those before
     Matching,
-    /// The wheels alone
+    /// Only the wheels
     Odometry,
-    /// The same places; the diktiometry finds out which are the same by bounds on the ways between
-    /// them
+    /// The same places; the diktiometry recognizes them by bounds on the ways between them
     Diktiometry,
-    /// The same places; CPM finds out which are the same by what was seen on the ways between them
+    /// The same places; CPM recognizes them by what was seen on the ways between them
     Cpm,
-    /// The same places; the place graph of GNG-SLAM finds out which are the same by what the laser
-    /// reads there
+    /// The same places; the place graph of GNG-SLAM recognizes them by the laser's readings there
     Gngslam,
     /// Refused: it learns from actions, which no log names
     Mslst,
-    /// Refused: it learns the walls of a grid's cells, which no log tells
+    /// Refused: it learns the walls of a grid's cells, which no log has
     Micromouse,
 }
 
@@ -164,7 +162,7 @@ fn found(log: &RobotLog, system: System) -> Result<MappedLog, Failure> {
 
 fn refused(why: &str) -> Failure {
     Failure::BadInput(anyhow!(
-        "{why}, and a log tells of none: give --system diktiometry, cpm or gngslam"
+        "{why}, which a log does not have: give --system diktiometry, cpm or gngslam"
     ))
 }
 

@@ -54,7 +54,7 @@ enum Verb {
     Check(Check),
 }
 
-/// Tells what a learned map holds, and draws it over the maze
+/// Describes a learned map, and draws it over the maze
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -65,7 +65,7 @@ pub(in crate::cli) struct Show {
     file: PathBuf,
     #[command(flatten)]
     ground: Ground,
-    /// Draw the map over the maze or the world that it was learned in, which has to be given
+    /// Draw the map over the maze or the world in which it was learned, which must be given
     #[arg(long, value_name = "FILE", requires = "ground")]
     svg: Option<PathBuf>,
     /// Write the figures as JSON
@@ -85,12 +85,12 @@ pub(in crate::cli) struct Plan {
     /// The place to go to, by its number, instead of the goal
     #[arg(long, value_name = "PLACE")]
     to: Option<u32>,
-    /// The place to begin at, instead of where the robot is or began
+    /// The place to begin at, instead of the robot's place
     #[arg(long, value_name = "PLACE")]
     from: Option<u32>,
 }
 
-/// Holds a learned map against the maze; exits 1 if it is wrong or unfinished
+/// Compares a learned map with the maze; exits 1 if it is wrong or unfinished
 #[derive(clap::Args)]
 #[command(
     group(required()),

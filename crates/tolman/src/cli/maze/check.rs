@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::collection::Unsound;
 use super::{Failure, input, summary::Summary};
 
-/// Reads mazes and checks that a way leads to the goal; exits 2 if one is unsound
+/// Reads mazes and checks that a way leads to the goal; exits 2 if one is invalid
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
@@ -15,7 +15,7 @@ pub(crate) struct Arguments {
     /// The maze files, of any format; - reads standard input
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Write one JSON object a sound maze and line
+    /// Write one JSON object per valid maze, one per line
     #[arg(long)]
     json: bool,
 }

@@ -149,7 +149,7 @@ impl Unsound {
         }
         self.0.iter().for_each(Failure::complain);
         Err(Failure::BadInput(anyhow!(
-            "{bad} of {all} mazes are unsound"
+            "{bad} of {all} mazes are invalid"
         )))
     }
 }
@@ -166,7 +166,7 @@ mod tests {
         assert!(complain(Vec::new(), 3).is_ok());
         let failure = complain(vec![Failure::BadInput(anyhow!("torn"))], 3);
         assert!(
-            matches!(failure, Err(Failure::BadInput(error)) if error.to_string() == "1 of 4 mazes are unsound")
+            matches!(failure, Err(Failure::BadInput(error)) if error.to_string() == "1 of 4 mazes are invalid")
         );
     }
 }

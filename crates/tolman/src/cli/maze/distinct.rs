@@ -20,13 +20,13 @@ pub(crate) struct Arguments {
     /// The maze files, of any format, with a start
     #[arg(required = true)]
     mazes: Vec<PathBuf>,
-    /// What the common patterns that are learned follow from
+    /// Seed of the common patterns that are learned
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// How often each fragment is walked either way
+    /// Number of times that each fragment is walked either way
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..))]
     walks: u16,
-    /// How similar two fragments may be, by f_S; the paper takes those above 0.9 for one
+    /// Maximum similarity f_S of two fragments; the paper takes fragments above 0.9 for one
     #[arg(long, value_name = "F_S", default_value_t = 0.8, value_parser = share)]
     below: f64,
 }

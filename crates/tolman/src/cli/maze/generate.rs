@@ -12,7 +12,7 @@ use super::output::Output;
 use super::{Failure, OrBadInput};
 use crate::cli::App;
 
-/// Makes a maze by chance; the same seed makes the same maze
+/// Makes a random maze; the same seed makes the same maze
 #[derive(clap::Args)]
 #[command(after_help = "\
 Families: perfect, braided, braided-rooms, office, blocks, ladder, eight, ring, wings, comb, spiral, star, pillars, papers, rooms
@@ -21,31 +21,31 @@ Example:
   tolman maze generate braided --size 12x8 --share 0.5 --seed 3 --out mine.maze
   tolman maze generate office --size large")]
 pub(crate) struct Arguments {
-    /// The family of mazes; --list tells what each is
+    /// The family of mazes; --list describes them
     #[arg(required_unless_present = "list")]
     family: Option<String>,
-    /// List the families, and what is hard about each
+    /// List the families, and the difficulty of each
     #[arg(long)]
     list: bool,
     /// Columns and rows, as in 16x16; or small, middle or large
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "large", value_parser = size)]
     size: Size,
-    /// What the chance starts from
+    /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Of `braided`: the share of dead ends to open, 0 to 1 [default: 1]
+    /// For `braided`: the share of dead ends to open, 0 to 1 [default: 1]
     #[arg(long, value_name = "SHARE")]
     share: Option<f64>,
-    /// Of `rooms`: how often a room is tried [default: 20]
+    /// For `rooms`: number of tries to place a room [default: 20]
     #[arg(long, value_name = "N")]
     attempts: Option<u32>,
-    /// Of `rooms`: shortest side of a room, cells [default: 2]
+    /// For `rooms`: shortest side of a room, cells [default: 2]
     #[arg(long, value_name = "CELLS")]
     smallest: Option<u16>,
-    /// Of `rooms`: longest side of a room, cells [default: 4]
+    /// For `rooms`: longest side of a room, cells [default: 4]
     #[arg(long, value_name = "CELLS")]
     largest: Option<u16>,
-    /// Of `rooms`: doors beyond those that join everything; each closes a loop [default: 2]
+    /// For `rooms`: doors beyond those that join all rooms; each closes a loop [default: 2]
     #[arg(long, value_name = "N")]
     extra_doors: Option<u32>,
     #[command(flatten)]
@@ -126,12 +126,13 @@ impl Arguments {
     /// Refuses what a family has not.
     fn check(&self, family: &str) -> Result<(), Failure> {
         if self.share.is_some() && family != "braided" {
-            let why = anyhow!("--share is of the family braided, not of {family}: leave it out");
+            let why =
+                anyhow!("--share belongs to the family braided, not to {family}: leave it out");
             return Err(Failure::BadInput(why));
         }
         if self.has_rooms() && family != "rooms" {
             let why = anyhow!(
-                "--attempts, --smallest, --largest and --extra-doors are of the family rooms, not of {family}: leave them out"
+                "--attempts, --smallest, --largest and --extra-doors belong to the family rooms, not to {family}: leave them out"
             );
             return Err(Failure::BadInput(why));
         }

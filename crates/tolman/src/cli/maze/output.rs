@@ -9,7 +9,7 @@ use tolman_maze::{Format, MazeFile, write};
 
 use super::{Failure, OrBadInput, file};
 
-/// Where to, and as what.
+/// Where a maze is written, and in which format.
 #[derive(clap::Args)]
 pub(super) struct Output {
     /// The format to write

@@ -27,7 +27,7 @@ use crate::cli::unfinished::{Done, GoingOn};
 use crate::cli::{Failure, OrBadInput, file};
 use crate::start::Start;
 
-/// Where and how a robot runs, and what is kept of it.
+/// Where and how a robot runs, and which files are written.
 #[derive(clap::Args)]
 #[command(group(required()))]
 pub(in crate::cli) struct Outing {
@@ -36,8 +36,8 @@ pub(in crate::cli) struct Outing {
     /// Seed of all random numbers of the run: the same seed gives the same run
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
-    /// and degrees, from the south-west corner of a maze or as a world has it, counter-clockwise
+    /// Where the robot starts: random, marked (the maze's start), X,Y or X,Y,DEG in metres and
+    /// degrees, from the south-west corner of a maze or in a world's own frame, counter-clockwise
     /// from east
     #[arg(
         long,
@@ -46,8 +46,8 @@ pub(in crate::cli) struct Outing {
         allow_hyphen_values = true
     )]
     start: Start,
-    /// Give up after this many time steps; if not given, in proportion to the length of the
-    /// corridors, as many for each metre as the Large maze's 500
+    /// Give up after this many time steps; by default in proportion to the length of the corridors,
+    /// with as many steps per metre as the Large maze's 500
     #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
     steps: Option<u32>,
     #[command(flatten)]

@@ -10,13 +10,14 @@ use crate::diktiometry::{Signature, SignatureKind, ViewRotation};
 /// When enough of a database signature's columns have been marked, the signature's place is
 /// suggested as a match candidate."
 ///
-/// What is found is that. But columns are indexed as many at once as possible, since one column
-/// says little: if `enough` of the columns agree, then of `columns - enough + 1` groups of columns
-/// at least one agrees as a whole, since those that do not are too few to spoil each. Only views
-/// that share a group with the percept are compared with it column by column.
+/// The result is the paper's, the method is not. One column says little, so columns are indexed in
+/// groups. If `enough` columns agree, at least one of `columns - enough + 1` groups agrees as a
+/// whole: the others are too few to spoil each group. Only views that share a group with the
+/// percept are compared with it column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ColumnIndex {
-    /// One a group; where views may be turned, one of the groups that begin at all columns.
+    /// One tree per group, or a single one for groups beginning at any column if views may be
+    /// rotated.
     trees: Vec<FeatureTree>,
     /// In the order in which they were taken in, which numbers them.
     views: Vec<Signature>,
@@ -46,8 +47,8 @@ impl ColumnIndex {
         }
     }
 
-    /// Returns the views of which enough columns are near enough to those of a percept in a
-    /// hypercube of `size` tolerances.
+    /// Returns the views with enough columns near those of a percept, within a hypercube of `size`
+    /// tolerances.
     pub(super) fn within(&self, percept: &Signature, kind: &SignatureKind, size: f64) -> Vec<u32> {
         let groups = Groups::of(kind);
         let tolerance = kind.tolerance * size;
@@ -113,7 +114,7 @@ mod tests {
     }
 
     proptest! {
-        /// The index finds what a comparison with all views finds.
+        /// Checks that the index finds the same views as a comparison with all.
         #[test]
         fn it_finds_all_that_look_alike(
             views in prop::collection::vec(view(), 1..100),

@@ -1,9 +1,9 @@
 use alloc::vec::Vec;
 
-/// What a view is indexed by: some of its columns, or a triangle of its edges.
+/// Feature by which a view is indexed: some of its columns, or a triangle of its edges.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Feature {
-    /// As many in all features of a tree.
+    /// The values; all features of a tree have the same number.
     pub(super) values: Vec<f64>,
     /// The number of the view.
     pub(super) view: u32,
@@ -14,9 +14,9 @@ pub(super) struct Feature {
 /// Features that are not in a tree yet, at most.
 const LOOSE: usize = 32;
 
-/// A k-d tree of features to which features are added one by one: in truth several balanced trees
-/// (the middle of every range splits it, by one coordinate after the other), one for each binary
-/// digit of their number, and some loose features behind them.
+/// A growing k-d tree of features. It consists of several balanced trees, one for each binary digit
+/// of their number, and some loose features. Each balanced tree splits every range at its median,
+/// by the coordinates in turn.
 ///
 /// Source: J. L. Bentley, J. B. Saxe, "Decomposable searching problems I: Static-to-dynamic
 /// transformation", the logarithmic method.

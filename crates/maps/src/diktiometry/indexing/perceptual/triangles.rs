@@ -1,9 +1,9 @@
 //! The second form of perceptual indexing: triples of features as triangles.
 //!
 //! Source: S. Atiya, G. Hager, "Real-time vision-based robot localization", which the paper names
-//! beside columns: vertical edges of the image, each three of them a triangle whose sides are
-//! compared as intervals, the triangles sorted by the longest side. Theirs have sides in metres,
-//! from two cameras; here an edge is known by its bearing, so that the sides are angles.
+//! beside columns. Each three vertical edges of the image make a triangle. Triangles are sorted by
+//! their longest side, and sides are compared as intervals. Theirs are in metres, from two cameras;
+//! here they are angles, as an edge is known by its bearing.
 
 use alloc::vec::Vec;
 
@@ -11,11 +11,11 @@ use super::Vote;
 use super::feature_tree::{Feature, FeatureTree};
 use crate::diktiometry::{Signature, SignatureKind, ViewRotation};
 
-/// How many edges of a view are kept, the clearest: 56 triangles.
+/// Maximum number of edges kept of a view, the clearest: 56 triangles.
 const EDGES: usize = 8;
 
-/// How many borders of a percept are asked for, the clearest: 560 triangles, however many columns
-/// there are. Twice the edges that are kept, since noise can make others clearer than those.
+/// Maximum number of borders used of a percept, the clearest: 560 triangles, whatever the number of
+/// columns. Twice the number of kept edges, since noise can make others clearer than those.
 const BORDERS: usize = 2 * EDGES;
 
 /// All views of all places, by triangles of their edges.
@@ -27,7 +27,7 @@ const BORDERS: usize = 2 * EDGES;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct TriangleIndex {
     tree: FeatureTree,
-    /// How many of a view's triangles have to be found, by its number.
+    /// Number of triangles that have to be found, by view.
     enough: Vec<usize>,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct TriangleIndex {
 #[derive(Clone, Debug, PartialEq)]
 struct Edge {
     column: usize,
-    /// By how much the column's values are above those of the column before, by row.
+    /// Contrast by row: the column's values minus those of the column before.
     contrast: Vec<f64>,
 }
 
@@ -46,9 +46,9 @@ impl Edge {
     }
 }
 
-/// What is asked for of a percept.
+/// A percept's features to be found.
 pub(super) struct Seen {
-    /// Its triangles, told from each of their longest sides.
+    /// Its triangles, one from each of their longest sides.
     features: Vec<Feature>,
     columns: usize,
 }
@@ -66,12 +66,11 @@ impl Seen {
 }
 
 impl TriangleIndex {
-    /// Takes in a view. Views with fewer than three edges have no triangle and are never found.
+    /// Adds a view. Views with fewer than three edges have no triangle and are never found.
     ///
-    /// An edge is kept if noise alone cannot make it, and borders of a percept are asked for
-    /// whether it can or not: so a view whose values are seen again within the tolerance is found
-    /// by all its triangles, as long as it has no more borders than are asked for or its edges are
-    /// clearer than all others by four tolerances.
+    /// An edge is kept only if noise alone cannot make it. All borders of a percept are used. So a
+    /// view seen again within the tolerance is found by all its triangles. This holds if it has no
+    /// more borders than are used, or if its edges are clearer than all others by four tolerances.
     pub(super) fn insert(&mut self, view: &Signature, kind: &SignatureKind) {
         let mut edges = borders(view);
         edges.retain(|edge| edge.clearness() > kind.tolerance);
@@ -91,8 +90,8 @@ impl TriangleIndex {
         }
     }
 
-    /// Returns the views of which enough triangles are those of a percept, their contrasts within
-    /// `size` times what noise may do. O(√(triangles)) for each triangle asked for.
+    /// Returns the views that share enough triangles with a percept, contrasts within `size` times
+    /// the effect of noise. O(√(triangles)) for each triangle of the percept.
     pub(super) fn within(&self, percept: &Seen, kind: &SignatureKind, size: f64) -> Vec<u32> {
         // Each of the two columns at an edge may differ by the tolerance. Sides are whole columns.
         let mut half_sizes = Vec::from([0.0; SIDES]);
@@ -164,8 +163,8 @@ fn side(from: &Edge, to: &Edge, columns: usize) -> usize {
     (to.column + columns - from.column) % columns
 }
 
-/// Returns the triangle told from the beginning of its longest side on; from each of them if
-/// several are the longest.
+/// Returns the triangle from the beginning of its longest side on; if several are the longest, one
+/// from each.
 fn turns(triangle: Triangle<'_>, columns: usize) -> impl Iterator<Item = Feature> + use<'_> {
     let [a, b, c] = triangle;
     let turns = [[a, b, c], [b, c, a], [c, a, b]];
@@ -177,7 +176,8 @@ fn turns(triangle: Triangle<'_>, columns: usize) -> impl Iterator<Item = Feature
     told.map(move |turn| feature(turn, columns))
 }
 
-/// Its sides, the longest first, and the contrasts of its corners.
+/// Returns the feature of a triangle: its sides, the longest first, and the contrasts of its
+/// corners.
 fn feature(triangle: Triangle<'_>, columns: usize) -> Feature {
     let [a, b, c] = triangle;
     let sides = [side(a, b, columns), side(b, c, columns)].map(|side| side as f64);
@@ -212,8 +212,8 @@ mod tests {
         }
     }
 
-    /// Returns what is seen of a place by a robot that is turned by some columns, each value wrong
-    /// and all of them brighter.
+    /// Returns the view of a robot rotated by `turned` columns, with `noise` on each value and all
+    /// values brighter.
     fn seen(view: &[f64], turned: usize, noise: &[f64], brighter: f64) -> Signature {
         let values = (0..view.len()).map(|at| {
             let there = (at + turned * ROWS) % view.len();
@@ -264,7 +264,7 @@ mod tests {
             prop_assert_eq!(found.contains(&(truth as u32)), edges(&stored[truth], &kind) >= 3);
         }
 
-        /// The same, whichever way the percept is turned.
+        /// What is found does not depend on the rotation of the percept.
         #[test]
         fn what_is_found_does_not_depend_on_how_the_robot_is_turned(
             views in prop::collection::vec(view(), 1..8),
@@ -300,8 +300,8 @@ mod tests {
         assert!((1..COLUMNS).all(|turned| found(turned).is_empty()));
     }
 
-    /// As many columns as a laser has beams, most of them of one wall: four clear edges are found
-    /// among the borders that noise makes.
+    /// A laser has many beams, most of them on one wall. Four clear edges are found among the
+    /// borders that noise makes.
     #[test]
     fn views_of_many_columns_are_asked_for_by_few_triangles() {
         const MANY: usize = 2000;

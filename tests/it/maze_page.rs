@@ -2,7 +2,7 @@
 
 use tolman_maze::{Cell, Format, read};
 
-const PAGE: &str = include_str!("../../../../docs/maze-format.md");
+const PAGE: &str = include_str!("../../docs/maze-format.md");
 
 /// Returns the text of the page's first block marked `maze`.
 fn example() -> &'static str {
@@ -50,9 +50,7 @@ fn the_keys_of_the_table_are_the_keys_that_are_read() {
 /// What is drawn inside the walled-off area is not part of the maze.
 #[test]
 fn the_long_j_maze_is_one_corridor_and_the_rest_is_solid() {
-    let maze = read(include_str!("../../../../mazes/j-long.maze"))
-        .unwrap()
-        .maze;
+    let maze = read(include_str!("../../mazes/j-long.maze")).unwrap().maze;
     let count = |degrees: &[usize]| {
         let of_degree = |cell: &Cell| degrees.contains(&maze.degree(*cell));
         maze.reachable().filter(of_degree).count()

@@ -1,0 +1,233 @@
+//! A foreign program that drives a robot: JSON lines to and fro.
+
+use core::convert::Infallible;
+use core::time::Duration;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+use thiserror::Error;
+use tolman_robot::{Mapper, SensesLandmarks, Standing, System, Task};
+
+use super::{Budget, ForeignProgram, Launch, LaunchError, Left, Overrun};
+use crate::BoxError;
+
+/// The version of the protocol that [`ForeignBrain`] speaks.
+const PROTOCOL: u32 = 1;
+
+/// Time in which a program that has closed its stdout is to end.
+const GRACE: Duration = Duration::from_secs(1);
+
+/// The longest line that is quoted in an error, characters.
+const QUOTED: usize = 80;
+
+/// What a foreign brain is told before anything else.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Hello {
+    /// The robot's name.
+    pub robot: String,
+    /// Radius of its body, m.
+    pub radius: f64,
+    /// How long a time step takes, µs.
+    pub step_us: u64,
+    /// The most time steps that it may make.
+    pub step_limit: u32,
+    /// The distance between the faces of a corridor's walls, m.
+    pub corridor_width: f64,
+}
+
+/// A brain that is a program of its own, in any language.
+///
+/// It gets a line `{"hello": …}` with [`Hello`] and the version of the protocol, then one for each
+/// time step: `{"step": 0, "sensing": …, "landmark": null}`, the sensing as the robot has it and
+/// the landmark that it senses. It answers each but the first with one line: a command as the robot
+/// has it, such as `{"turn": 0.1, "translate": 0.5}`; `{"done": true}` when the task is done; or
+/// `{"give_up": "why"}`.
+///
+/// A program that ends, or uses up its [`Budget`], has given up.
+#[derive(Debug)]
+pub struct ForeignBrain {
+    /// `None` once it has ended.
+    program: Option<ForeignProgram>,
+    hello: Hello,
+    steps: u32,
+}
+
+/// Why a foreign brain cannot go on.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum BrainError {
+    /// It does not start.
+    #[error(transparent)]
+    Launch(#[from] LaunchError),
+    /// A line of it is no answer.
+    #[error(
+        "the brain's answer to step {step} is `{line}`: answer with a command as this robot has it, \
+         {{\"done\": true}} or {{\"give_up\": \"why\"}}"
+    )]
+    Answer {
+        /// The number of the time step.
+        step: u32,
+        /// The line, or its beginning.
+        line: String,
+        /// Why.
+        source: serde_json::Error,
+    },
+    /// What the robot sensed has no JSON form.
+    #[error("what the robot sensed at step {step} cannot be written")]
+    Sensing {
+        /// The number of the time step.
+        step: u32,
+        /// Why.
+        source: serde_json::Error,
+    },
+    /// The robot failed.
+    #[error("the robot does not carry out what the brain answered to step {step}")]
+    Robot {
+        /// The number of the time step.
+        step: u32,
+        /// Why.
+        source: BoxError,
+    },
+}
+
+/// What a brain answers.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Answer<C> {
+    End(End),
+    Command(C),
+}
+
+/// How a brain ends its task.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum End {
+    Done(bool),
+    GiveUp(String),
+}
+
+impl ForeignBrain {
+    /// Starts a program that is to drive the robot of `hello`.
+    ///
+    /// # Errors
+    /// As [`ForeignProgram::start`].
+    pub fn start(launch: &Launch<'_>, budget: Budget, hello: Hello) -> Result<Self, LaunchError> {
+        Ok(Self {
+            program: Some(ForeignProgram::start(launch, budget)?),
+            hello,
+            steps: 0,
+        })
+    }
+
+    /// Tells it what is sensed, and returns its answer; `None` if it has closed its stdout.
+    fn ask(&mut self, step: &Value) -> Result<Option<String>, Overrun> {
+        let Some(program) = &mut self.program else {
+            return Ok(None);
+        };
+        if self.steps == 0 {
+            let mut hello = json!({ "hello": self.hello });
+            hello["hello"]["protocol"] = PROTOCOL.into();
+            program.say(hello.to_string())?;
+        }
+        program.say(step.to_string())?;
+        program.hear()
+    }
+
+    /// Returns what became of a program that says no more.
+    fn left(&mut self) -> Result<Standing, LaunchError> {
+        let Some(program) = self.program.take() else {
+            return Ok(Standing::gave_up("the brain has ended"));
+        };
+        Ok(match program.left(GRACE)? {
+            Left::ByItself(status) => Standing::gave_up(format!("the brain ended with {status}")),
+            Left::Killed => Standing::gave_up("the brain closed its stdout and ran on"),
+        })
+    }
+}
+
+impl Mapper for ForeignBrain {
+    type Observation = ();
+    type Error = Infallible;
+
+    fn observe(&mut self, (): &()) -> Result<(), Infallible> {
+        Ok(())
+    }
+}
+
+impl<R> System<R> for ForeignBrain
+where
+    R: SensesLandmarks<Sensing: Serialize, Command: DeserializeOwned, Error: Into<BoxError>>,
+{
+    type Failure = BrainError;
+
+    fn act(&mut self, robot: &mut R, _: Task) -> Result<Standing, BrainError> {
+        let step = self.steps;
+        let sensing = serde_json::to_value(robot.sensing());
+        let sensing = sensing.map_err(|source| BrainError::Sensing { step, source })?;
+        let landmark = robot.landmark();
+        let told = json!({ "step": step, "sensing": sensing, "landmark": landmark });
+        let line = match self.ask(&told) {
+            Ok(Some(line)) => line,
+            Ok(None) => return Ok(self.left()?),
+            // Who runs it sees that flag, too.
+            Err(Overrun::Stop) => return Ok(Standing::UnderWay),
+            Err(overrun) => return Ok(Standing::gave_up(overrun.to_string())),
+        };
+        let command: R::Command = match answer(step, &line)? {
+            Answer::Command(command) => command,
+            Answer::End(End::Done(true)) => return Ok(Standing::Done),
+            Answer::End(End::Done(false)) => return Ok(Standing::gave_up("it is not done")),
+            Answer::End(End::GiveUp(why)) => return Ok(Standing::GaveUp { why }),
+        };
+        robot.step(&command).map_err(|error| BrainError::Robot {
+            step,
+            source: error.into(),
+        })?;
+        self.steps += 1;
+        Ok(Standing::UnderWay)
+    }
+}
+
+fn answer<C: DeserializeOwned>(step: u32, line: &str) -> Result<Answer<C>, BrainError> {
+    serde_json::from_str(line).map_err(|source| BrainError::Answer {
+        step,
+        line: line.trim_end().chars().take(QUOTED).collect(),
+        source,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_robot::TurnTranslate;
+
+    use super::*;
+
+    fn read(line: &str) -> Result<Answer<TurnTranslate>, BrainError> {
+        answer(3, line)
+    }
+
+    #[test]
+    fn a_brain_answers_with_a_command_or_the_end_of_its_task() {
+        let ahead = "{\"turn\": 0, \"translate\": 0.5}\n";
+        assert!(matches!(read(ahead), Ok(Answer::Command(command)) if command.translate > 0.4));
+        assert!(matches!(
+            read(r#"{"done": true}"#),
+            Ok(Answer::End(End::Done(true)))
+        ));
+        let why = r#"{"give_up": "it is dark"}"#;
+        assert!(matches!(read(why), Ok(Answer::End(End::GiveUp(why))) if why == "it is dark"));
+    }
+
+    #[test]
+    fn what_is_no_answer_is_quoted() {
+        for line in ["", "ahead", r#"{"turn": 0}"#, r#"{"left": 1, "right": 2}"#] {
+            let error = read(line).err().map(|error| error.to_string());
+            let error = error.unwrap_or_default();
+            assert!(error.contains("to step 3 is"), "{line}: {error}");
+            assert!(error.contains(line), "{line}: {error}");
+        }
+        let long = "x".repeat(10_000);
+        assert!(read(&long).is_err_and(|error| error.to_string().len() < 300));
+    }
+}

@@ -1,0 +1,60 @@
+//! The main loop of a micromouse: sensors and motors are those of a drawing.
+
+use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
+use tolman_firmware::{Command, Mouse, Sides};
+use tolman_maze::{Braided, Cell, Direction, Maze};
+use tolman_planners::speed_run::{RunStep, SpeedRunConfig, SpeedRunTimes};
+
+/// A mouse of paper, where it stands and looks.
+struct Body<'a> {
+    maze: &'a Maze,
+    cell: Cell,
+    heading: Direction,
+}
+
+impl Body<'_> {
+    fn look(&self) -> Sides {
+        let is_open = |side: Direction| self.maze.is_open(self.cell, self.heading.turned(side));
+        Sides {
+            left: is_open(Direction::West),
+            ahead: is_open(Direction::North),
+            right: is_open(Direction::East),
+        }
+    }
+
+    fn drive(&mut self, side: Direction) {
+        self.heading = self.heading.turned(side);
+        let next = self.maze.grid().neighbour(self.cell, self.heading);
+        self.cell = next.unwrap_or(self.cell);
+    }
+}
+
+fn main() -> Result<(), Box<dyn core::error::Error>> {
+    let braided = Braided {
+        width: 16,
+        height: 16,
+        share: 0.5,
+    };
+    let mut rng = ChaCha8Rng::seed_from_u64(7);
+    let mut maze = braided.generate(&mut rng)?;
+    maze.set_goals(maze.grid().middle().collect());
+    let times = SpeedRunTimes::new(&SpeedRunConfig::classic())?;
+    let mut mouse = Mouse::new(&times, maze.goals())?;
+    let (cell, heading) = (Cell::new(0, 0), Direction::North);
+    let mut body = Body {
+        maze: &maze,
+        cell,
+        heading,
+    };
+    let run_ms = loop {
+        match mouse.arrive(body.look())? {
+            Command::Drive(side) => body.drive(side),
+            Command::Ready { run_ms } => break run_ms,
+            Command::CarryBack | Command::GiveUp => return Err("the mouse is lost".into()),
+        }
+    };
+    let mut moves = 0;
+    mouse.run(|_: RunStep| moves += 1)?;
+    assert!(body.cell == cell && run_ms > 0 && moves > 0);
+    Ok(())
+}

@@ -1,0 +1,180 @@
+//! A noisy mouse as a system: it learns the whole maze, finds itself, and goes where it is sent.
+
+use core::convert::Infallible;
+
+use rand::RngExt;
+use tolman_control::heading_of;
+use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_maps::wall_belief::RangeReading;
+use tolman_maze::{Cell, Direction, Knowledge, Walls};
+use tolman_planners::Unknown;
+use tolman_planners::moves::Leap;
+use tolman_robot::{Guess, MapView, Mapper, Position, Standing, System, Task, TurnTranslate};
+
+use super::mouse::readings;
+use super::{NoisyBody, NoisyMouse};
+use crate::micromouse::grid_map::{grid_map, place_of};
+
+/// Particles in each cell and each direction when the mouse may be anywhere.
+const SCATTERED: u32 = 8;
+/// A particle is at most this far from the middle of its cell along an axis, as a share of the
+/// pitch, and off the axis, rad.
+const SCATTER: (f64, f64) = (0.15, 0.15);
+/// The mouse knows where it is when this much of the weight lies in one cell.
+const SURE: f64 = 0.95;
+
+/// What to do next.
+enum Choice {
+    Drive(Leap),
+    Turn(Direction),
+    End(Standing),
+}
+
+/// - `Explore` goes to the nearest cell with a side that is not known, until none can be reached.
+/// - `Reach` plans again at every stop, over walls believed open or else over those not believed to
+///   stand. A way that turns out to be shut is gone round.
+/// - `Localize` is done when 95 % of the particles' weight lie in one cell. Until then the mouse
+///   drives to the goal as if it were where it most likely is.
+impl<R: NoisyBody> System<R> for NoisyMouse {
+    type Failure = R::Error;
+
+    fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, R::Error> {
+        self.look(robot)?;
+        match self.choose(task) {
+            Choice::Drive(leap) => self.leap(robot, leap)?,
+            Choice::Turn(side) => self.turn_to(robot, side)?,
+            Choice::End(standing) => return Ok(standing),
+        }
+        Ok(Standing::UnderWay)
+    }
+
+    fn put_down(&mut self) -> Standing {
+        self.is_lost = true;
+        let cells = self.brief.grid.cells();
+        let on_map: Vec<Cell> = cells.filter(|cell| self.is_on_map(*cell)).collect();
+        // The same in all cells, so that cells that look alike stay equally likely.
+        let offsets: Vec<Pose> = (0..SCATTERED).map(|_| self.scattered()).collect();
+        let mut poses = Vec::new();
+        for cell in on_map {
+            for side in Direction::ALL {
+                let middle = Pose::new(self.belief.middle(cell), heading_of(side));
+                poses.extend(offsets.iter().map(|offset| middle.compose(*offset)));
+            }
+        }
+        self.filter.spread(poses);
+        Standing::UnderWay
+    }
+}
+
+impl NoisyMouse {
+    /// Returns whether a cell is known to be open to some side.
+    fn is_on_map(&self, cell: Cell) -> bool {
+        let open = |side| self.belief.knowledge(cell, side) == Knowledge::Open;
+        cell == self.brief.start || Direction::ALL.into_iter().any(open)
+    }
+
+    /// Draws a pose near the middle of a cell, seen from there.
+    fn scattered(&mut self) -> Pose {
+        let [x, y, turn] = [0; 3].map(|_| self.rng.random_range(-1.0..=1.0));
+        let off = Vector::new(x, y) * (SCATTER.0 * self.config.pitch);
+        Pose::new(Point::from(off), Heading::from_radians(SCATTER.1 * turn))
+    }
+
+    /// Looks once, and takes itself to be where it most likely is; for found if it is sure of that.
+    pub(super) fn look_for_itself<R: NoisyBody>(&mut self, robot: &mut R) -> Result<(), R::Error> {
+        self.time_step(robot, TurnTranslate::STOP)?;
+        let readings = readings(robot.sensing());
+        self.filter.sense(&self.belief, &readings, &mut self.rng);
+        let (pose, weight) = self.filter.likeliest(self.config.pitch);
+        self.reckoned = pose;
+        if weight >= SURE {
+            self.filter.gather(&mut self.rng);
+            self.is_lost = false;
+        }
+        Ok(())
+    }
+
+    fn choose(&mut self, task: Task) -> Choice {
+        match task {
+            Task::Localize if !self.is_lost => Choice::End(Standing::Done),
+            _ if self.is_lost => self.choose_to_find_itself(),
+            Task::Explore | Task::Localize => self.choose_to_explore(),
+            Task::Reach(goal) => match self.brief.cells_of(goal) {
+                Some(cells) if cells.contains(&self.cell()) => Choice::End(Standing::Done),
+                Some(cells) => {
+                    let leap = self.unless_stuck(None, |mouse| mouse.leap_to(&cells));
+                    leap.map_or_else(|| give_up("no way leads there"), Choice::Drive)
+                }
+                None => give_up("the mouse knows the start, the goals, and cells of the maze"),
+            },
+        }
+    }
+
+    fn choose_to_explore(&self) -> Choice {
+        if let Some(side) = self.unknown_side(self.cell()) {
+            return Choice::Turn(side);
+        }
+        let cells = self.brief.grid.cells();
+        let new = cells.filter(|cell| self.unknown_side(*cell).is_some());
+        let leap = self.first_leap(Unknown::Closed, new);
+        leap.map_or(Choice::End(Standing::Done), Choice::Drive)
+    }
+
+    /// Drives a cell while it does not know where it is, and turns where it sees no way.
+    fn choose_to_find_itself(&self) -> Choice {
+        let at = self.cell();
+        let targets = match self.brief.goals.contains(&at) {
+            true => vec![self.brief.start],
+            false => self.brief.goals.clone(),
+        };
+        let leap = self.first_leap(Unknown::Closed, targets);
+        let next = leap.and_then(|leap| {
+            let end = self.brief.grid.neighbour(at, leap.direction)?;
+            Some(Leap {
+                cells: 1,
+                end,
+                ..leap
+            })
+        });
+        next.map_or_else(|| Choice::Turn(self.looks_to().right()), Choice::Drive)
+    }
+
+    /// Returns a side of a cell of which it does not know whether it is open.
+    fn unknown_side(&self, cell: Cell) -> Option<Direction> {
+        let is_unknown = |side: &Direction| !self.belief.knowledge(cell, *side).is_known();
+        Direction::ALL.into_iter().find(is_unknown)
+    }
+}
+
+impl Mapper for NoisyMouse {
+    /// A reading, and the pose that it was made at.
+    type Observation = (Pose, RangeReading);
+    type Error = Infallible;
+
+    fn observe(&mut self, (pose, reading): &(Pose, RangeReading)) -> Result<(), Infallible> {
+        self.belief
+            .observe(*pose, *reading, &self.config.filter.sensor);
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        grid_map(&self.belief, &self.brief, |cell| self.belief.middle(cell))
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        let weight = match self.is_lost {
+            true => self.filter.likeliest(self.config.pitch).1,
+            false => 1.0,
+        };
+        let at = Position::Place(place_of(&self.brief, self.cell()));
+        vec![Guess { at, weight }]
+    }
+
+    fn map_bytes(&self) -> Option<usize> {
+        Some(self.brief.grid.wall_count() * size_of::<f64>())
+    }
+}
+
+fn give_up(why: &str) -> Choice {
+    Choice::End(Standing::gave_up(why))
+}

@@ -1,0 +1,221 @@
+//! `tolman host`: a program in any language drives a simulated robot, and is scored.
+
+use core::time::Duration;
+use std::io::Write;
+
+use anyhow::{Context, Error, anyhow};
+use clap::ArgGroup;
+use serde_json::json;
+use tolman_arena::course::Terrain;
+use tolman_arena::cpm::epuck;
+use tolman_arena::foreign::{Budget, ForeignBrain, Hello, Launch, Log};
+use tolman_arena::pioneer::{LASER_PIONEER, calibrated};
+use tolman_arena::run::TaskEnd;
+use tolman_arena::{Depicted, Outing, RobotFacts, Sent};
+use tolman_robot::{Goal, Landmark, Task};
+use tolman_sim::robots::{Epuck, LaserPioneer};
+
+use super::ground::Ground;
+use super::looks::Looks;
+use super::send::{Pursued, send, tell_replay};
+use super::unfinished::Keeper;
+use super::{Failure, OrBadInput, interrupt, keep};
+use crate::start::Start;
+use crate::system::{Settings, Setup, slug, start_anywhere};
+
+/// Lets a program of yours, in any language, drive a simulated robot to the goal, and scores it;
+/// exits 1 if it does not arrive
+///
+/// The program reads lines of JSON from its standard input: what the robot is, then what it senses
+/// in each time step. It answers each of the latter with a line: a command, or that it is done.
+#[derive(clap::Args)]
+#[command(
+    group(ground_or_template()),
+    after_help = "\
+What the program reads, and what it answers:
+  {\"hello\": {\"protocol\": 1, \"robot\": \"laser-pioneer\", \"radius\": …, \"step_us\": …, \"step_limit\": …, \"corridor_width\": …}}
+  {\"step\": 0, \"sensing\": {…}, \"landmark\": null}   ->  {\"turn\": 0.1, \"translate\": 0.5}
+  {\"step\": 1, \"sensing\": {…}, \"landmark\": \"Goal\"} ->  {\"done\": true}
+
+It may also answer {\"give_up\": \"why\"}. The e-puck is told {\"left\": …, \"right\": …}, rad/s. A program that ends
+early, takes longer than --time-limit or answers nonsense has failed, and is ended with all that it started.
+
+Examples:
+  tolman host --template > brain.py
+  tolman host --maze mazes/j.maze --seed 3 --replay hosted.html -- python3 brain.py"
+)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    ground: Ground,
+    /// Seed of all random numbers: the same seed gives the same noise and the same start
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// The robot: laser-pioneer or e-puck
+    #[arg(long, value_name = "NAME")]
+    robot: Option<String>,
+    /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
+    /// and degrees
+    #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
+    start: Option<Start>,
+    /// Stop after this many time steps
+    #[arg(long, value_name = "LIMIT", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(1..))]
+    steps: u32,
+    /// Stop the program after so much time
+    #[arg(long, value_name = "SECONDS", default_value_t = 600, value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    time_limit: u64,
+    /// Show what the program writes to stderr
+    #[arg(long)]
+    log: bool,
+    /// Write a program in Python that follows the wall on the right of a laser-pioneer, to start
+    /// yours from
+    #[arg(long)]
+    template: bool,
+    #[command(flatten)]
+    looks: Looks,
+    /// The program and its arguments
+    #[arg(
+        last = true,
+        required_unless_present = "template",
+        value_name = "PROGRAM"
+    )]
+    program: Vec<String>,
+}
+
+/// What `--template` writes.
+const TEMPLATE: &str = include_str!("host/brain.py");
+
+/// That a maze or a world has to be given, or the template asked for.
+fn ground_or_template() -> ArgGroup {
+    let either = ArgGroup::new("either").args(["maze", "world", "template"]);
+    either.required(true)
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    if arguments.template {
+        return Ok(out.write_all(TEMPLATE.as_bytes())?);
+    }
+    let (world, terrain) = arguments.ground.read()?;
+    let setup = arguments.setup(&world, &terrain);
+    let stop = interrupt::flag()?;
+    let keeper = keep::keeper();
+    let launch = Launch {
+        words: &arguments.program,
+        keeper: &keeper,
+        log: match arguments.log {
+            true => Log::Shown,
+            false => Log::Dropped,
+        },
+        stop: &stop,
+    };
+    let outing = arguments.outing(&setup, &launch);
+    let mut outing = outing
+        .with_context(|| format!("nobody can be hosted in {world}"))
+        .or_bad_input()?;
+    let task = Task::Reach(Goal::Landmark(Landmark::Goal));
+    let word = arguments.program.join(" ");
+    let keeper = Keeper::of_nothing("host");
+    let pursued = send(&mut *outing, task, &setup, &word, &arguments.looks, keeper)?;
+    arguments.tell(&*outing, &world, &pursued, out)
+}
+
+impl Arguments {
+    fn setup<'a>(&'a self, world: &'a str, terrain: &'a Terrain) -> Setup<'a> {
+        Setup {
+            world,
+            terrain,
+            seed: self.seed,
+            start: self.start,
+            steps: Some(self.steps),
+            robot: self.robot.as_deref(),
+            from: None,
+            settings: Settings::default(),
+        }
+    }
+
+    /// Starts the program, and puts its robot on the course.
+    fn outing(&self, setup: &Setup<'_>, launch: &Launch<'_>) -> Result<Box<dyn Outing>, Error> {
+        match setup.robot(&[LASER_PIONEER, Epuck::NAME])? {
+            LASER_PIONEER => self.outing_of(LaserPioneer::new(calibrated())?, setup, launch),
+            _ => self.outing_of(Epuck::new(epuck())?, setup, launch),
+        }
+    }
+
+    fn outing_of<M: Depicted + 'static>(
+        &self,
+        model: M,
+        setup: &Setup<'_>,
+        launch: &Launch<'_>,
+    ) -> Result<Box<dyn Outing>, Error> {
+        let course = setup.terrain.course(setup.world, model.body())?;
+        let start = start_anywhere(setup, &course, model.body())?;
+        let robot = course.robot_at(start, model, setup.seed)?;
+        let facts = RobotFacts::of(&robot);
+        let hello = Hello {
+            robot: slug(facts.name),
+            radius: facts.body.radius(),
+            step_us: facts.step_us,
+            step_limit: self.steps,
+            corridor_width: course.corridor_width,
+        };
+        let brain = ForeignBrain::start(launch, self.budget(), hello)?;
+        Ok(Box::new(Sent::new(course, robot, self.steps, brain)))
+    }
+
+    fn budget(&self) -> Budget {
+        Budget {
+            time: Duration::from_secs(self.time_limit),
+            lines: u64::from(self.steps) + 1,
+            ..Budget::default()
+        }
+    }
+
+    fn tell(
+        &self,
+        outing: &dyn Outing,
+        world: &str,
+        Pursued { ended, told }: &Pursued,
+        out: &mut dyn Write,
+    ) -> Result<(), Failure> {
+        let reached = ended.end == TaskEnd::Done && outing.landmark() == Some(Landmark::Goal);
+        let driven = driven(outing);
+        let shortest = outing
+            .course()
+            .shortest_metres_from(outing.path()[0].position);
+        if self.looks.json {
+            let json = json!({
+                "program": self.program,
+                "maze": world,
+                "robot": outing.robot().name,
+                "seed": self.seed,
+                "reached": reached,
+                "gave_up": ended.end.why(),
+                "steps": ended.steps,
+                "bumps": outing.bumped().len(),
+                "driven": driven,
+                "shortest": shortest,
+            });
+            writeln!(out, "{json:#}")?;
+        } else {
+            if reached {
+                let way = shortest.map(|shortest| format!(" (the shortest way: {shortest:.1} m)"));
+                let way = way.unwrap_or_default();
+                writeln!(out, "{told}; it drove {driven:.1} m{way}")?;
+            }
+            tell_replay(&self.looks, out)?;
+        }
+        match reached {
+            true => Ok(()),
+            false => Err(Failure::Failed(anyhow!(
+                "{told}: the robot is not at the goal of {world}; --log shows what the program says"
+            ))),
+        }
+    }
+}
+
+/// Returns the way that the robot drove, m.
+fn driven(outing: &dyn Outing) -> f64 {
+    let pairs = outing.path().windows(2);
+    pairs
+        .map(|pair| (pair[1].position - pair[0].position).norm())
+        .sum()
+}

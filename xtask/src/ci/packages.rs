@@ -1,0 +1,128 @@
+//! What would be published builds and passes its tests where nothing of the workspace lies beside
+//! it.
+
+use core::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result};
+use serde_json::Value;
+
+use crate::workspace::{cargo, metadata, read, root, succeed, target_folder};
+
+/// What is packed with every change: it is built on no other package, and tested in seconds.
+const ONE: &str = "tolman-stats";
+
+/// A member of the workspace that is published.
+struct Package {
+    name: String,
+    version: String,
+}
+
+impl Package {
+    /// Reads what cargo says of a member; `None` if it is not published.
+    fn of(member: &Value) -> Option<Self> {
+        member["publish"].is_null().then_some(())?;
+        Some(Self {
+            name: member["name"].as_str()?.to_owned(),
+            version: member["version"].as_str()?.to_owned(),
+        })
+    }
+
+    /// Its name in files.
+    fn stem(&self) -> String {
+        format!("{}-{}", self.name, self.version)
+    }
+}
+
+/// Packs one package, and tests it.
+///
+/// # Errors
+/// As [`all`].
+pub(super) fn one() -> Result<()> {
+    let mut packages = published()?;
+    packages.retain(|package| package.name == ONE);
+    let folder = unpacked("package", &packages)?;
+    succeed(&mut inside(&folder, "test --quiet --all-features")?)
+}
+
+/// Packs all packages, builds each by itself and tests them together.
+///
+/// # Errors
+/// If one cannot be packed, lacks a file or a feature, or fails its tests.
+pub(super) fn all() -> Result<()> {
+    let packages = published()?;
+    let folder = unpacked("packages", &packages)?;
+    for Package { name, .. } in &packages {
+        // Together they would switch on one another's features.
+        succeed(&mut inside(
+            &folder,
+            &format!("check --quiet --package {name}"),
+        )?)?;
+    }
+    succeed(&mut inside(
+        &folder,
+        "test --quiet --workspace --all-features",
+    )?)?;
+    eprintln!("{} packages build and pass their tests", packages.len());
+    Ok(())
+}
+
+fn published() -> Result<Vec<Package>> {
+    let metadata = metadata()?;
+    let members = metadata["packages"].as_array();
+    let members = members.context("`cargo metadata` names no packages")?;
+    Ok(members.iter().filter_map(Package::of).collect())
+}
+
+/// Packs them, and lays what was packed into a workspace of its own, which has the dependencies'
+/// versions and the profiles of this one, and nothing else. Returns its folder.
+fn unpacked(name: &str, packages: &[Package]) -> Result<PathBuf> {
+    let mut pack = cargo("package --quiet --offline --no-verify --allow-dirty");
+    for package in packages {
+        pack.args(["--package", &package.name]);
+    }
+    succeed(&mut pack)?;
+    let folder = target_folder()?.join("tmp").join(name);
+    if folder.exists() {
+        fs::remove_dir_all(&folder)?;
+    }
+    fs::create_dir_all(&folder)?;
+    for package in packages {
+        let file = format!("package/{}.crate", package.stem());
+        let mut unpack = Command::new("tar");
+        unpack.arg("-xzf").arg(target_folder()?.join(file));
+        succeed(unpack.arg("-C").arg(&folder))?;
+    }
+    fs::write(folder.join("Cargo.toml"), manifest(packages)?)?;
+    fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock"))?;
+    Ok(folder)
+}
+
+/// The manifest of that workspace.
+fn manifest(packages: &[Package]) -> Result<String> {
+    let mut text = "[workspace]\nresolver = \"3\"\nmembers = [\"*-*.*.*\"]\n\n".to_owned();
+    text.push_str("[patch.crates-io]\n");
+    for package in packages {
+        writeln!(
+            text,
+            "{} = {{ path = \"{}\" }}",
+            package.name,
+            package.stem()
+        )?;
+    }
+    let own = read(&root().join("Cargo.toml"))?;
+    let profiles = own.find("[profile.dev]");
+    let profiles = profiles.context("the workspace has no [profile.dev]")?;
+    Ok(text + "\n" + &own[profiles..])
+}
+
+/// Cargo in that workspace, which shares what others wrote with this one.
+fn inside(folder: &Path, arguments: &str) -> Result<Command> {
+    let mut command = cargo(arguments);
+    command.current_dir(folder).arg("--offline");
+    command.arg("--target-dir").arg(target_folder()?);
+    command.env("PROPTEST_RNG_SEED", "1");
+    Ok(command)
+}
