@@ -124,7 +124,7 @@ fn files_that_hold_no_map_say_why() {
         (
             "\"nodes\":[{\"state\":",
             "\"nodes\":[{\"state\":99",
-            "has state 99, but there are only",
+            "has state 99",
         ),
         ("\"states\":[[", "\"states\":[[1.0,", "unit 1"),
         ("[\"north\",", "[\"up\",", "unknown variant `up`"),
