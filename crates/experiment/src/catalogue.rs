@@ -34,9 +34,9 @@ pub struct Tour {
 /// Makes the experiment of a catalogue that bears this name ready.
 ///
 /// # Errors
-/// [`Error::Unknown`] if there is none of that name, or it lacks a table or row that the options choose;
-/// [`Error::FixedRuns`] if such a table has a number of runs of its own and the options ask for
-/// another; [`Error::Open`] if what it needs cannot be read.
+/// [`Error::Unknown`] if there is none of that name, or it lacks a table or row that the options
+/// choose; [`Error::FixedRuns`] if such a table has a number of runs of its own and the options ask
+/// for another; [`Error::Open`] if what it needs cannot be read.
 pub fn open(catalogue: &[Entry], name: &str, options: &Options) -> Result<Experiment, Error> {
     let names = catalogue.iter().map(|entry| entry.name);
     let entry = &catalogue[Error::place_of("experiment", name, names)?];

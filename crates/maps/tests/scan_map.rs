@@ -265,10 +265,7 @@ fn a_chart_comes_back() {
 fn hostile_parts_are_refused() {
     type Spoil = fn(&mut ChartParts);
     let cases: [(Spoil, &str); 13] = [
-        (
-            |parts| parts.radius = f64::NAN,
-            "stands clear of walls by NaN",
-        ),
+        (|parts| parts.radius = f64::NAN, "keeps NaN m from walls"),
         (|parts| parts.radius = 1e9, "by 1000000000 m"),
         (
             |parts| parts.cell = 0.1,

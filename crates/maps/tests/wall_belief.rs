@@ -148,7 +148,7 @@ fn particles_gather_where_the_mouse_is() {
 #[test]
 fn particles_in_two_cells_agree_when_the_cells_turn_out_to_differ() {
     // Two corridors side by side, one of three cells and one of two.
-    let text = "+---+---+---+\n|           |\n+---+---+---+\n|       |   |\n+---+---+---+";
+    let text = "+---+---+---+\n| S       G |\n+---+---+---+\n|       |   |\n+---+---+---+";
     let maze = tolman_maze::read(text).unwrap().maze;
     let world = World::from_maze(&maze, &SIZE).unwrap();
     let belief = seen_from_everywhere(&maze, &world, 2);

@@ -277,7 +277,7 @@ fn layers_for_another_ring_are_refused() {
     let error = mslst.act(&mut robot, Task::Explore).unwrap_err();
     let told = error.to_string();
     assert!(
-        told.contains("72 beams") && told.contains("read 36"),
+        told.contains("72 beams") && told.contains("expect 36"),
         "{told}"
     );
 }

@@ -1,8 +1,8 @@
 //! Foreign programs, run under supervision: a mouse, a brain in another language.
 //!
-//! A [`ForeignBrain`] drives a robot, in JSON lines. A [`ForeignProgram`] exchanges lines, within a [`Budget`] of time, bytes and lines. When it is
-//! dropped, the program and all processes that it started are killed, whatever group or session
-//! they moved to.
+//! A [`ForeignBrain`] drives a robot, in JSON lines. A [`ForeignProgram`] exchanges lines, within
+//! a [`Budget`] of time, bytes and lines. When it is dropped, the program and all processes that it
+//! started are killed, whatever group or session they moved to.
 //!
 //! On Linux that holds even if this process is killed. A process of its own, the keeper, stands
 //! between it and the program. The keeper notices its end, and inherits what the program leaves

@@ -74,7 +74,7 @@ fn check_goes_on_after_an_unsound_maze() {
         "{}",
         ended.out
     );
-    for part in ["bad.maze: line 1", "gone.maze", "2 of 3 mazes are unsound"] {
+    for part in ["bad.maze: line 1", "gone.maze", "2 of 3 mazes are invalid"] {
         assert!(ended.err.contains(part), "{}", ended.err);
     }
 }

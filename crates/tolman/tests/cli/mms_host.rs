@@ -184,5 +184,5 @@ fn a_hosted_mouse_is_written_down_and_played() {
         &[("a.maze", MIDDLE), ("b.maze", SQUARE)],
         &looks,
     );
-    told.refused(2, &["--svg is of one maze", "holds 2"]);
+    told.refused(2, &["--svg needs a single maze", "holds 2"]);
 }

@@ -117,7 +117,7 @@ fn one_bad_maze_in_a_folder_does_not_void_the_others() {
             told.out
         );
         assert!(
-            told.err.contains("3 of 4 mazes are unsound"),
+            told.err.contains("3 of 4 mazes are invalid"),
             "{}",
             told.err
         );
