@@ -266,7 +266,7 @@ fn hostile_parts_are_refused() {
     type Spoil = fn(&mut ChartParts);
     let cases: [(Spoil, &str); 13] = [
         (|parts| parts.radius = f64::NAN, "keeps NaN m from walls"),
-        (|parts| parts.radius = 1e9, "by 1000000000 m"),
+        (|parts| parts.radius = 1e9, "keeps 1000000000 m"),
         (
             |parts| parts.cell = 0.1,
             "cells are 0.1 m wide, expected 0.05",
