@@ -44,7 +44,7 @@ impl CpmConfig {
         }
     }
 
-    /// Returns online CPM of section 6: [`CpmMapperConfig::online`]. It gives up after 1000
+    /// Returns online CPM of section 6: [`CpMapperConfig::online`]. It gives up after 1000
     /// fragments, which is not in the paper. By Theorem 1 a maze of 44 fragments takes at most 990;
     /// in practice a maze of 500 takes that many.
     #[must_use]
