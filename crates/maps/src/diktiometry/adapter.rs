@@ -27,6 +27,7 @@ impl Observer {
         let from = track.place;
         let best = choice.matches[0];
         let (to, robot) = match best.candidate {
+            // "The track is then 'snapped' to the place."
             Some(candidate) if best.matcher == Matcher::Beta => {
                 (candidate.place, self.map.place(candidate.place).position)
             }

@@ -303,15 +303,18 @@ impl Cpm {
     /// Returns what to explore for: a map is checked until that has taken [`MOST_CHECKS`] times as
     /// many walks as it has fragments.
     fn exploration_aim(&mut self) -> Aim {
-        let Some(Explorer { mapper, .. }) = self.explorer() else {
+        let explorer = self.explorer().filter(|_| self.config.checks > 0);
+        let Some(Explorer { mapper, .. }) = explorer else {
             return Aim::Explore;
         };
+        let most = MOST_CHECKS * mapper.map().fragments().len() as u32;
+        if self.checked >= most {
+            return Aim::Explore;
+        }
         let is_open = |place: &Junction| place.open_ports().next().is_some();
         let is_whole = !mapper.map().junctions().any(|(_, place)| is_open(place));
-        let most = MOST_CHECKS * mapper.map().fragments().len() as u32;
-        let is_done = self.config.checks == 0 || self.checked >= most;
         // What is doubtful anyway need not be checked.
-        if is_done || (is_whole && self.doubt().is_some()) {
+        if is_whole && self.doubt().is_some() {
             return Aim::Explore;
         }
         self.checked += u32::from(is_whole);

@@ -6,7 +6,8 @@ impl Situation<'_> {
     ///
     /// Source: paper, *Dynamic priorities*, for CONTINUE over LINK, and α-MATCH and new places
     /// against β-MATCH. Beyond it: what needs no mapping error goes before what posits one, and
-    /// α-MATCH goes before a new place at young places.
+    /// α-MATCH goes before a new place at young places. In a static world β-MATCH goes before a new
+    /// place, as an action leads to one place there.
     pub(super) fn precedes(&self, a: Matcher, b: Matcher, visits: u32) -> bool {
         use Matcher::{Alpha, Beta, Continue, Link, NewPlace};
         let Tracking { high, low, .. } = self.config.tracks;
