@@ -16,7 +16,7 @@ use crate::BoxError;
 const PROTOCOL: u32 = 1;
 
 /// Time in which a program that has closed its stdout is to end.
-const GRACE: Duration = Duration::from_secs(1);
+const GRACE: Duration = Duration::from_secs(5);
 
 /// The longest line that is quoted in an error, characters.
 const QUOTED: usize = 80;

@@ -65,8 +65,9 @@ pub enum MouseExit {
     Interrupted,
 }
 
-/// Time in which a mouse that has closed its stdout is to end.
-const GRACE: Duration = Duration::from_secs(1);
+/// Time in which a mouse that has closed its stdout is to end. On a busy machine one that does
+/// end at once may need a second.
+const GRACE: Duration = Duration::from_secs(5);
 
 /// Runs a program as a mouse in a maze, until it ends or a limit is reached, and returns the
 /// result. Then the program is killed, with all that it started. Calls `watch` with every line and

@@ -386,8 +386,9 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
     }
 }
 
-/// Approximate cost of a cell on an unknown way, in halves.
-const ONE_CELL: u32 = 5;
+/// Price of a cell on an unknown way, in halves: the least that one costs, on a long straight. A
+/// higher price sends the mouse far for what lies near a target (`docs/notebook/micromouse.md`).
+const ONE_CELL: u32 = 2;
 
 #[cfg(test)]
 mod tests {
