@@ -66,7 +66,7 @@ fn miscounted(world: &PlaneMaze, walks: u32) -> Explorer {
                 walk.bearings = None;
             }
             let dictionary = world.dictionary();
-            explorer.mapper.arrive(leg.turn, &walk, dictionary).unwrap();
+            explorer.arrive(leg.turn, &walk, dictionary).unwrap();
         }
     }
     explorer

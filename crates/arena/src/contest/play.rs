@@ -974,6 +974,28 @@ mod tests {
     }
 
     #[test]
+    fn a_better_cpm_that_is_kidnapped_or_misses_readings_learns_its_map_all_the_same() {
+        let schooling = Schooling::default();
+        let maze = drawn("blocks");
+        for condition in [Condition::Kidnapping, Condition::DropOuts] {
+            let contest = Contest {
+                contestant: Contestant::CpmBetter,
+                robot: ContestRobot::Own,
+                maze: &maze,
+                name: "blocks",
+                condition,
+                starts: 1,
+                seed: 3,
+                stopwatch: None,
+            };
+            let learned = contest.play(&schooling, |_, _| {}).unwrap().learned;
+            let learned = learned.unwrap();
+            assert!(learned.judgement.is_right, "{condition:?}: {learned:?}");
+            assert_eq!(learned.claim, Claim::Right, "{condition:?}");
+        }
+    }
+
+    #[test]
     fn all_contestants_meet_the_same_starts() {
         let maze = drawn("blocks");
         let contest = |contestant| Contest {

@@ -215,7 +215,7 @@ fn more_bearings_than_ports() {
         sighting: Sighting::plain(3),
         bearings: Some(Bearings::of_directions(&[0.0, 1.0]).unwrap()),
     };
-    let refused = explorer.mapper.arrive(Turn::BACK, &walk, &dictionary);
+    let refused = explorer.arrive(Turn::BACK, &walk, &dictionary);
     let expected = CpmError::Bearings {
         bearings: 2,
         degree: 3,
@@ -248,14 +248,14 @@ fn dictionaries_of_another_robot_or_version() {
         .unwrap();
     assert_eq!(dictionary.check_version(early.version()), Ok(()));
     // The early one does not know enough, another robot's says other things.
-    assert!(explorer.mapper.arrive(Turn(1), &walk(0), &early).is_err());
+    assert!(explorer.arrive(Turn(1), &walk(0), &early).is_err());
     let mut foreign = Dictionary::new(2);
     for feature in 0..3 {
         foreign
             .learn(&[f64::from(feature), 7.0], &[f64::from(feature), 7.0], 0.1)
             .unwrap();
     }
-    let refused = explorer.mapper.arrive(Turn(1), &walk(0), &foreign);
+    let refused = explorer.arrive(Turn(1), &walk(0), &foreign);
     assert!(matches!(
         refused,
         Err(CpmError::Dictionary(

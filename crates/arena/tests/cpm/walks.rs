@@ -87,7 +87,7 @@ fn figure_1() {
     // Back in A, from its far end.
     let mut back = walk(&dictionary.inverse(&a).unwrap(), 1);
     back.sighting = start;
-    explorer.mapper.arrive(Turn(1), &back, &dictionary).unwrap();
+    explorer.arrive(Turn(1), &back, &dictionary).unwrap();
     assert_eq!(explorer.mapper.map().fragments().len(), 5);
     assert_eq!(explorer.mapper.optimize(&dictionary), Ok(1));
     let map = explorer.mapper.map();

@@ -14,11 +14,14 @@ pub struct CpmConfig {
     /// Maximum number of fragments walked before the explorer gives up and says so. A robot that
     /// recognizes nothing lengthens its map with each, and nothing else ends its exploration.
     pub most_traversals: u32,
-    /// How often a robot that [checks](super::Aim::Check) its map walks each fragment at least,
-    /// each dead end inwards, before it says that the map is right: what is wrong shows when it is
-    /// walked again. 0 in the paper.
+    /// How often a robot that [checks](super::Aim::Check) its map walks each fragment since the map
+    /// was last another, before it says that the map is right. 0 in the paper.
     #[serde(default)]
     pub checks: u32,
+    /// Whether a robot whose sensors say that it was moved between two fragments begins another map
+    /// there, or finds itself on the one it was given. `false` in the paper.
+    #[serde(default)]
+    pub heeds_lifts: bool,
 }
 
 /// Choice of an online robot at a junction that "has no unknown ports left".
@@ -56,7 +59,8 @@ impl CpmConfig {
     #[must_use]
     pub const fn robust() -> Self {
         Self {
-            checks: 2,
+            checks: 1,
+            heeds_lifts: true,
             ..Self::with(CpMapperConfig::robust())
         }
     }
@@ -75,6 +79,7 @@ impl CpmConfig {
             onward: Onward::ShortestKnownWay,
             most_traversals: 1000,
             checks: 0,
+            heeds_lifts: false,
         }
     }
 }

@@ -8,7 +8,7 @@ pub enum Aim {
     Find(Landmark),
     /// To have been through every port of the map ("the task is to obtain the complete map").
     Explore,
-    /// To have been through every port, and through every fragment as often as
+    /// To have been through every port, and then through every fragment again as often as
     /// [`checks`](super::CpmConfig::checks) says; ours.
     Check,
     /// To be at the start again, trying unknown ports that might make the way between start and

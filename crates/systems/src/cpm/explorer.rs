@@ -1,6 +1,9 @@
+use alloc::collections::BTreeMap;
+
 use rand::{Rng, RngExt};
 use tolman_maps::cpm::{
-    CpMap, CpMapper, CpmError, Fragment, Junction, JunctionId, Port, PortState, Sighting, Turn,
+    CpMap, CpMapper, CpmError, Dictionary, FragmentId, Junction, JunctionId, MapUpdate, Port,
+    PortState, Sighting, Traversal, Turn,
 };
 use tolman_robot::Landmark;
 
@@ -10,7 +13,7 @@ use super::decision::{Aim, Done, JunctionDecision, Leg};
 /// Layer 3: "it makes a decision for the robot, and collects the path-fragment representation".
 ///
 /// Ask it to [`decide`](Self::decide) at each junction, dead end or landmark. Perform the turn and
-/// walk to the next one. Then report the walk to its mapper by [`arrive`](CpMapper::arrive), or by
+/// walk to the next one. Then report the walk by [`arrive`](Self::arrive), or to its mapper by
 /// [`turned_back`](CpMapper::turned_back) if the decision said to give up.
 ///
 /// Random numbers and the dictionary belong to the caller. Whatever the robot meets, an exploration
@@ -20,6 +23,8 @@ pub struct Explorer {
     config: CpmConfig,
     /// The map, and where the robot is on it.
     pub mapper: CpMapper,
+    /// Number of walks of each fragment since the map was last another.
+    walked_again: BTreeMap<FragmentId, u32>,
 }
 
 impl Explorer {
@@ -33,7 +38,7 @@ impl Explorer {
     /// [`CpmError`] if the place has no ports.
     pub fn new(config: CpmConfig, start: Sighting) -> Result<Self, CpmError> {
         let mapper = CpMapper::new(config.mapper(), start)?;
-        Ok(Self { config, mapper })
+        Ok(Self::of(config, mapper))
     }
 
     /// Goes on with a map that was learned before, at one of its ports.
@@ -42,7 +47,35 @@ impl Explorer {
     /// [`CpmError::Turn`] if the map has no such port.
     pub fn resume(config: CpmConfig, map: CpMap, at: Port) -> Result<Self, CpmError> {
         let mapper = CpMapper::resume(config.mapper(), map, at)?;
-        Ok(Self { config, mapper })
+        Ok(Self::of(config, mapper))
+    }
+
+    const fn of(config: CpmConfig, mapper: CpMapper) -> Self {
+        Self {
+            config,
+            mapper,
+            walked_again: BTreeMap::new(),
+        }
+    }
+
+    /// Takes in a walk: the turn that was performed, and what was met.
+    ///
+    /// # Errors
+    /// [`CpmError`]; the explorer is as before then.
+    pub fn arrive(
+        &mut self,
+        turn: Turn,
+        walk: &Traversal,
+        dictionary: &Dictionary,
+    ) -> Result<MapUpdate, CpmError> {
+        let update = self.mapper.arrive(turn, walk, dictionary)?;
+        match (update, self.map().end_at(self.mapper.at())) {
+            (MapUpdate::Known, Some(end)) => {
+                *self.walked_again.entry(end.fragment).or_default() += 1;
+            }
+            _ => self.walked_again.clear(),
+        }
+        Ok(update)
     }
 
     /// Returns what to do here. Asking changes nothing but the generator. O(fragments · log
@@ -128,23 +161,13 @@ impl Explorer {
         }
     }
 
-    /// Returns a fragment that was walked too rarely, here or at the nearest place that has one.
+    /// Returns a fragment that was walked too rarely since the map was last another, here or at the
+    /// nearest place that has one.
     fn walk_again(&self, rng: &mut impl Rng) -> Option<Leg> {
         let is_rare = |port: Port| {
             let end = self.map().end_at(port)?;
-            let Fragment {
-                traversals,
-                minus,
-                plus,
-                ..
-            } = self.map().fragment(end.fragment)?;
-            let is_dead_end = |end: &&Port| self.map().degree(end.junction) == 1;
-            // Out of a dead end it comes as it went in.
-            let walks = match [minus, plus].iter().any(is_dead_end) {
-                true => traversals.div_ceil(2),
-                false => *traversals,
-            };
-            (walks < self.config.checks).then_some(port.number)
+            let walks = self.walked_again.get(&end.fragment).copied();
+            (walks.unwrap_or(0) < self.config.checks).then_some(port.number)
         };
         let rare = |id: JunctionId| {
             let ports = 0..self.map().degree(id);

@@ -187,8 +187,12 @@ impl Layer3 {
             sighting,
             bearings: walked.bearings.clone(),
         };
-        let (mapper, dictionary) = (&mut self.explorer.mapper, self.patterns.dictionary());
-        Ok(Some(mapper.arrive(walked.turn, &traversal, dictionary)?))
+        let (explorer, dictionary) = (&mut self.explorer, self.patterns.dictionary());
+        Ok(Some(explorer.arrive(
+            walked.turn,
+            &traversal,
+            dictionary,
+        )?))
     }
 
     /// Walks one fragment towards the aim, or returns why there is nothing to walk.

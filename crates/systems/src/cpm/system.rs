@@ -79,7 +79,7 @@ const APART: f64 = 0.5;
 const MOST_DOUBTFUL: u32 = 50;
 
 /// Maximum number of walks that check a map, as a multiple of its fragments.
-const MOST_CHECKS: u32 = 1;
+const MOST_CHECKS: u32 = 3;
 
 /// Number of maps that are given up before the robot gives up.
 const MOST_MAPS: u32 = 2;
@@ -271,6 +271,9 @@ impl Cpm {
             return self.begin(robot);
         };
         let mut walker = Walker::wake(robot, self.walker.clone(), resting);
+        if self.config.heeds_lifts && walker.was_moved()? {
+            return Ok(self.moved());
+        }
         let flow = layer.advance(&mut walker, aim, &mut self.rng)?;
         self.standing = Stance::AtPlace(Box::new(walker.rest()));
         let done = match flow {
@@ -355,6 +358,20 @@ impl Cpm {
             return Standing::gave_up(format!("its map is doubtful: {doubt}"));
         }
         self.given_up += 1;
+        self.begin_elsewhere()
+    }
+
+    /// Takes notice that it was moved amid an exploration: it begins another map there, or finds
+    /// itself on the map that it was given.
+    fn moved(&mut self) -> Standing {
+        match self.known.is_empty() {
+            true => self.begin_elsewhere(),
+            false => Standing::UnderWay,
+        }
+    }
+
+    /// Drops its map and begins another where the robot stands, with the patterns it learned.
+    fn begin_elsewhere(&mut self) -> Standing {
         if let Some(layer) = self.layer.take() {
             self.patterns = layer.patterns().clone();
         }
@@ -375,6 +392,9 @@ impl Cpm {
             return Ok(Standing::Done);
         };
         let mut walker = Walker::wake(robot, self.walker.clone(), resting);
+        if self.config.heeds_lifts && walker.was_moved()? {
+            return Ok(Standing::UnderWay);
+        }
         let sighting = Layer3::drive(&mut walker, leg)?;
         if layer.expected(leg) == Some(sighting) {
             layer.explorer_mut().mapper.place(leg.arrive)?;

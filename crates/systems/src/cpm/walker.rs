@@ -7,6 +7,7 @@ use tolman_control::epuck::{
 };
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::cpm::{Bearings, Sighting};
+use tolman_robot::epuck::PROXIMITY_SENSORS;
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
 
 use super::calibration::{Reading, WheelCalibration};
@@ -222,6 +223,11 @@ const TOO_NEAR: f64 = 220.0;
 const CALIBRATED: f64 = 3e-3;
 const MOST_TURNS: u32 = 12;
 
+/// Change of a range, m, and number of sensors with such a change, from which on the robot stands
+/// elsewhere. Noise changes none by as much, and a single sensor may fail.
+const ELSEWHERE: f64 = 0.03;
+const LEAST_CHANGED: usize = 2;
+
 /// Near enough to the middle, m.
 const NEAR: f64 = 0.015;
 
@@ -334,6 +340,29 @@ impl<B: CpmRobot> Walker<B> {
     /// Returns how far it drove so far, m.
     pub const fn driven(&self) -> f64 {
         self.pilot.robot().driven
+    }
+
+    /// Stands for a time step and returns whether it was moved before it: several sensors read
+    /// what they cannot in the same place.
+    ///
+    /// # Errors
+    /// [`WalkError`].
+    pub fn was_moved(&mut self) -> WalkResult<bool, B> {
+        let before = self.ranges();
+        self.pilot.stand()?;
+        let (Some(before), Some(after)) = (before, self.ranges()) else {
+            return Ok(false);
+        };
+        let moved = before.iter().zip(after);
+        let others = moved.filter(|(before, after)| (*before - after).abs() > ELSEWHERE);
+        Ok(others.count() >= LEAST_CHANGED)
+    }
+
+    /// Returns the ranges of its sensors, m, at most their reach.
+    fn ranges(&self) -> Option<[f64; PROXIMITY_SENSORS]> {
+        let curve = &self.config.pilot.curve;
+        let values = self.pilot.robot().sensing().proximity?;
+        Some(values.map(|value| curve.range(value).unwrap_or(curve.reach())))
     }
 
     /// Sweeps where it stands.

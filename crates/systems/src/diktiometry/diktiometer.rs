@@ -22,8 +22,9 @@ use super::{
 /// - **Explore**: the [`Planner`](super::Planner)'s walk. It ends when nothing is left to try at
 ///   any place that the map leads to, no two places may be one, and the map does not contradict
 ///   itself. It gives up a map that has contradicted itself for 20 moves. It gives up one that has
-///   not been folded for five moves for each of its places, at most 300. It also gives up if the
-///   robot was carried elsewhere, so that the view differs from that at its last stop.
+///   not been folded for five moves for each of its places, at most 300. If the robot was carried
+///   elsewhere, so that the view differs from that at its last stop, it begins another map there; by
+///   the paper's rule of matching, or on a map that it was given, it gives up.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
 ///   knows no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
@@ -43,8 +44,8 @@ pub struct Diktiometer<E> {
     config: DiktiometerConfig,
     eye: E,
     guide: Guide,
-    /// The places it came to, by the names they had then.
-    visited: Vec<PlaceId>,
+    /// The places it came to, by the names they had then; `None` for those of a map that it dropped.
+    visited: Vec<Option<PlaceId>>,
 }
 
 /// Parts of a [`Diktiometer`].
@@ -151,16 +152,16 @@ impl<E> Mapper for Diktiometer<E> {
     fn observe(&mut self, seen: &ObservedMove) -> Result<(), RefusedMove> {
         if let Some(observer) = self.guide.observer_mut() {
             if self.visited.is_empty() {
-                self.visited.push(observer.place());
+                self.visited.push(Some(observer.place()));
             }
             observer.step(seen)?;
-            self.visited.push(observer.place());
+            self.visited.push(Some(observer.place()));
             return Ok(());
         }
         let mut observer = Observer::new(self.config.mapper.clone(), FirstPlace::default())?;
-        self.visited.push(observer.place());
+        self.visited.push(Some(observer.place()));
         observer.step(seen)?;
-        self.visited.push(observer.place());
+        self.visited.push(Some(observer.place()));
         self.guide.take_over(observer);
         Ok(())
     }
@@ -190,7 +191,7 @@ impl<E> Mapper for Diktiometer<E> {
 
     fn visits(&self) -> Vec<Option<u32>> {
         let paths = self.observer().map(|observer| &observer.map().paths);
-        let now = |place: &PlaceId| Some(paths?.resolve(*place)?.0);
+        let now = |place: &Option<PlaceId>| Some(paths?.resolve((*place)?)?.0);
         self.visited.iter().map(now).collect()
     }
 }
@@ -238,7 +239,14 @@ where
 
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
         let mut rover = Surveyor::new(robot, &self.eye, self.config.routines)?;
+        let is_anew = task == Task::Explore && self.guide.begins_anew();
         self.guide.find_footing(&mut rover, &self.config.mapper)?;
+        if is_anew {
+            self.visited.fill(None);
+            self.visited
+                .push(self.guide.observer().map(Observer::place));
+            return Ok(Standing::UnderWay);
+        }
         let here = rover.robot().landmark();
         self.guide.recognize(here);
         let direction = match self.guide.next(task, here) {
@@ -246,13 +254,13 @@ where
             Next::Break(standing) => return Ok(standing),
         };
         if let (true, Some(observer)) = (self.visited.is_empty(), self.guide.observer()) {
-            self.visited.push(observer.place());
+            self.visited.push(Some(observer.place()));
         }
         if !self.guide.go(&mut rover, direction)? {
             return Ok(Standing::UnderWay);
         }
         self.visited
-            .extend(self.guide.observer().map(Observer::place));
+            .push(self.guide.observer().map(Observer::place));
         let here = rover.robot().landmark();
         self.guide.recognize(here);
         if self.guide.is_done(task, here) {

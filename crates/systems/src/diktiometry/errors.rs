@@ -36,7 +36,7 @@ pub enum RoutineError<E: Error + 'static> {
 #[non_exhaustive]
 pub enum SenseError {
     /// A sensor that the routines live on gave nothing.
-    #[error("the {sensor} gave nothing; use a robot without drop-outs")]
+    #[error("the {sensor} gave nothing for some time steps in a row; check that the robot has one")]
     Blind {
         /// Name of the sensor.
         sensor: &'static str,

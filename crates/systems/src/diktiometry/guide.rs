@@ -28,6 +28,8 @@ pub(super) struct Guide {
     doubt: Option<(MapState, u32)>,
     /// Whether it was carried elsewhere since it began the map.
     is_carried: bool,
+    /// Whether it began the map itself.
+    is_own_map: bool,
 }
 
 /// Moves between two checks of what speaks against the map.
@@ -88,6 +90,7 @@ impl Guide {
             moves: 0,
             doubt: None,
             is_carried: false,
+            is_own_map: false,
         }
     }
 
@@ -104,7 +107,7 @@ impl Guide {
     /// Begins with the map of `observer`.
     pub(super) fn take_over(&mut self, observer: Observer) {
         self.whereabouts = Whereabouts::Unknown;
-        self.is_carried = false;
+        (self.is_carried, self.is_own_map) = (false, false);
         self.mapping = Some(RoverMap::of(observer));
     }
 
@@ -128,10 +131,26 @@ impl Guide {
             }
             None => {
                 self.mapping = Some(RoverMap::begin(rover, config.clone())?);
+                self.is_own_map = true;
                 Whereabouts::Followed
             }
         };
         Ok(())
+    }
+
+    /// Drops a map of its own in whose making the rover was carried elsewhere, and returns whether
+    /// it did: the next begins where it stands. Not by the paper's rule of matching.
+    pub(super) fn begins_anew(&mut self) -> bool {
+        let is_by_the_paper = self.observer().is_some_and(is_by_the_paper);
+        if !(self.is_carried && self.is_own_map) || is_by_the_paper {
+            return false;
+        }
+        self.mapping = None;
+        (self.under_way, self.doubt, self.is_carried) = (None, None, false);
+        self.whereabouts = Whereabouts::Unknown;
+        self.landmarks.clear();
+        self.planner.drop_script();
+        true
     }
 
     /// Remembers that the rover senses `landmark` where it stands.
@@ -334,10 +353,15 @@ fn give_up(why: &str) -> Next {
     Next::Break(Standing::GaveUp { why })
 }
 
+/// Returns whether places are matched by the paper's rule.
+fn is_by_the_paper(observer: &Observer) -> bool {
+    observer.config().matching.identity == Identity::Meets
+}
+
 /// Returns the state of the map if it is doubtful; `None` by the paper's rule of matching, which
 /// does not ask.
 fn objection(observer: &Observer) -> Option<MapState> {
-    if observer.config().matching.identity == Identity::Meets {
+    if is_by_the_paper(observer) {
         return None;
     }
     let state = observer.self_check().state();

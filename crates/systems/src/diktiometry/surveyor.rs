@@ -9,7 +9,7 @@ use tolman_robot::{Compass, Odometry, Ranges, Robot, Rolls, TurnTranslate};
 
 use super::{
     Around, Arrival, Beside, Eye, Odometer, Offset, RoutineConfig, RoutineConfigError,
-    RoutineError, Rover, SenseError, View, compass, offset,
+    RoutineError, Rover, SenseError, View, compass, offset, round_scan,
 };
 
 /// A robot with the paper's control routines: they follow corridors, end at corners and doorways,
@@ -25,6 +25,8 @@ pub struct Surveyor<R, E> {
     odometer: Odometer,
     /// Number of time steps of the routine under way.
     steps: u32,
+    /// Number of time steps in a row of which odometry told nothing.
+    unseen: u32,
 }
 
 /// Maximum error of a turn, rad.
@@ -33,6 +35,8 @@ const ALIGNED: f64 = 0.02;
 const SETTLED: f64 = 0.01;
 /// Time steps after which a routine is lost: the longest corridor of 60 cells.
 const PATIENCE: u32 = 2000;
+/// Time steps in a row in which a sensor may tell nothing before it is taken for broken.
+const MOST_SILENT: u32 = 20;
 
 impl<R, E> Surveyor<R, E> {
     /// Returns `robot`, which stands at a place and tells places apart by `eye`.
@@ -47,6 +51,7 @@ impl<R, E> Surveyor<R, E> {
             eye,
             config,
             steps: 0,
+            unseen: 0,
         })
     }
 
@@ -70,7 +75,7 @@ where
     /// Turns in place until the robot looks `ahead`.
     fn turn_to(&mut self, ahead: Heading) -> Result<(), RoutineError<R::Error>> {
         for _ in 0..PATIENCE {
-            let turn = compass(self.robot.sensing())?.turn_to(ahead);
+            let turn = self.heading()?.turn_to(ahead);
             if turn.abs() < ALIGNED {
                 break;
             }
@@ -151,18 +156,52 @@ where
     /// Makes one time step and returns how far odometry says the robot went, m. Adds what odometry
     /// and compass say of it to the box of this routine.
     fn command(&mut self, turn: f64, distance: f64) -> Result<f64, RoutineError<R::Error>> {
-        let before = compass(self.robot.sensing())?;
+        let before = self.heading()?;
         let command = TurnTranslate {
             turn: (turn / self.config.turn_per_step).clamp(-1.0, 1.0),
             translate: (distance / self.config.translate_per_step).clamp(-1.0, 1.0),
         };
         self.robot.step(&command).map_err(RoutineError::Robot)?;
         self.steps += 1;
-        let after = compass(self.robot.sensing())?;
         let rolled = self.robot.sensing().odometry();
-        let Odometry { distance, .. } = rolled.ok_or(SenseError::Blind { sensor: "odometry" })?;
-        self.odometer.roll(distance, before, after)?;
-        Ok(distance)
+        let after = self.heading()?;
+        if let Some(Odometry { distance, .. }) = rolled {
+            self.unseen = 0;
+            self.odometer.roll(distance, before, after)?;
+            return Ok(distance);
+        }
+        self.unseen += 1;
+        if self.unseen > MOST_SILENT {
+            return Err(SenseError::Blind { sensor: "odometry" }.into());
+        }
+        let asked = command.translate * self.config.translate_per_step;
+        self.odometer.roll_unseen(asked, before, after)?;
+        Ok(asked)
+    }
+
+    /// Returns the heading, once compass and laser tell something.
+    fn heading(&mut self) -> Result<Heading, RoutineError<R::Error>> {
+        self.once_told(|this| {
+            round_scan(this.robot.sensing())?;
+            Ok(compass(this.robot.sensing())?)
+        })
+    }
+
+    /// Returns what `read` returns once the sensors tell it: a reading that did not come is waited
+    /// for, standing, for some time steps.
+    fn once_told<T>(
+        &mut self,
+        read: impl Fn(&Self) -> Result<T, RoutineError<R::Error>>,
+    ) -> Result<T, RoutineError<R::Error>> {
+        for _ in 0..MOST_SILENT {
+            match read(self) {
+                Err(RoutineError::Sense(SenseError::Blind { .. })) => {
+                    self.robot.stop().map_err(RoutineError::Robot)?;
+                }
+                told => return told,
+            }
+        }
+        read(self)
     }
 
     /// Moves to the middle of the place, as far as walls and corners around it show it.
@@ -184,11 +223,14 @@ where
     /// Ends a routine standing still, and returns the arrival with the view of the place.
     fn arrive(&mut self, outcome: MoveOutcome) -> Result<Arrival, RoutineError<R::Error>> {
         self.robot.stop().map_err(RoutineError::Robot)?;
-        Ok(Arrival {
-            outcome,
-            moved: self.odometer.moved(),
-            exits: self.exits()?,
-            look: self.signature()?,
+        let moved = self.odometer.moved();
+        self.once_told(|this| {
+            Ok(Arrival {
+                outcome,
+                moved,
+                exits: this.exits()?,
+                look: this.signature()?,
+            })
         })
     }
 

@@ -3,7 +3,7 @@
 use core::convert::Infallible;
 
 use tolman_geom::{Heading, Point, Vector};
-use tolman_maps::diktiometry::{Config, Observer, PlaceId};
+use tolman_maps::diktiometry::{Config, Identity, Observer, PlaceId};
 use tolman_maze::{Direction, Maze};
 use tolman_robot::{
     Goal, Landmark, Landmarked, LaserSensing, MapView, Mapper, Odometry, Position, Ring, Robot,
@@ -257,25 +257,45 @@ fn another_goes_on_with_the_map_and_knows_where_it_is() {
     assert!(near(at, expected), "{at} for {expected}");
 }
 
-#[test]
-fn a_robot_that_is_carried_off_while_it_learns_says_so_and_stops() {
-    for seed in 0..5 {
-        let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.0), at_the_end);
-        let mut system = system(seed);
-        for _ in 0..3 {
-            let standing = system.act(&mut robot, Task::Explore).unwrap();
-            assert_eq!(standing, Standing::UnderWay, "seed {seed}");
-        }
-        let visits = Mapper::visits(&system);
-        // Amid a corridor: no place looks like that.
-        robot.robot_mut().at = Point::new(0.5, 2.0);
-        let standing = pursue(&mut system, &mut robot, Task::Explore);
-        assert!(
-            matches!(&standing, Standing::GaveUp { why } if why.contains("carried")),
-            "seed {seed}: {standing:?}"
-        );
-        assert_eq!(Mapper::visits(&system), visits, "it came to no place");
+/// Carries a robot off after three routines of its exploration, amid a corridor: no place looks
+/// like that. Returns its visits until then, and how the exploration ends.
+fn carried_off(system: &mut Diktiometer<LaserEye>) -> (Vec<Option<u32>>, Standing) {
+    let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.0), at_the_end);
+    for _ in 0..3 {
+        let standing = system.act(&mut robot, Task::Explore).unwrap();
+        assert_eq!(standing, Standing::UnderWay);
     }
+    let visits = Mapper::visits(system);
+    robot.robot_mut().at = Point::new(0.5, 2.0);
+    let standing = pursue(system, &mut robot, Task::Explore);
+    (visits, standing)
+}
+
+#[test]
+fn a_robot_that_is_carried_off_while_it_learns_begins_another_map() {
+    for seed in 0..5 {
+        let mut system = system(seed);
+        let (visits, standing) = carried_off(&mut system);
+        assert_eq!(standing, Standing::Done, "seed {seed}");
+        let all = Mapper::visits(&system);
+        let (before, after) = all.split_at(visits.len());
+        assert!(before.iter().all(Option::is_none), "of the map it dropped");
+        assert!(after.iter().all(Option::is_some));
+        assert_eq!(system.map().places.len(), PLACES.len());
+    }
+}
+
+#[test]
+fn a_robot_that_is_carried_off_stops_by_the_papers_rule_of_matching() {
+    let mut config = system(0).config().clone();
+    config.mapper.matching.identity = Identity::Meets;
+    let mut system = Diktiometer::new(config, LaserEye { columns: 24 }, 0);
+    let (visits, standing) = carried_off(&mut system);
+    assert!(
+        matches!(&standing, Standing::GaveUp { why } if why.contains("carried")),
+        "{standing:?}"
+    );
+    assert_eq!(Mapper::visits(&system), visits, "it came to no place");
 }
 
 /// Fails once, after a number of time steps.
