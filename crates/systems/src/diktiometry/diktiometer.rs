@@ -23,8 +23,8 @@ use super::{
 ///   any place that the map leads to, no two places may be one, and the map does not contradict
 ///   itself. It gives up a map that has contradicted itself for 20 moves. It gives up one that has
 ///   not been folded for five moves for each of its places, at most 300. If the robot was carried
-///   elsewhere, so that the view differs from that at its last stop, it begins another map there; by
-///   the paper's rule of matching, or on a map that it was given, it gives up.
+///   elsewhere, so that the view differs from that at its last stop, it begins another map there.
+///   By the paper's rule of matching, or on a map that it was given, it gives up.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
 ///   knows no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
@@ -44,7 +44,7 @@ pub struct Diktiometer<E> {
     config: DiktiometerConfig,
     eye: E,
     guide: Guide,
-    /// The places it came to, by the names they had then; `None` for those of a map that it dropped.
+    /// The places it came to, by the names they had then; `None` for a map that it dropped.
     visited: Vec<Option<PlaceId>>,
 }
 
@@ -239,9 +239,9 @@ where
 
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
         let mut rover = Surveyor::new(robot, &self.eye, self.config.routines)?;
-        let is_anew = task == Task::Explore && self.guide.begins_anew();
+        let begins_again = task == Task::Explore && self.guide.drops_map();
         self.guide.find_footing(&mut rover, &self.config.mapper)?;
-        if is_anew {
+        if begins_again {
             self.visited.fill(None);
             self.visited
                 .push(self.guide.observer().map(Observer::place));

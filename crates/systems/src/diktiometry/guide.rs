@@ -140,7 +140,7 @@ impl Guide {
 
     /// Drops a map of its own in whose making the rover was carried elsewhere, and returns whether
     /// it did: the next begins where it stands. Not by the paper's rule of matching.
-    pub(super) fn begins_anew(&mut self) -> bool {
+    pub(super) fn drops_map(&mut self) -> bool {
         let is_by_the_paper = self.observer().is_some_and(is_by_the_paper);
         if !(self.is_carried && self.is_own_map) || is_by_the_paper {
             return false;
