@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
 use std::thread;
+use std::time::Instant;
 
 /// Returns the command: what `TOLMAN` names, else the one built with this test.
 fn tolman() -> PathBuf {
@@ -70,7 +71,9 @@ fn run(page: &str, lines: &[String]) -> Vec<String> {
         if command.contains("python3") && Command::new("python3").arg("-V").output().is_err() {
             continue;
         }
+        let begun = Instant::now();
         let output = sh(&folder, &command);
+        eprintln!("{:7.1} s  {page}: {line}", begun.elapsed().as_secs_f64());
         if output.status.code() != Some(code) {
             let err = String::from_utf8_lossy(&output.stderr);
             wrong.push(format!(
