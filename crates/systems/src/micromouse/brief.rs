@@ -1,5 +1,5 @@
 use tolman_maze::{Cell, Direction, Grid};
-use tolman_robot::{Goal, Landmark};
+use tolman_robot::{Goal, Landmark, Standing};
 
 /// What a mouse is told of a maze before it starts: all but its walls.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,14 +15,18 @@ pub struct Brief {
 }
 
 impl Brief {
-    /// Returns the cells where a goal is reached; `None` if it is not in this maze. A place is a
-    /// cell, by [`Grid::index`].
-    pub(super) fn cells_of(&self, goal: Goal) -> Option<Vec<Cell>> {
-        match goal {
+    /// Returns the cells where a goal is reached. A place is a cell, by [`Grid::index`].
+    ///
+    /// # Errors
+    /// Why the mouse gives up, if the goal is not in this maze.
+    pub(super) fn cells_of(&self, goal: Goal) -> Result<Vec<Cell>, Standing> {
+        let cells = match goal {
             Goal::Landmark(Landmark::Start) => Some(vec![self.start]),
             Goal::Landmark(Landmark::Goal) => Some(self.goals.clone()),
             Goal::Landmark(Landmark::Numbered(_)) => None,
-            Goal::Place(id) => Some(vec![self.grid.cells().nth(id as usize)?]),
-        }
+            Goal::Place(id) => self.grid.cells().nth(id as usize).map(|cell| vec![cell]),
+        };
+        let why = "the mouse knows the start, the goals, and cells of the maze";
+        cells.ok_or_else(|| Standing::gave_up(why))
     }
 }

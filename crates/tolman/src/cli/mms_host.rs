@@ -36,7 +36,7 @@ mice and shows the scores so far.
 
 Examples:
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/braided-2.txt
-  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid --jobs 1 --json
+  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --json
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --replay hosted.html")]
 pub(super) struct Arguments {
     /// The mouse's command, split into words like a shell does, but run without one

@@ -42,7 +42,7 @@ Examples:
   tolman mouse mazes/grid --worst 3
   tolman mouse mazes/grid/braided-1.txt --until worth
   tolman mouse mazes/grid/perfect-1.txt --replay mouse.html --trace mouse.jsonl
-  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid")]
+  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt")]
 pub(super) struct Arguments {
     /// A maze file of any format, or a folder of them
     #[arg(value_name = "FILE|DIR", required_unless_present = "mms")]

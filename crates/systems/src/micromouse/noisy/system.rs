@@ -12,7 +12,7 @@ use tolman_planners::moves::Leap;
 use tolman_robot::{Guess, MapView, Mapper, Position, Standing, System, Task, TurnTranslate};
 
 use super::mouse::readings;
-use super::{NoisyBody, NoisyMouse};
+use super::{NoisyBody, NoisyMouse, PoseSource};
 use crate::micromouse::grid_map::{grid_map, place_of};
 
 /// Particles in each cell and each direction when the mouse may be anywhere.
@@ -49,6 +49,9 @@ impl<R: NoisyBody> System<R> for NoisyMouse {
     }
 
     fn put_down(&mut self) -> Standing {
+        if self.config.localization == PoseSource::DeadReckoning {
+            return Standing::gave_up("it reckons by its wheels alone and cannot find itself");
+        }
         self.is_lost = true;
         let cells = self.brief.grid.cells();
         let on_map: Vec<Cell> = cells.filter(|cell| self.is_on_map(*cell)).collect();
@@ -100,12 +103,12 @@ impl NoisyMouse {
             _ if self.is_lost => self.choose_to_find_itself(),
             Task::Explore | Task::Localize => self.choose_to_explore(),
             Task::Reach(goal) => match self.brief.cells_of(goal) {
-                Some(cells) if cells.contains(&self.cell()) => Choice::End(Standing::Done),
-                Some(cells) => {
+                Ok(cells) if cells.contains(&self.cell()) => Choice::End(Standing::Done),
+                Ok(cells) => {
                     let leap = self.unless_stuck(None, |mouse| mouse.leap_to(&cells));
                     leap.map_or_else(|| give_up("no way leads there"), Choice::Drive)
                 }
-                None => give_up("the mouse knows the start, the goals, and cells of the maze"),
+                Err(standing) => Choice::End(standing),
             },
         }
     }

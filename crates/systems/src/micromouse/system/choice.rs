@@ -23,10 +23,8 @@ impl<S: Search> MazeMouse<S> {
         let choice = match task {
             Task::Explore => self.choose_to_explore(),
             Task::Reach(goal) => match self.brief.cells_of(goal) {
-                Some(targets) => self.choose_to_reach(&targets),
-                None => Ok(give_up(
-                    "the mouse knows the start, the goals, and cells of the maze",
-                )),
+                Ok(targets) => self.choose_to_reach(&targets),
+                Err(standing) => Ok(Choice::End(standing)),
             },
             // It is told where it starts, and follows its way from there.
             Task::Localize => Ok(Choice::End(Standing::Done)),
