@@ -78,8 +78,8 @@ pub const fn exit_signatures() -> Percepts {
     })
 }
 
-/// Share of a laser's columns in which two looks of a place agree. Crossing and dead end, corner and
-/// junction differ in a quarter of all columns.
+/// Share of a laser's columns in which two looks of a place agree. Crossing and dead end, or corner
+/// and junction, differ in a quarter of all columns.
 const LASER_SHARE: f64 = 0.8;
 
 /// Returns the percepts of a mapper whose robot turns its signatures of `rows` × `columns` values
