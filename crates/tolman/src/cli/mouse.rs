@@ -1,5 +1,5 @@
-//! `tolman mouse`: a micromouse explores mazes, proves its run and makes it, under the paper's
-//! rules or those of mms.
+//! `tolman mouse`: a micromouse explores mazes, proves its run and drives it, under the rules of
+//! the paper or of mms.
 
 mod drawing;
 mod mms;
@@ -25,7 +25,7 @@ use super::words::words;
 use super::{Failure, OrBadInput, maze};
 pub(super) use way::{Came, Way, WayStep, half_cells};
 
-/// Sends a micromouse through mazes: it explores, proves its run, and makes it
+/// Sends a micromouse through mazes: it explores, proves its run, and drives it
 #[derive(clap::Args)]
 #[command(after_help = "\
 The rules are those of \"Plot and Navigate a Virtual Maze\": at most 1000 steps for both runs. A step is a quarter turn or
@@ -44,13 +44,13 @@ Examples:
   tolman mouse mazes/grid/perfect-1.txt --replay mouse.html --trace mouse.jsonl
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid")]
 pub(super) struct Arguments {
-    /// A maze file of any format, or a folder of them
+    /// Maze file of any format, or a folder of them
     #[arg(value_name = "FILE|DIR", required_unless_present = "mms")]
     maze: Option<PathBuf>,
     /// Speak the protocol of the simulator mms on stdin and stdout
     #[arg(long, conflicts_with_all = ["maze", "search", "seed", "worst", "jobs", "json", "live", "svg", "trace", "replay"])]
     mms: bool,
-    /// When the mouse has explored enough; by default once its run is proven, with --mms once it
+    /// When the mouse has explored enough; by default when its run is proven, with --mms when it
     /// has been at the goal
     #[arg(long, value_parser = words(UNTIL), conflicts_with = "search")]
     until: Option<Until>,
@@ -62,7 +62,7 @@ pub(super) struct Arguments {
     /// Seed of the searches that use random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Draw this many of the mazes with the worst score above the floor
+    /// Draw this many of the mazes, those with the worst score above the floor
     #[arg(long, value_name = "N", default_value_t = 1)]
     worst: usize,
     /// Number of mazes at a time, instead of one per core
@@ -72,7 +72,7 @@ pub(super) struct Arguments {
     looks: Looks,
 }
 
-/// When a mouse has explored enough.
+/// Values of `--until`: when a mouse has explored enough.
 const UNTIL: [(&str, &str, Until); 3] = [
     (
         "goal",
@@ -91,7 +91,7 @@ const UNTIL: [(&str, &str, Until); 3] = [
     ),
 ];
 
-/// One maze and what became of the mouse in it.
+/// A maze, and how the mouse did in it.
 struct Tried<'a> {
     file: &'a Path,
     maze: &'a Maze,
@@ -100,7 +100,7 @@ struct Tried<'a> {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    // clap asks for one of the two.
+    // clap makes sure that one of the two is given.
     let Some(path) = arguments.maze.as_ref().filter(|_| !arguments.mms) else {
         return mms::carry_out(arguments.until.unwrap_or(Until::Goal), out);
     };
@@ -109,7 +109,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let files = mazes.len() + unsound.len();
     arguments.looks.of_one(path, files)?;
     arguments.looks.overwrite()?;
-    // A maze that no mouse can run in must not void the others.
+    // A maze that no mouse can run in must not stop the others.
     let sent = maze::each(&mazes, arguments.jobs, |file, maze| {
         Ok(arguments.send(search, file, maze))
     })?;
@@ -142,7 +142,7 @@ impl Arguments {
     /// Returns how to explore under the paper's rules.
     ///
     /// # Errors
-    /// Bad input if that is not done under them.
+    /// Bad input if the options only fit `--mms`.
     fn search(&self) -> Result<Searcher, Failure> {
         match self.until {
             None => Ok(self.search),
@@ -173,7 +173,7 @@ impl Arguments {
         Ok(writeln!(out, "{name}: {}", tried.outcome())?)
     }
 
-    /// Sends the mouse through a maze, and shows its way while it goes, if that is asked for.
+    /// Sends the mouse through a maze, and shows its way meanwhile if that is asked for.
     fn send<'a>(
         &self,
         search: Searcher,
@@ -205,7 +205,7 @@ impl Arguments {
         Ok((tried, way))
     }
 
-    /// Returns the way that the mouse is about to go.
+    /// Returns the way that the mouse is about to go, with no steps yet.
     fn way(&self, search: Searcher, file: &Path, maze: &Maze) -> Result<Way, Failure> {
         let header = json!({
             "rules": "Plot and Navigate a Virtual Maze",
@@ -256,7 +256,7 @@ fn way_step(step: &RefereedStep, pose: Pose) -> WayStep {
     }
 }
 
-/// Returns an order in words: "left, 3 cells".
+/// Returns an order in words, such as "left, 3 cells".
 fn in_words(order: Order) -> String {
     let turn = match order.rotation {
         Rotation::Degrees(-90) => "left",
@@ -271,7 +271,8 @@ fn in_words(order: Order) -> String {
     }
 }
 
-/// Returns those that did not finish first, then by how far they are above the floor.
+/// Draws `count` mazes: those not finished first, then those with the highest score above the
+/// floor.
 fn draw_worst(tried: &[Tried<'_>], count: usize, out: &mut dyn Write) -> Result<(), Failure> {
     let mut order: Vec<&Tried<'_>> = tried.iter().collect();
     order.sort_by(|a, b| {

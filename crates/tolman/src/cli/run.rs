@@ -26,14 +26,14 @@ Examples:
   tolman run wall-follow --world mazes/worlds/rooms.json --seed 3
   tolman run wall-follow --world mazes/worlds/hall.yaml --goal 2,0 --seed 2")]
 pub(super) struct Arguments {
-    /// The brain that chooses the actions
+    /// Brain that chooses the actions
     #[arg(value_parser = words(BRAINS.map(|(word, agent)| (word, agent.description(), (word, agent)))))]
     brain: (&'static str, Agent),
     #[command(flatten)]
     outing: Outing,
 }
 
-/// The agents by the names the command line has for them.
+/// The agents with their names on the command line.
 const BRAINS: [(&str, Agent); 5] = [
     ("avoid", Agent::Avoid),
     ("wall-follow", Agent::WallFollow),

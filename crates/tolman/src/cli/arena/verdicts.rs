@@ -1,4 +1,4 @@
-//! `tolman arena --own-verdict`: what systems make of their own maps, by right ones and wrong ones.
+//! `tolman arena --own-verdict`: what systems say about their own maps, right ones and wrong ones.
 
 use std::io::Write;
 
@@ -10,7 +10,7 @@ use tolman_papers::arena::{ArenaWorld, DrawnWorld, PoolRound, RungJudgement, Ver
 
 use super::{Arguments, Failure, MOST_WORLDS};
 
-/// Right maps and wrong ones of each system.
+/// Number of right maps, and of wrong maps, to collect for each system.
 const ENOUGH: u32 = 100;
 
 pub(super) fn judge(
@@ -98,7 +98,7 @@ fn row(
     }
 }
 
-/// Returns what came of the worlds of one kind.
+/// Returns the line about the worlds of one difficulty.
 fn of_rung(rung: &RungJudgement) -> String {
     let RungJudgement {
         name,

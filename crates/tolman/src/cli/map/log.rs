@@ -1,4 +1,4 @@
-//! `tolman map --log`: the way of a robot, found in its log.
+//! `tolman map --log`: finds the way of a robot from its log.
 
 use alloc::collections::BTreeSet;
 use std::fs;
@@ -30,11 +30,11 @@ Examples:
 #[derive(clap::Args)]
 #[group(skip)]
 pub(super) struct Arguments {
-    /// The log: CARMEN's or Wean Hall's lines, plain or packed by gzip, or a bag of ROS 2 (MCAP;
-    /// feature `mcap`)
+    /// Log file: lines of CARMEN or of Wean Hall, plain or gzipped, or a ROS 2 bag (MCAP; feature
+    /// `mcap`)
     #[arg(long, value_name = "FILE", required = true)]
     log: Option<PathBuf>,
-    /// The system that finds the way
+    /// System that finds the way
     #[arg(long, value_enum, default_value = "scan-matching")]
     system: System,
     /// Folder for the results; made if it does not exist
@@ -42,27 +42,28 @@ pub(super) struct Arguments {
     out: Option<PathBuf>,
 }
 
-/// A system that finds the way of a robot in its log.
+/// A system that finds the way of a robot from its log.
 #[derive(Clone, Copy, ValueEnum)]
 enum System {
-    /// Scans are matched to earlier ones, and to places seen before: the dense baseline
+    /// Matches scans to earlier ones, and to places seen before: the dense baseline
     ScanMatching,
-    /// Scans are matched to earlier ones; junctions, bends, dead ends and rooms are places, and are
-    /// recognized
+    /// Matches scans to earlier ones; junctions, bends, dead ends and rooms are places, which it
+    /// recognizes again
     Places,
-    /// Scans are only matched to those before
+    /// Matches scans only to those shortly before
     Matching,
-    /// Only the wheels
+    /// Uses the wheels only
     Odometry,
-    /// The same places; the diktiometry recognizes them by bounds on the ways between them
+    /// Has the same places; the diktiometry recognizes them by bounds on the ways between them
     Diktiometry,
-    /// The same places; CPM recognizes them by what was seen on the ways between them
+    /// Has the same places; CPM recognizes them by what was seen on the ways between them
     Cpm,
-    /// The same places; the place graph of GNG-SLAM recognizes them by the laser's readings there
+    /// Has the same places; the place graph of GNG-SLAM recognizes them by the laser's readings
+    /// there
     Gngslam,
-    /// Refused: it learns from actions, which no log names
+    /// Refused: it learns from actions, which a log does not name
     Mslst,
-    /// Refused: it learns the walls of a grid's cells, which no log has
+    /// Refused: it learns the walls of a grid's cells, which a log does not have
     Micromouse,
 }
 
@@ -102,7 +103,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     }
 }
 
-/// Returns what speaks against a map: by the mapper's own judgement, or by what the laser read.
+/// Returns why a map is doubtful, by the mapper's own verdict or by what the laser read; `None` if
+/// it is not.
 fn doubt(found: &MappedLog, picture: &MapPicture) -> Option<String> {
     let is_doubtful = found.certainty.is_some_and(|certainty| certainty < 0.5);
     let by_itself = is_doubtful.then(|| {
@@ -117,7 +119,7 @@ fn doubt(found: &MappedLog, picture: &MapPicture) -> Option<String> {
     by_itself.or(by_its_places).or_else(|| picture.doubt())
 }
 
-/// Returns what was found, a line each.
+/// Returns what was found, one line each.
 fn sentences(found: &MappedLog) -> Vec<String> {
     let MappedLog {
         closures,
@@ -138,7 +140,7 @@ fn sentences(found: &MappedLog) -> Vec<String> {
     told
 }
 
-/// Finds the way, with a bar on the terminal.
+/// Returns the way found in the log, and shows a progress bar on the terminal.
 fn found(log: &RobotLog, system: System) -> Result<MappedLog, Failure> {
     let system = match system {
         System::ScanMatching => LogSystem::ScanMatching,
@@ -166,13 +168,13 @@ fn refused(why: &str) -> Failure {
     ))
 }
 
-/// All that there is to be written.
+/// Everything to write.
 struct Mapped<'a> {
     path: &'a Path,
     log: &'a RobotLog,
     found: &'a MappedLog,
     picture: &'a MapPicture,
-    /// What was found, a line each.
+    /// What was found, one line each.
     told: &'a [String],
 }
 
@@ -244,5 +246,5 @@ impl Mapped<'_> {
     }
 }
 
-/// Of the picture, in user units.
+/// Width of the picture, user units.
 const WIDTH: f64 = 960.0;
