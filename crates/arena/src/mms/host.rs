@@ -55,9 +55,9 @@ pub enum MouseExit {
     OutOfTime,
     /// It had made all its movements.
     OutOfMovements,
-    /// It wrote a line that no command can be.
+    /// It wrote a line longer than any command.
     LineTooLong,
-    /// It wrote more than a mouse has to say.
+    /// It wrote more than a mouse ever needs to.
     TooMuchOutput,
     /// It closed its stdout and ran on.
     ClosedOutput,

@@ -188,7 +188,7 @@ fn verified(
         }
         if stop.load(Ordering::Relaxed) {
             return Err(Failure::Interrupted(anyhow!(
-                "interrupted; until then, {found}"
+                "interrupted; up to then, {found}"
             )));
         }
         writeln!(out, "{found}")?;
@@ -279,7 +279,7 @@ pub(super) fn classify(mut error: Error) -> Failure {
 /// paper.
 fn unjudged(tally: VerdictTally) -> Option<String> {
     match (tally.all(), tally.judged()) {
-        (0, _) => Some("its tables have no value of a paper, so nothing was judged".to_owned()),
+        (0, _) => Some("no table has a value from the paper, so nothing was judged".to_owned()),
         (all, 0) => Some(format!(
             "none of the paper's {all} values could be judged; give it more --runs, or the files that it lacks"
         )),

@@ -16,7 +16,7 @@ pub(super) struct Arguments {
 /// Returns the failure that names the verb's new name.
 pub(super) fn refuse(former: &str, now: &str) -> Failure {
     Failure::BadInput(anyhow!(
-        "`tolman {former}` is `tolman {now}` now: see `tolman {now} --help`"
+        "`tolman {former}` is now called `tolman {now}`: see `tolman {now} --help`"
     ))
 }
 

@@ -92,10 +92,14 @@ impl Ground {
     /// Refuses flags for which a maze file has marks of its own.
     fn refuse_in_maze(&self) -> Result<(), Failure> {
         let error = match self {
-            Self { goal: Some(_), .. } => "--goal is of a --world: mark the goal of a maze with G",
+            Self { goal: Some(_), .. } => {
+                "--goal is only for --world: in a maze file, mark the goal with G"
+            }
             Self {
                 corridor: Some(_), ..
-            } => "--corridor is of a --world: a maze file says `corridor_width` in its header",
+            } => {
+                "--corridor is only for --world: in a maze file, give `corridor_width` in the header"
+            }
             _ => return Ok(()),
         };
         Err(Failure::BadInput(anyhow!(error)))
@@ -107,7 +111,7 @@ impl Ground {
         };
         if world.zone(DESTINATION).is_some() {
             return Err(anyhow!(
-                "it has a zone `{DESTINATION}` of its own: leave --goal out"
+                "the world has a zone `{DESTINATION}` already: leave --goal out"
             ));
         }
         Ok(world.with_zone(goal.zone())?)
@@ -168,9 +172,7 @@ impl core::str::FromStr for Goal {
         };
         match radius > 0.0 {
             true => Ok(Self { centre, radius }),
-            false => Err(format!(
-                "a radius of {radius} m holds nothing; give a positive one"
-            )),
+            false => Err(format!("the radius is {radius} m; give a positive number")),
         }
     }
 }

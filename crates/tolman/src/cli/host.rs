@@ -109,7 +109,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     };
     let outing = arguments.outing(&setup, &launch);
     let mut outing = outing
-        .with_context(|| format!("nobody can be hosted in {world}"))
+        .with_context(|| format!("cannot host a program in {world}"))
         .or_bad_input()?;
     let task = Task::Reach(Goal::Landmark(Landmark::Goal));
     let word = arguments.program.join(" ");

@@ -34,6 +34,6 @@ pub(super) fn carry_out(arguments: &Arguments) -> Result<(), Failure> {
 pub(super) fn carry_out(arguments: &Arguments) -> Result<(), Failure> {
     let Arguments { parent, words } = arguments;
     Err(Failure::Failed(anyhow::anyhow!(
-        "process {parent} cannot have {words:?} kept: that needs Linux"
+        "`tolman keep` needs Linux: cannot run {words:?} for process {parent}"
     )))
 }

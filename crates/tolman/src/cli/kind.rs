@@ -46,10 +46,8 @@ impl Kind {
             Self::Maze => "a maze: give it to `tolman maze show` or to --maze",
             Self::Map => "a learned map: give it to `tolman map show` or to `tolman drive --map`",
             Self::Trace => "a trace: give it to `tolman replay`",
-            Self::World => "a world of free walls: give it to --world",
-            Self::Unfinished => {
-                "a run that was interrupted: give it to --from of the verb that was"
-            }
+            Self::World => "a world with free walls: give it to --world",
+            Self::Unfinished => "an interrupted run: give it to --from of the verb that wrote it",
         }
     }
 
@@ -59,8 +57,8 @@ impl Kind {
             Self::Maze => "`tolman maze generate` writes a maze",
             Self::Map => "`tolman learn` writes a map",
             Self::Trace => "--trace of a verb that drives writes a trace",
-            Self::World => "docs/worlds.md tells how a world of free walls is written",
-            Self::Unfinished => "a run that Ctrl-C interrupts is written by the verb that made it",
+            Self::World => "docs/worlds.md says how to write a world with free walls",
+            Self::Unfinished => "a verb that Ctrl-C interrupts writes its run to a file",
         }
     }
 

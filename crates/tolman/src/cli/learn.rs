@@ -156,7 +156,7 @@ pub(super) fn carry_out(
     let complaint = match &ended.end {
         TaskEnd::Done => outing.complaint(task),
         TaskEnd::OutOfTime => {
-            Some("the time was up before it had learned all: give it more --steps".to_owned())
+            Some("it ran out of time before it had learned all: give it more --steps".to_owned())
         }
         TaskEnd::GaveUp { why } => Some(why.clone()),
     };

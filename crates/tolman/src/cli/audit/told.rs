@@ -92,13 +92,13 @@ impl Audited<'_> {
         let off = estimate.estimate / self.config.sigma_scale;
         if estimate.is_heavy() && off < 0.5 {
             return Some(format!(
-                "{cycles} short cycles would have the standard deviations × {by}, but their tail is heavy (99th percentile {tail} times the median; a \
+                "{cycles} short cycles suggest standard deviations × {by}, but their tail is heavy (99th percentile {tail} times the median; a \
                  Gaussian's is 4.8): smaller ones would refute right closures"
             ));
         }
         (!(0.5..=2.0).contains(&off)).then(|| {
             format!(
-                "{cycles} short cycles have the standard deviations × {by}: try --sigma-scale auto"
+                "{cycles} short cycles suggest standard deviations × {by}: try --sigma-scale auto"
             )
         })
     }

@@ -108,13 +108,13 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
 fn doubt(found: &MappedLog, picture: &MapPicture) -> Option<String> {
     let is_doubtful = found.certainty.is_some_and(|certainty| certainty < 0.5);
     let by_itself = is_doubtful.then(|| {
-        "its places may be one with another, or two were taken for one; the ways between them do not tell"
+        "two of its places may be the same, or one of them may be two: the ways between them do not decide"
             .to_owned()
     });
     let doubled = found.doubled();
     let by_its_places = (doubled > 0).then(|| {
         let all = found.founded.len();
-        format!("{doubled} of its {all} places lie where the way found has another one, not recognized when the robot came back")
+        format!("{doubled} of its {all} places lie where another one is: the robot did not recognize it when it came back")
     });
     by_itself.or(by_its_places).or_else(|| picture.doubt())
 }

@@ -42,13 +42,19 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             let told = told(&most);
             if most.score >= arguments.below {
                 let below = arguments.below;
-                let error = anyhow!("{name}: {told}, which is not below {below}: bend one of them");
+                let error = anyhow!(
+                    "{name}: two different fragments look alike: {told}, not below {below}; bend one of them"
+                );
                 return Err(error).or_bad_input();
             }
-            writeln!(out, "{name}: of different fragments, {told}")?;
+            writeln!(out, "{name}: most alike of different fragments: {told}")?;
         }
         if let Some(least) = found.least_alike {
-            writeln!(out, "{name}: of one fragment, {}", told(&least))?;
+            writeln!(
+                out,
+                "{name}: least alike walks of one fragment: {}",
+                told(&least)
+            )?;
         }
     }
     Ok(())
@@ -66,7 +72,7 @@ fn told(pair: &WalkPair) -> String {
         Sense::Inverted => ", inverted,",
     };
     format!(
-        "that from {} to {} and that from {} to {}{sense} have f_S = {score:.3}",
+        "{} to {} and {} to {}{sense} have f_S = {score:.3}",
         one.0, one.1, other.0, other.1
     )
 }
