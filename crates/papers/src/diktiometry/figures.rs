@@ -1,5 +1,5 @@
-//! Errors against moves, as the paper's figures 3(b) and 3(c), and learned maps over their worlds,
-//! as figures 3(a) and 4.
+//! Errors by moves, like the paper's figures 3(b) and 3(c), and learned maps over their worlds,
+//! like figures 3(a) and 4.
 
 use super::SurveyRun;
 use super::drawing::map_over_world;
@@ -11,7 +11,7 @@ use tolman_experiment::{BoxError, Record, Run};
 
 /// Width of a chart, user units.
 const WIDTH: f64 = 560.0;
-/// Maximum number of rows of a table that gets curves; more cannot be told apart.
+/// Maximum number of rows for which a table gets curves; more cannot be told apart.
 const MOST_CURVES: usize = 5;
 
 pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
@@ -61,12 +61,12 @@ fn errors(trial: &Trial, runs: &[Run]) -> Result<Figure, BoxError> {
     Ok(figure.caption(caption).table(trial.name))
 }
 
-/// Returns a table's name as part of a file's.
+/// Returns a table's name in a form for file names.
 fn slug(trial: &Trial) -> String {
     trial.name.replace(' ', "-")
 }
 
-/// Returns the map of a run, laid from where the robot truly began.
+/// Returns the map of a run, drawn from where the robot truly began.
 fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Figure, BoxError> {
     let survey = Survey::new(&setting.office, setting.config.clone(), run.seed)?.finish()?;
     let score = survey.score();

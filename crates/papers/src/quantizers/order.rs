@@ -1,4 +1,4 @@
-//! A robot's stream is no shuffled one: what the order of inputs does to GNG.
+//! A robot's stream of scans is not shuffled: the effect of the order of inputs on GNG.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -75,7 +75,7 @@ pub(super) fn run(mazes: &Mazes, job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(fields)
 }
 
-/// Returns what a quantizer makes of a stream, measured by all scans.
+/// Returns the record of a quantizer that learned a stream, measured on all scans.
 fn learn<'a>(
     mut quantizer: impl Quantizer<f64>,
     stream: impl Iterator<Item = &'a Vec<f64>>,
