@@ -13,6 +13,11 @@ use super::{Arguments, Failure, MOST_WORLDS};
 /// Number of right maps, and of wrong maps, to collect for each system.
 const ENOUGH: u32 = 100;
 
+/// Heading of the table: "wrong maps called right, %" takes two lines.
+const HEADING: &str = "\
+\x20                                right wrong                wrong maps      right maps               Brier
+system             robot          maps  maps abstained called right, % called wrong, % undecided, %  skill";
+
 pub(super) fn judge(
     arguments: &Arguments,
     contestants: &[Contestant],
@@ -20,19 +25,7 @@ pub(super) fn judge(
     kinds: &[ArenaWorld],
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
-    writeln!(
-        out,
-        "{:18} {:13} {:>5} {:>5} {:>9} {:>13} {:>13} {:>11} {:>11}",
-        "system",
-        "robot",
-        "right",
-        "wrong",
-        "abstained",
-        "false right %",
-        "false alarm %",
-        "undecided %",
-        "Brier skill"
-    )?;
+    writeln!(out, "{HEADING}")?;
     let most = arguments.worlds.unwrap_or(MOST_WORLDS);
     let schooling = Schooling::default();
     let learning = contestants.iter().filter(|one| one.learns());
@@ -75,7 +68,7 @@ fn row(
     };
     writeln!(
         out,
-        "{:18} {:13} {:>5} {:>5} {:>9} {:>13} {:>13} {:>11} {:>11}",
+        "{:18} {:13} {:>5} {:>5} {:>9} {:>15} {:>15} {:>12} {:>6}",
         contestant.name(),
         contestant.robot(robot),
         judged.right,
