@@ -5,7 +5,7 @@ use crate::{Cell, Direction, Grid};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Knowledge {
-    /// Nobody has looked yet.
+    /// It has not been seen yet.
     #[default]
     Unknown,
     /// No wall stands here.

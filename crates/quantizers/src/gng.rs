@@ -86,11 +86,11 @@ impl<S: Scalar> Gng<S> {
         })
     }
 
-    /// Puts units where the caller wants them before the first input, each joined to the one before
-    /// it.
+    /// Puts units where the caller wants them before the first input, each joined to the one
+    /// before.
     ///
     /// # Errors
-    /// If there are fewer than two units, one is no valid input, or the network is not empty.
+    /// If there are fewer than two units, one is not a valid input, or the network is not empty.
     pub fn begin_with<P: AsRef<[S]>>(
         &mut self,
         prototypes: &[P],

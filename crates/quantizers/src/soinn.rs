@@ -167,8 +167,8 @@ impl<S: Scalar> Soinn<S> {
         self.steps
     }
 
-    /// Returns M, the number of inputs that a unit has won, less what it has left to units put
-    /// beside it.
+    /// Returns M, the number of inputs that a unit has won, minus what it has passed to units
+    /// inserted beside it.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -176,8 +176,8 @@ impl<S: Scalar> Soinn<S> {
         Ok(self.tallies[self.network.slot(id)?].wins)
     }
 
-    /// Returns E, the sum of the distances, not squared, of the inputs that a unit has won, less
-    /// what it has left to units put beside it.
+    /// Returns E, the sum of the distances, not squared, of the inputs that a unit has won, minus
+    /// what it has passed to units inserted beside it.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -205,7 +205,7 @@ impl<S: Scalar> Soinn<S> {
             self.insert_where_error_is_large();
             self.remove_noise();
             if !self.network.contains(met.first.id) {
-                // The unit that stood for the input was taken for noise at once.
+                // The unit that stood for the input was removed as noise at once.
                 met = self.network.nearest_two(input).unwrap_or(met);
             }
         }

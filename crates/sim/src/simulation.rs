@@ -194,8 +194,8 @@ impl<M: Model> Simulation<M> {
         );
     }
 
-    /// Lifts a robot and sets it down at `pose`, which it notices at its next step at the earliest:
-    /// a kidnapping.
+    /// Lifts a robot and puts it down at `pose`: a kidnapping. It notices at its next step at the
+    /// earliest.
     ///
     /// # Errors
     /// If it cannot stand there, in which case it stays where it is, or there is no such robot.
@@ -294,7 +294,7 @@ impl<M: Model> Simulation<M> {
         self.tick * self.step_us
     }
 
-    /// Returns how a door stands.
+    /// Returns the state of a door.
     ///
     /// # Errors
     /// If there is no such door.

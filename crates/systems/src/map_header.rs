@@ -57,7 +57,7 @@ pub enum FileError {
         /// Format that the file names.
         found: String,
     },
-    /// The format is one that is no longer read.
+    /// This format is no longer read.
     #[error(
         "its format, {found:?}, is no longer read: make a new map with `tolman learn --system {system}`"
     )]
@@ -75,7 +75,7 @@ pub enum FileError {
         /// Version that the file names.
         found: u32,
     },
-    /// The version is one that is no longer read, or that never was.
+    /// This version is no longer read, or never existed.
     #[error(
         "its version is {found}, but this program reads only {VERSION}: make a new map with `tolman learn`"
     )]

@@ -72,7 +72,7 @@ pub enum MouseTrialError {
     /// The maze will not do.
     #[error(transparent)]
     Referee(#[from] RefereeError),
-    /// There is no mouse for this maze.
+    /// No mouse can be made for this maze.
     #[error(transparent)]
     Mouse(#[from] MouseError),
     /// The mouse gave an order that the rules do not know.

@@ -61,7 +61,7 @@ pub enum MouseExit {
     TooMuchOutput,
     /// It closed its stdout and ran on.
     ClosedOutput,
-    /// Whoever hosts it wanted no more.
+    /// The caller interrupted it.
     Interrupted,
 }
 

@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead, Read};
 
-/// Longer lines are no lines of a log, bytes.
+/// Maximum length of a line, bytes. Longer lines do not come from a log.
 const LONGEST: u64 = 1 << 20;
 
 /// A file line by line.

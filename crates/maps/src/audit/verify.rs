@@ -340,7 +340,7 @@ fn compare(
     ] {
         let allowed = ROUNDING * largest(measured);
         for (told, measured) in told.iter().zip(measured) {
-            // NaN is no agreement either.
+            // NaN does not agree, either.
             let agrees = (told - measured).abs() <= allowed;
             if !agrees {
                 let (told, measured) = (*told, *measured);

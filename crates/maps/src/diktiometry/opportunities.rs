@@ -106,8 +106,7 @@ impl Observer {
     }
 
     fn go_to_unknown(&self) -> Option<Opportunity> {
-        // Whoever explores from a place that may still turn out to be another may explore what is
-        // known already.
+        // From a place that may still be another one, known ground may be explored.
         let unknown = |place| !self.untried(place).is_empty();
         let certain = |place| self.map.place(place).notes.is_empty() && unknown(place);
         let sure = self.script_to(certain).map(|way| (way, 1.0));

@@ -9,7 +9,7 @@ use super::{
     share_a_view,
 };
 
-/// Pairs of places that are compared at most before two are taken for different.
+/// Maximum number of pairs of places that are compared before two count as different.
 const COMPARED: usize = 256;
 
 /// Signs in the map itself that it is wrong, found without the truth: counts of places.

@@ -7,9 +7,9 @@ use tolman_geom::Point;
 use super::wall_grid::{GridIndex, index_of, sees};
 use super::{ChartError, WallGrid};
 
-/// Walls, floor and unknown ground, two bits a cell: what navigation needs of a [`WallGrid`].
+/// Walls, floor and unknown ground, two bits per cell: what navigation needs of a [`WallGrid`].
 ///
-/// It is no larger than what is known, and does not grow.
+/// It is only as large as what is known, and does not grow.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GroundPlan {
     /// Column and row of the first cell.

@@ -70,8 +70,8 @@ impl ScanMatching {
     }
 
     /// Matches the keyframes up to `here` with those about `there`, and returns whether they match.
-    /// They are taken for the same place if an earlier or later match agrees. Returns `false` if
-    /// the configuration has no closures, or there are no such keyframes.
+    /// They count as the same place if an earlier or later match agrees. Returns `false` if the
+    /// configuration has no closures, or there are no such keyframes.
     ///
     /// # Errors
     /// If a measurement does not fit the graph.

@@ -18,8 +18,8 @@ use crate::TooLarge;
 pub struct RolloutConfig {
     /// Maximum number of mazes drawn for a decision. ≥ 1.
     pub completions: u16,
-    /// Number of mazes after which a stop that is no better on average than the explorer's own is
-    /// given up. ≥ 1.
+    /// Number of mazes after which a stop is given up that is on average no better than the
+    /// explorer's own. ≥ 1.
     pub trial: u16,
     /// By how many standard errors a stop must save steps to be preferred to the explorer's own. ≥
     /// 0.

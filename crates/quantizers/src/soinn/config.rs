@@ -14,7 +14,7 @@ pub struct SoinnConfig {
     pub period: u32,
     /// Whether units are put where the error is large.
     pub insertion: ErrorInsertion,
-    /// Units that are taken for noise.
+    /// Units that count as noise.
     pub denoising: Denoising,
     /// Distance from its nearest units at which an input is new.
     pub threshold: SimilarityThreshold,
@@ -33,8 +33,8 @@ pub enum ErrorInsertion {
     /// Undone if one of q, f, r has a mean error beyond its radius.
     #[default]
     UnlessOneGrew,
-    /// Undone only if all three have: the paper's "∀ i ∈ {q, r, f}" to the letter. Networks become
-    /// many times as large.
+    /// Undone only if all three have grown: the paper's "∀ i ∈ {q, r, f}", taken literally.
+    /// Networks become many times as large.
     UnlessAllGrew,
     /// None at all, as in E-SOINN (Furao, Ogura, Hasegawa 2007).
     Off,

@@ -816,8 +816,8 @@ pub enum WalkError<E> {
     },
     /// The robot came to no junction, dead end or landmark.
     #[error(
-        "no junction, dead end or landmark within {strides} strides, {metres:.0} m: the way goes round where the robot sees none, as in an open \
-         room, or is longer, or the sensors fail: check the sensors and the maze"
+        "no junction, dead end or landmark within {strides} strides, {metres:.0} m: the fragment may be longer, the \
+         robot may be going round in an open room, or a sensor may fail; check the sensors and the maze"
     )]
     Endless {
         /// Number of strides driven.

@@ -195,7 +195,7 @@ impl<E> Mapper for Diktiometer<E> {
     }
 }
 
-/// Returns the bytes that standing places, links and frames take, but for the grids of where the
+/// Returns the size of the present places, links and frames, bytes, without the grids of where the
 /// robot has been.
 fn bytes(map: &Diktiometry) -> usize {
     let place = |place: &Place| {

@@ -30,7 +30,7 @@ impl Odometer {
     /// `after`, the short way round.
     ///
     /// # Errors
-    /// [`IntervalError`] if a reading is no number.
+    /// [`IntervalError`] if a reading is not a number.
     pub fn roll(
         &mut self,
         distance: f64,

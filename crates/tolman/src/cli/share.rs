@@ -3,7 +3,7 @@
 /// Parses a number from 0 to 1, for `value_parser`.
 ///
 /// # Errors
-/// If it is no number, or out of that range.
+/// If it is not a number, or out of that range.
 pub(super) fn share(text: &str) -> Result<f64, String> {
     let share = text.parse::<f64>().ok();
     share
