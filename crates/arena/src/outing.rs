@@ -79,7 +79,7 @@ pub trait Outing: InRun {
     /// Measures from now on how long the system thinks.
     fn measure(&mut self, _stopwatch: Stopwatch) {}
 
-    /// Returns how long the system thought while that was measured, the robot's own time aside.
+    /// Returns the system's own computing time while it was measured, without the robot's.
     fn thinking(&self) -> Duration {
         Duration::ZERO
     }

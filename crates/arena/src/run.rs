@@ -112,7 +112,7 @@ impl<R: SensesLandmarks> SensesLandmarks for Limited<R> {
     }
 }
 
-/// A robot in a run, or who drives it.
+/// A robot in a run, with what drives it.
 pub trait InRun {
     /// Returns the number of time steps that the robot has made.
     fn steps(&self) -> u32;

@@ -15,7 +15,7 @@ pub enum Knowledge {
 }
 
 impl Knowledge {
-    /// Returns what one knows who has looked.
+    /// Returns the knowledge after a look.
     #[must_use]
     pub const fn of_standing(stands: bool) -> Self {
         if stands { Self::Wall } else { Self::Open }

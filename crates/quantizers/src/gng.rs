@@ -65,7 +65,7 @@ impl<S: Scalar> Gng<S> {
         Self::around(Network::new(dimension)?, config)
     }
 
-    /// Returns an empty network whose squared distance is Σ w (x − p)², with one weight w a
+    /// Returns an empty network whose squared distance is Σ w (x − p)², with one weight w per
     /// feature.
     ///
     /// # Errors

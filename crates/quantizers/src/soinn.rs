@@ -131,7 +131,7 @@ impl<S: Scalar> Soinn<S> {
         Self::around(Network::new(dimension)?, config)
     }
 
-    /// Returns an empty network whose squared distance is Σ w (x − p)², with one weight w a
+    /// Returns an empty network whose squared distance is Σ w (x − p)², with one weight w per
     /// feature.
     ///
     /// # Errors
@@ -302,9 +302,9 @@ impl<S: Scalar> Soinn<S> {
         self.tallies.push(r_tally);
     }
 
-    /// Takes away what [`Denoising`] takes for noise. It comes by itself at the end of every period
-    /// of λ inputs (step 10, its second half); to be called before clusters are counted in the
-    /// midst of one, when there are units too new to have a neighbour.
+    /// Removes what [`Denoising`] counts as noise. It is called by itself at the end of every
+    /// period of λ inputs (step 10, its second half); to be called before clusters are counted in
+    /// the midst of one, when there are units too new to have a neighbour.
     ///
     /// # Complexity
     /// Units.

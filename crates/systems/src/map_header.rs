@@ -23,7 +23,7 @@ const FORMER: [(&str, &str); 3] = [
 /// The map files of one system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MapFiles {
-    /// Name of the system, as `tolman learn --system` has it.
+    /// Name of the system, as in `tolman learn --system`.
     pub system: &'static str,
 }
 
@@ -194,7 +194,7 @@ impl MapFiles {
     ///
     /// # Errors
     /// [`FileError`] if the text has no header, or one of another format or version, or if the map
-    /// is another system's or not sound.
+    /// is another system's or invalid.
     pub fn read<B: DeserializeOwned>(self, text: &str) -> Result<(Origin, B), FileError> {
         let Header { system, origin } = header(text)?;
         if system != self.system {

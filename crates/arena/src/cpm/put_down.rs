@@ -57,7 +57,7 @@ pub struct PutDownRecord {
     /// The same if the observer also saw the place ahead, and the ways to the sides of the place
     /// behind if it stands beside that. No robot knows more on average.
     pub knowable_by_places: f64,
-    /// Whether the robot knew them then; who has observed nothing did not.
+    /// Whether the robot knew them then; not if it had observed nothing.
     pub is_right_under_way: bool,
     /// The same at that place.
     pub is_right_at_first_place: bool,

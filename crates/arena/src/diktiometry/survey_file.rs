@@ -35,8 +35,8 @@ pub struct SurveyFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SurveyFileError {
-    /// The header or the JSON is not sound, or names another system; or the survey has no JSON
-    /// form.
+    /// The header or the JSON is invalid, or names another system; or the survey cannot be written
+    /// as JSON.
     #[error(transparent)]
     File(#[from] FileError),
     /// The exploration probability is outside 0 to 1.

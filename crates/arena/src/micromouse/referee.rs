@@ -64,7 +64,7 @@ pub enum Ruling {
     ResetRefused,
     /// The movement ended on a goal in the second run: done.
     Finished,
-    /// There was no step left, or the runs are over: nothing happened.
+    /// No step was left, or the runs are over: nothing happened.
     Over,
 }
 

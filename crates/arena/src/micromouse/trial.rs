@@ -65,7 +65,7 @@ pub fn sides_seen(sight: Sight, cell: Cell, heading: Direction) -> Vec<SideSeen>
     lines.into_iter().flat_map(line).collect()
 }
 
-/// Reason why there was no trial.
+/// Reason why a trial cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MouseTrialError {

@@ -34,7 +34,7 @@ pub struct Hosted {
     pub movements: u64,
     /// Number of collisions with walls.
     pub crashes: u64,
-    /// Lines that were no command.
+    /// Number of lines that were not commands.
     pub invalid_commands: u64,
     /// All figures in half-steps.
     pub half_steps: Score,

@@ -243,7 +243,7 @@ impl<'a> Simulator<'a> {
         self.crashes
     }
 
-    /// Lines that were no command.
+    /// Number of lines that were not commands.
     #[must_use]
     pub const fn invalid(&self) -> u64 {
         self.invalid

@@ -288,7 +288,7 @@ impl Checker<'_> {
         Ok(())
     }
 
-    /// Measures a cycle again, holds its numbers against those of the certificate, and counts its
+    /// Measures a cycle again, compares its numbers with those of the certificate, and counts its
     /// runs.
     fn measure(
         &self,

@@ -175,7 +175,7 @@ impl ScanChart {
     /// Returns what was written. O(cells + places + links).
     ///
     /// # Errors
-    /// [`ChartError`] with the first part that is not sound.
+    /// [`ChartError`] with the first part that is invalid.
     pub fn from_parts(parts: ChartParts) -> Result<Self, ChartError> {
         let ChartParts {
             radius,

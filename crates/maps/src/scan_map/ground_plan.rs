@@ -136,8 +136,8 @@ impl GroundPlan {
         self.first
     }
 
-    /// Returns the rows from south to north, a letter a cell: `#` wall, `.` floor, a space where
-    /// nothing is known. O(cells).
+    /// Returns the rows from south to north, one letter per cell: `#` wall, `.` floor, a space
+    /// where nothing is known. O(cells).
     pub fn rows(&self) -> impl Iterator<Item = String> + '_ {
         let [first, end] = self.bounds();
         (first[1]..end[1]).map(move |row| {

@@ -121,7 +121,7 @@ impl<const N: usize> WallBelief<N> {
     /// Takes in one reading that `sensor` made at `pose`. A beam that is far from parallel to both
     /// axes is ignored. O(n²) for n cells along the ray.
     ///
-    /// By Bayes' rule, for each wall on the ray by itself: the likelihood of the reading if the
+    /// By Bayes' rule, for each wall on the ray alone: the likelihood of the reading if the
     /// wall stands, against that if it does not, with the present belief in the others.
     pub fn observe(&mut self, pose: Pose, reading: RangeReading, sensor: &RangeModel) {
         let heading = pose.heading.turned(reading.bearing);

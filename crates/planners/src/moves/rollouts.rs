@@ -214,7 +214,7 @@ impl<const N: usize> Rollouts<N> {
         Completions::new(chart, SplitMix::new(seed))
     }
 
-    /// Holds the rivals against the explorer's `own` stop by the steps of the proof in one maze.
+    /// Compares the rivals with the explorer's `own` stop by the steps of the proof in one maze.
     fn hold_proofs(
         &self,
         chart: &Chart<N>,

@@ -142,7 +142,7 @@ impl SlalomTimes {
     }
 }
 
-/// Returns whether `sides` (one byte a cell) has `cell` open to `direction`.
+/// Returns whether `sides` (one byte per cell) has `cell` open to `direction`.
 #[inline(always)]
 pub(super) fn is_open(sides: &[u8], cell: usize, direction: usize) -> bool {
     sides

@@ -50,7 +50,7 @@ pub enum Denoising {
     /// Units without a neighbour, and those with one that have won less than `c` times the mean of
     /// all units (Shen and Hasegawa 2006).
     ///
-    /// It holds a newcomer against units that have won since the beginning: the longer a stream,
+    /// It compares a new unit with units that have won since the beginning: the longer a stream,
     /// the fewer stay, until the network grows no more, and a curve of units that has a hole or an
     /// end is never continued.
     FewWins {

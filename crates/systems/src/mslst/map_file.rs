@@ -24,7 +24,7 @@ pub struct MapFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// The header or the JSON is not sound, or names another system.
+    /// The header or the JSON is invalid, or names another system.
     #[error(transparent)]
     File(#[from] FileError),
     /// The states are invalid.

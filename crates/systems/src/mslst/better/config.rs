@@ -11,7 +11,7 @@ pub struct BetterConfig {
     pub diameter: f64,
     /// Standard deviation of what the wheels rolled in a time step, as a share of it.
     pub odometry_sd: f64,
-    /// Standard deviation of how far a wall pushed the robot aside in a time step in which it
+    /// Standard deviation of how far a wall pushed the robot to the side in a time step in which it
     /// touched one, m.
     pub slide_sd: f64,
     /// Errors of its motors.
