@@ -2,7 +2,7 @@
 //!
 //! It depends on none of the crates it checks. So it builds in seconds, and still runs when they do
 //! not build.
-#![expect(clippy::print_stderr, reason = "a chore reports to whoever started it")]
+#![expect(clippy::print_stderr, reason = "a chore reports on stderr")]
 
 extern crate alloc;
 

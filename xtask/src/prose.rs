@@ -30,6 +30,25 @@ const PHRASES: &[(&str, &str)] = &[
     ("on the spot", "\"in place\""),
     ("nobody has been through", "\"unexplored\""),
     ("that in which", "what it is, by its noun"),
+    ("that which", "what it is, by its noun"),
+    ("whoever", "who it is, such as \"the caller\""),
+    ("nobody is left", "what cannot be done"),
+    ("held against", "\"compared with\""),
+    ("takes itself", "\"believes that it is\""),
+    ("took itself", "\"believed that it was\""),
+    ("taken for one of", "\"counts as one of\""),
+    ("amid a", "\"in the middle of\" or \"inside\""),
+    (
+        "so far apart",
+        "the distance, as in \"at least `spacing` apart, m\"",
+    ),
+    ("to the letter", "\"literally\""),
+    ("is no number", "\"is not a number\""),
+    ("is no length", "\"is not a positive length\""),
+    ("is no text", "\"is not text\""),
+    ("that there is not", "what is missing"),
+    ("a line each", "\"one per line\""),
+    ("one a core", "\"one per core\""),
 ];
 
 /// "There is none" is plain English.

@@ -19,10 +19,10 @@ use crate::{
 /// One layer of a SOINN: "An incremental network for on-line unsupervised classification and
 /// topology learning" (Shen and Hasegawa 2006), algorithm 3.1.
 ///
-/// An input far from what is known becomes a unit of its own; any other one joins its two nearest
-/// units and moves them, the less the more they have won. There is no number of units to choose.
-/// Clusters are what hangs together; a [second layer](Self::second_layer) tells them apart where
-/// noise has joined them.
+/// An input far from what is known becomes a unit of its own. Any other input joins its two nearest
+/// units and moves them, less the more they have won. The number of units need not be chosen.
+/// Clusters are connected units. A [second layer](Self::second_layer) separates clusters that noise
+/// has joined.
 ///
 /// ```
 /// use tolman_quantizers::{Quantizer, Soinn, SoinnConfig};

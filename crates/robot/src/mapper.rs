@@ -9,7 +9,7 @@ use crate::Landmark;
 ///
 /// Each mapper says in [`Observation`](Self::Observation) what it takes in at a time: MSLST a time
 /// step with its scan and the action under way, CPM a fragment walked from place to place, the
-/// diktiometry a move with bounds on its odometry. Whoever has a log makes these of it; what a
+/// diktiometry a move with bounds on its odometry. Make these from your log; what a
 /// mapper needs and a log does not have is a field that cannot be filled.
 pub trait Mapper {
     /// One observation of the mapper.

@@ -884,7 +884,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_has_a_map_finds_itself_and_the_goal_from_anywhere() {
+    fn a_system_with_a_map_finds_itself_and_the_goal_from_anywhere() {
         for contestant in [
             Contestant::MslstBetter,
             Contestant::CpmBetter,

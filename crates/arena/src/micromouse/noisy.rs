@@ -227,7 +227,7 @@ impl<'a> Outing<'a> {
         Ok(NoisyEnd::Arrived { run_1, run_2 })
     }
 
-    /// Lets the mouse act until it takes itself to be done; or how the trial ended before.
+    /// Lets the mouse act until it believes that it is done, and returns how the trial ended.
     fn until_done(
         &mut self,
         act: fn(&mut NoisyMouse, &mut Solo<LaserPioneer>) -> Result<NoisyNext, StepError>,

@@ -199,7 +199,7 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Takes a match for a closure if another agrees with it; returns whether it has.
+    /// Accepts a match as a closure if another agrees with it, and returns whether it did.
     fn weigh(&mut self, config: &ClosureConfig, edge: PoseEdge) -> Result<bool, ScanMatchingError> {
         let way = |keyframe: u32| self.keyframes[keyframe as usize].way;
         let now = way(edge.to);

@@ -19,7 +19,7 @@ pub struct ScanMatchingConfig {
     pub keyframe_step: f64,
     /// Turn after which a scan becomes a keyframe.
     pub keyframe_turn: f64,
-    /// A scan is matched to that many keyframes before it.
+    /// Number of earlier keyframes that a scan is matched to.
     pub local_keyframes: usize,
     /// Half-width of the window about the odometry's pose, along each axis.
     pub window: f64,

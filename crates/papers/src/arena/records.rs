@@ -149,7 +149,13 @@ impl ConditionRun {
 pub(super) fn conditions(name: &str) -> Table {
     Table::of::<ConditionRun>(name, "The same where robots and worlds are not as they were made")
         .metrics_from(ConditionRun::abstained)
-        .note("Each system on its paper's robot, in one small world of each family in turns. Wheels: each encoder counts wrongly, or each wheel of the e-puck rolls wrongly, by a constant of up to 1, 2 or 5 %. Compass: off by up to 5°, which no e-puck and no Pioneer 2-DX has. Odometry: off by up to 10 %, constant or drawn again in each time step. Doors: an opening that no place depends on is shut once the robot has learned. Kidnapping: put elsewhere after half the length of the corridors, and not told. Drop-outs: 2 % of all readings do not come. GNG-SLAM Better has rows where `--runs` asks for them.")
+        .note("Each system on its paper's robot, in small worlds of all families in turn. Wheels: each \
+         encoder counts wrongly, or each wheel of the e-puck rolls wrongly, by a constant of up to \
+         1, 2 or 5 %. Compass: off by up to 5°; no e-puck and no Pioneer 2-DX has one. Odometry: off \
+         by up to 10 %, constant or drawn again in each time step. Doors: an opening that no place \
+         depends on is shut after the robot has learned. Kidnapping: put elsewhere after half the \
+         length of the corridors, without being told. Drop-outs: 2 % of all readings are missing. \
+         GNG-SLAM Better has rows only if `--runs` asks for them.")
 }
 
 impl LearnRun {
@@ -320,8 +326,12 @@ pub(super) fn sizes(name: &str) -> Table {
 
 /// Returns the note that explains a table.
 pub(super) fn note(task: ArenaTask, robot: ContestRobot) -> String {
-    let worlds = "Small and middle worlds in turns, the same for all rows; of GNG-SLAM Better, which takes seconds in each, one of each kind and none on the laser Pioneer, unless `--runs` asks for more; who abstained stays in the denominator.";
-    let places = "Places are junctions, dead ends, start and goal; of the diktiometry corners in place of start and goal. MSLST does not claim that a map is whole, and counts as undecided. A micromouse is told the grid, its start and the goal.";
+    let worlds = "Small and middle worlds in turn, the same for all rows. GNG-SLAM Better takes seconds in each, \
+     so it has one of each kind and none on the laser Pioneer, unless `--runs` asks for more. Worlds \
+     in which a system abstained stay in the denominator.";
+    let places = "Places are junctions, dead ends, start and goal. For the diktiometry, corners take the place of \
+     start and goal. MSLST does not claim that a map is whole, and counts as undecided. A micromouse \
+     is told the grid, its start and the goal.";
     let robots = match robot {
         ContestRobot::Own => {
             "Each on its paper's robot: CPM on the e-puck, the diktiometry on the Pioneer with a camera among walls of eight colours, all others on the laser Pioneer."

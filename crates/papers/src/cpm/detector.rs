@@ -184,9 +184,11 @@ pub(super) fn table() -> Table {
         .metrics_from(DetectorRun::junction_precision)
         .rows(rows.map(Row::new));
     table.note(format!(
-        "One sweep in every cell that the robot can come to, up to {:.0} cm off its middle and {ASKEW} rad askew. Literal: the eight vectors are averaged as they come, aligned: each turned by its sensor's mounting angle \
-         first; both cut by the paper's rule. Ours: values above 60 are cut before steps are taken. On the way: every \
-         fragment is walked both ways by a robot that drives to the middle of what looks like a place and looks again.",
+        "One sweep in every cell that the robot can reach, up to {:.0} cm off its middle and {ASKEW} \
+         rad askew. Literal: the eight vectors are averaged as they come. Aligned: each is turned by \
+         its sensor's mounting angle first. Both are cut by the paper's rule. Ours: values above 60 \
+         are cut before steps are computed. On the way: a robot walks every fragment both ways, \
+         drives to the middle of what looks like a place, and looks again.",
         100.0 * OFF
     ))
 }

@@ -203,7 +203,7 @@ fn junction_node(map: &CpMap, id: JunctionId, junction: &Junction, at: Point) ->
     let mut note = format!("{}: ", junction_name(map, id));
     for (number, port) in (0_u32..).zip(&junction.ports) {
         let what = match port {
-            PortState::Open { .. } => "nobody has been there".to_owned(),
+            PortState::Open { .. } => "unexplored".to_owned(),
             PortState::Filled(end) => end_name(*end),
         };
         // Writing to a string cannot fail.
@@ -271,7 +271,7 @@ fn stubs(graph: &mut GraphPicture, layout: &Layout, world: &World) {
         let to = graph.node(
             GraphNode::at(at + 0.5 * on)
                 .series(JUNCTION)
-                .note("nobody has been there"),
+                .note("unexplored"),
         );
         graph.edge(
             GraphEdge::between(from, to)

@@ -75,11 +75,13 @@ pub(super) fn table(courses: &[Course]) -> Table {
         exploration,
     } = QLearningConfig::usual();
     table.note(format!(
-        "How many episodes it takes until the next leads over a way as short as that which CPM (faithful, online) drives in its second, in \
-         the runs that CPM solves. Q-learning (α {learning_rate}, γ {discount}, ε {exploration}) and the random walk, which does not turn \
-         round but in dead ends, have no robot: they are told at which junction they stand and move over the maze's graph without noise, \
-         at the length of each fragment. Q-learning is done when its greedy way is as short; the random walk learns nothing and is done \
-         when one of its ways happens to be. They give up after {MOST_EPISODES} episodes.",
+        "Number of episodes before a way is as short as the one that CPM (faithful, online) drives \
+         in its second episode, in the runs that CPM solves. Q-learning (α {learning_rate}, γ \
+         {discount}, ε {exploration}) and the random walk have no robot. They are told their \
+         junction and move over the maze's graph without noise, at the length of each fragment. The \
+         random walk turns round only in dead ends. Q-learning is done when its greedy way is as \
+         short. The random walk learns nothing, and is done when one of its ways happens to be as \
+         short. They give up after {MOST_EPISODES} episodes.",
     ))
 }
 

@@ -75,9 +75,11 @@ pub(super) fn explored(courses: &[Course], papers: bool, options: &Options) -> T
     let table = Table::of::<ExploredRun>(EXPLORED, "Mazes explored to their end")
         .metrics_from(ExploredRun::finished)
         .note(
-            "The robot walks until no port of its map is unknown. The best covering walk is the shortest from the start through all fragments, \
-             for who knows the maze. Theorem 1 bounds the time until the last fragment is walked, whether the robot knows it or not: \
-             from the times that it took for the fragments before the first it had walked before, and the longest that it took for any.",
+            "The robot walks until no port of its map is unknown. The best covering walk is the \
+             shortest from the start through all fragments, given the maze. Theorem 1 bounds the \
+             time until the last fragment is walked, whether the robot knows that or not. The bound \
+             follows from the times of the fragments before the first repeated one, and from the \
+             longest time of any fragment.",
         );
     let runs = options.runs_else(RUNS, QUICK_RUNS);
     let row = |setting: &Setting| setting.row().runs(runs);

@@ -105,15 +105,18 @@ fn maps(course: &Course, record: &TrialRecord, row: &str, name: &str) -> [Figure
     [
         Figure::new(format!("map-{name}"), format!("{row}: the map over its maze"), over)
             .caption(
-                "The map at the end of that trial's first episode, laid over the maze port by port: each fragment A with its ends − and +, \
-                 junctions as squares, rings where nobody has been. A dashed fragment leads elsewhere on the map than in the maze.",
+                "The map at the end of that trial's first episode, laid over the maze port by port. \
+                 Each fragment A has its ends − and +. Junctions are squares, and unexplored ends \
+                 are rings. A dashed fragment leads elsewhere on the map than in the maze.",
             )
             .table(FIGURE_9),
         Figure::new(format!("graph-{name}"), format!("{row}: the map"), graph)
             .caption(
-                "The same map as a graph, as the paper's figures 5 (b) and 8 (a): fragment nodes as discs with their length in observations, \
-                 junction nodes as squares; on each edge the fragment's end and the junction's port. The turn Δ from one fragment into another is \
-                 how many ports lie between them, counter-clockwise. Point at a node for its patterns and transitions.",
+                "The same map as a graph, like the paper's figures 5 (b) and 8 (a). Fragment nodes \
+                 are discs with their length in observations, junction nodes are squares. Each edge \
+                 has the fragment's end and the junction's port. The turn Δ from one fragment into \
+                 another is the number of ports between them, counter-clockwise. Point at a node for \
+                 its patterns and transitions.",
             )
             .table(FIGURE_9),
     ]

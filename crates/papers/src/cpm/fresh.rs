@@ -188,12 +188,16 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
         .metrics_from(FreshRun::purity)
         .rows(rows.iter().map(|row| Row::new(&row.row).runs(worlds)))
         .note(
-            "Each run draws its own world from its seed: of the arena's families and theirs of middle size. Rows without a word are of the better \
-             system. Explored until the robot says that it is done, or gives up. Solved: the goal is on the map, and the map is right by the arena's \
-             rule: one to one the true junctions, dead ends, start and goal and the ways between them, with 95 % of all at least. Who abstained says \
-             so before it drives, and counts as not solved. Own verdict: done says that the map is right, giving up that it is not; a robot that \
-             drives ten times the corridors has said neither, and is not right. Wheels: corridors of any family; each wheel rolls wrongly by a \
-             constant of up to 2 or 5 %, drawn for the run, beside the slip of 10 % that is drawn in each time step.",
+            "Each run draws its own world from its seed, of the arena's families and of middle size. \
+             Rows without a word are of the better system. The robot explores until it says that it \
+             is done, or gives up. Solved: the goal is on the map, and the map is right by the \
+             arena's rule. It matches the true junctions, dead ends, start and goal and the ways \
+             between them one to one, with at least 95 % of all. A system that abstains says so \
+             before it drives, and counts as not solved. Own verdict: being done says that the map \
+             is right, giving up that it is not. A robot that drives ten times the corridors has \
+             said neither, which is not right. Wheels: corridors of any family. Each wheel is off by \
+             a constant of up to 2 or 5 %, drawn for the run, in addition to the slip of 10 % that \
+             is drawn in each time step.",
         )
 }
 

@@ -128,12 +128,18 @@ pub(super) fn table(courses: &[Course], options: &Options) -> Table {
         .metrics_from(LocalizationRun::bends_percent)
         .rows(rows)
         .note(format!(
-        "The robot knows all these mazes by maps of one dictionary, each that of a solved trial, twenty in turn, and is put down in the \
-         middle of a cell amid a fragment of the row's that its map has; of mazes with fragments that look alike, another one each run, it knows that one. It drives straight on to \
-         the place ahead, or to and fro: if it is not sure when that place comes into sight, it turns round and goes to the other end. Right: maze, fragment and direction, when the place that it \
-         is about to enter is in sight, and in the middle of it; within one further fragment: at that place if it was sure there, else before the next one. It goes on \
-         until it is sure, up to {MOST_PLACES} places. What could be known is how often the best guess is right of an observer that knows the mazes and sees \
-         without mistake how the corridor bends in every cell from the one behind on, and of one that sees the place ahead too, and the sides of the one behind if it stands beside it. SOINN-AM is asked with the first fragment walked whole."
+        "The robot knows all these mazes by maps of one dictionary, each from a solved trial, twenty \
+         in turn. It is put down in the middle of a cell, inside a fragment that its map has. Mazes \
+         with fragments that look alike are another one in each run, and the robot knows only that \
+         one. It drives straight on to the place ahead, or to and fro: if it is not sure when that \
+         place comes into sight, it turns round and goes to the other end. Right: it names maze, \
+         fragment and direction, when the first place is in sight, and in the middle of that place. \
+         Within one further fragment: right at the first place if it was sure there, or else before \
+         the next one. It goes on until it is sure, up to {MOST_PLACES} places. What could be known \
+         is how often an ideal observer's best guess is right. One observer knows the mazes and sees \
+         without error how the corridor bends in every cell from the one behind on. The other also \
+         sees the place ahead, and the sides of the one behind if it is beside it. SOINN-AM is asked \
+         with the first fragment walked whole."
     ))
 }
 

@@ -47,9 +47,10 @@ pub(super) fn table(courses: &[Course]) -> Table {
         .metrics_from(PlacesRun::purity)
     .rows(courses.iter().map(|course| Row::new(&course.name)))
     .note(format!(
-        "{MOVES} moves from one junction or dead end to the next by layers 0 and 1, a random walk that heeds the map's advice 30 % of the \
-         time. Odometry is the encoders' with headings trued up by the walls, a place looks as one sweep there does. Recall is of all ways of \
-         the maze, each in both directions."
+        "{MOVES} moves from one junction or dead end to the next by layers 0 and 1: a random walk \
+         that follows the map's advice 30 % of the time. Odometry is that of the encoders, with \
+         headings corrected by the walls. A place looks like one sweep there. Recall is over all \
+         ways of the maze, counted in both directions."
     ))
 }
 

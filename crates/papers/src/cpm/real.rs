@@ -177,9 +177,12 @@ pub(super) fn table(course: &Course) -> Table {
                 .paper(RoundTripRun::given_up, 1.0),
         )
         .note(
-            "Figure 11's maze drawn again: four fragments, two junctions. To the goal, back with a look at fragments that may be shorter, and to the \
-             goal again by the map. The robot sweeps at 3π/5 rad/s, looks every 6 s and has learned for 5400 s, as the paper's, which made one trial; \
-             the maze is larger than the paper's, so only the reductions can be compared. Solved: goal, start and goal again were reached; whether the last way is the shortest is not asked.",
+            "Figure 11's maze redrawn: four fragments, two junctions. The robot goes to the goal, \
+             back with a look at fragments that may be shorter, and to the goal again by the map. \
+             Like the paper's, it sweeps at 3π/5 rad/s, looks every 6 s and has learned for 5400 s. \
+             The paper made one trial. The maze is larger than the paper's, so only the reductions \
+             can be compared. Solved: goal, start and goal again were reached, whether or not the \
+             last way is the shortest.",
         )
 }
 

@@ -112,14 +112,18 @@ pub(super) fn figure_9(courses: &[Course], papers: bool) -> Trials {
     .metric(Metric::mean(TrialRun::bumps))
     .paper_runs(10)
     .note(format!(
-        "Solved: the goal was found, and found again by a way as short as any that could be known, where two visits are known to be of one \
-         junction if a fragment was walked twice that ends there. Shortest on true map: as short as any over the same fragments as they truly lie. \
-         Map right: each junction and fragment where the robot has been is on the map once, and all are joined as they truly are. \
-         Time saved is of solved runs; some drove {LONG} times the shortest path or more in the first episode. Precision and recall of loops are \
-         means over the runs in which any was closed, or could have been. In the paper the time saved is over 50 % in every trial, and up to 95 %; \
-         its robot needs no more than two episodes either. Its trials are offline: the map is optimized when the goal is found (section 5), so its \
-         figures stand beside those rows; those without a word are online (section 6). Paper's rule: offline, and f_S to the letter, which \
-         compares the numbers of patterns up to the shorter one's end."
+        "Solved: the goal was found, and found again by a way as short as any that could be known. \
+         Two visits are known to be of one junction if a fragment that ends there was walked twice. \
+         Shortest on true map: as short as any way over the same fragments, joined as they truly \
+         are. Map right: each junction and fragment where the robot has been is on the map exactly \
+         once, and all are joined as they truly are. Time saved is of solved runs; some drove {LONG} \
+         times the shortest path or more in the first episode. Precision and recall of loops are \
+         means over the runs in which any was closed, or could have been. In the paper the time \
+         saved is over 50 % in every trial, and up to 95 %; its robot needs no more than two \
+         episodes either. Its trials are offline: the map is optimized when the goal is found \
+         (section 5). So its figures are beside those rows; rows without a word are online (section \
+         6). Paper's rule: offline, with f_S taken literally, which compares the numbers of patterns \
+         up to the shorter one's end."
     ));
     let row = |setting: &Setting| {
         let row = setting.row();
@@ -164,8 +168,9 @@ pub(super) fn offline(courses: &[Course]) -> Trials {
         .metric(Metric::mean(TrialRun::seconds_1))
         .metric(Metric::mean(TrialRun::seconds_2))
         .note(
-            "Offline the robot takes ports at random and looks at its map when the goal is found (section 4); online before each decision \
-             (section 6). Rows of one maze meet the same chance.",
+            "Offline the robot takes random ports and compares its map only when the goal is found \
+             (section 4); online it does so before each decision (section 6). Rows of one maze have \
+             the same random numbers.",
         );
     Trials::new(table, settings, Setting::row, measure)
 }
@@ -183,8 +188,8 @@ pub(super) fn unlearned(courses: &[Course]) -> Trials {
         .metric(reduction())
         .metric(Metric::mean(UnlearnedRun::patterns))
         .note(
-            "The better robot, which has been in no learning maze: what it observes that is like no pattern it has becomes one, and what was \
-             written before stays readable. Aliased: one random maze a run.",
+            "The better robot without a learning maze. An observation unlike all its patterns \
+             becomes a pattern, and older sequences stay valid. Aliased: one random maze per run.",
         );
     Trials::new(table, settings, Setting::row, |trial| {
         let record = trial.play()?;
@@ -215,11 +220,14 @@ pub(super) fn aliased(options: &Options) -> Trials {
         .metric(Metric::mean(AliasedRun::alike_pairs))
         .metric(Metric::mean(AliasedRun::symmetrical))
         .note(format!(
-            "One random maze a run, the same for both rows, in which two fragments or more bend alike, cell by cell, from one end or the other; \
-             symmetrical ones bend the same from both. Faithful is the paper's system, whose constraints they break, and gives up after {ALIASED_PATIENCE} fragments. Solved: the goal was \
-             found, and found again by a way as short as any that could be known, and the map is right: each junction and fragment \
-             where the robot has been is on it once, and all are joined as they truly are. Shortest on true map: the goal was found again by a way as short as any over the \
-             same fragments as they truly lie.",
+            "One random maze per run, the same for both rows, in which two fragments or more bend \
+             alike, cell by cell, from one end or the other. Symmetrical ones bend the same from \
+             both ends. Faithful is the paper's system, which excludes such mazes, and gives up \
+             after {ALIASED_PATIENCE} fragments. Solved: the goal was found, and found again by a \
+             way as short as any that could be known, and the map is right. Each junction and \
+             fragment where the robot has been is then on it exactly once, and all are joined as \
+             they truly are. Shortest on true map: the goal was found again by a way as short as any \
+             over the same fragments, joined as they truly are.",
         ));
     let mazes = options.runs_else(ALIASED_MAZES, ALIASED_QUICK);
     let row = |setting: &Setting| setting.row().runs(mazes);

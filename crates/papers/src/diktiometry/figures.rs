@@ -77,9 +77,9 @@ fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Fig
         drawing,
     )
     .caption(format!(
-        "Its {} places with the boxes that hold them, seen from where the robot began, and the links, over the world, of which \
-         {} true places were visited. Boxes grow with the distance from the start, since each frame knows only its neighbours; \
-         relative to those they are small.",
+        "Its {} places with the boxes that contain them, as seen from where the robot began, and the \
+         links, over the world. The robot visited {} true places. Boxes grow with the distance from \
+         the start, because each frame knows only its neighbours. Relative to those they are small.",
         score.places, score.visited
     ))
     .table(trial.name))

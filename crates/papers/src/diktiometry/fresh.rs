@@ -261,12 +261,15 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
         .rows(rows.iter().map(|row| Row::new(row.row).runs(runs(row))))
         .row(Row::of_all(ALL_RUNS))
         .note(
-            "Each run draws its own world from its seed, the same for all rows of a kind. 5x5, 7x7 and 20x20 are blocks with a quarter of \
-             the ways walled up, all places alike; 700, 3000 and 6000 moves. Doorways: a fifth of the passages, walls of eight colours. Ladders \
-             (corridors of that many cells), eights, spirals and rings have walls of eight colours, the office floor has one; 1000 moves with \
-             scripts. Scripts are begun with a chance of 30 %, in 20x20 and in the office floor always. Constant error: odometry and compass are wrong by the same \
-             all along. Paper's rule: a place is known again if boxes meet, and places merge by their estims. The row of all runs has those by \
-             the paper's rule, too.",
+            "Each run draws its own world from its seed, the same for all rows of a kind. 5x5, 7x7 \
+             and 20x20 are blocks with a quarter of the ways walled up and all places alike, with \
+             700, 3000 and 6000 moves. Doorways: a fifth of the passages, and walls of eight \
+             colours. Ladders (the number is the length of their corridors), eights, spirals and \
+             rings have walls of eight colours, the office floor has one colour; 1000 moves with \
+             scripts. Scripts are begun with a probability of 30 %, in 20x20 and in the office floor \
+             always. Constant error: odometry and compass have the same error all along. Paper's \
+             rule: a place is recognized if boxes meet, and places merge by their estims. The row of \
+             all runs includes those by the paper's rule.",
         )
 }
 

@@ -135,8 +135,9 @@ fn table(trial: &Trial) -> Table {
     let near = 100.0 * NEAR;
     let note = match trial.rows {
         Rows::OneWorld => format!(
-            "{} {tail} The asymptote is the lowest of the table; a row is there when the mean over all its runs and {WINDOW} moves stays less than \
-             {near:.0} % of odometry's error above it. To its own asymptote is the same of each run for itself, the first definition of this table.",
+            "{} {tail} The asymptote is the lowest of the table. A row reaches it when the mean over \
+             all its runs and {WINDOW} moves stays less than {near:.0} % of odometry's error above \
+             it. To its own asymptote: the same for each run alone, an earlier definition.",
             trial.note,
         ),
         Rows::OwnWorlds => format!("{} {tail}", trial.note),

@@ -154,9 +154,10 @@ impl Best {
 }
 
 /// Caption that explains the maps.
-const READ: &str = "Each node's image has its middle where the node lies, in cells, turned so that the yellow goal is straight \
-                    above the blue one; lines are links. On the pitch the windows are on the right. Images were converted to red, \
-                    green and blue. Of each set the best map of at most 40 nodes, whose images can be made out.";
+const READ: &str = "Each node's image has its middle at the node, in cells, turned so that the yellow goal is straight \
+ above the blue one. Lines are links. On the pitch the windows are on the right. Images were \
+ converted to red, green and blue. Shown is each set's best map of at most 40 nodes, so that the \
+ images can be made out.";
 
 /// Returns an axis over the field, with room for the images and the names of the goals.
 fn axis(title: &str) -> Axis {

@@ -62,9 +62,10 @@ pub(super) fn table(options: &Options) -> Table {
         .metric(Metric::mean(DrivenFields::nodes))
         .rows(ROWS.map(|(row, _)| Row::new(row).runs(runs)))
         .note(format!(
-            "Each run gathers {RECORDS} records, learns a map of image (40 × 30, hsv) and odometry, and drives by it to where {DRIVES} of the \
-             records were taken, drawn at random, each time from where it is. Wheels slip and count rightly but for that. Not in the \
-             paper, which plans ways and drives none."
+            "Each run gathers {RECORDS} records, and learns a map of image (40 × 30, hsv) and \
+             odometry. It drives by the map to where {DRIVES} random records were taken, each time \
+             from where it is. Wheels slip and otherwise count rightly. The paper plans ways and \
+             drives none."
         ))
 }
 

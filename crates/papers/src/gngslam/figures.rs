@@ -103,9 +103,10 @@ impl Scores {
         let drawing = chart.drawing("Bootstrapped means of the scores of each set.");
         Ok(Figure::new("figure-4-2", "Bootstrapped mean scores", drawing)
             .caption(format!(
-                "Figure 4.2: means of {POINTS} scores drawn from each set, {RESAMPLES} times; set 0 are guesses. Bars hold {} % of \
-                 the means: {}. More scores are drawn than there are maps, as in the paper, so the bars are \
-                 narrower than what is unknown of a search's mean.",
+                "Figure 4.2: means of {POINTS} scores drawn from each set, {RESAMPLES} times; set 0 \
+                 are guesses. Bars hold {} % of the means: {}. As in the paper, more scores are \
+                 drawn than there are maps. So the bars are narrower than the uncertainty of a \
+                 search's mean.",
                 100.0 * LEVEL,
                 said.join("; ")
             ))

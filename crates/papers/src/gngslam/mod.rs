@@ -151,9 +151,10 @@ fn paper() -> Table {
             paper: vec![(SETS[1].row.to_owned(), SETS[4].row.to_owned(), 0.22)],
         })
         .note(format!(
-            "Each {MAPS} maps of a row are one search by simulated annealing, in which a map has parameters near those of the \
-             better of the two before. So maps depend on each other; p-values take them for independent, as the paper does. n counts \
-             the maps with a score. A random map is {ASKED} guesses. The paper has {} to {} maps a row.",
+            "Each {MAPS} maps of a row are one search by simulated annealing, in which a map has \
+             parameters near those of the better of the two before. So maps depend on each other; \
+             p-values treat them as independent, as in the paper. n counts the maps with a score. A \
+             random map is {ASKED} guesses. The paper has {} to {} maps a row.",
             SETS[2].samples, SETS[0].samples
         ))
 }

@@ -92,9 +92,10 @@ pub(super) fn tables(options: &Options) -> Vec<Table> {
     let row = |name: &str| Row::new(name).runs(runs);
     let badly = options.runs_else(BAD_RUNS, QUICK_RUNS);
     let long = format!(
-        "Learned from {LEARNED} looks on the paper's pitch, tried by another robot for {TRIED} looks, which is put down anywhere; wheels wrong by \
-         up to {CALIBRATION} each. The last two rows are runs of {LONGER} times as many looks; the map lies over the world as fits the first tenth best, \
-         the odometry begins at the true pose."
+        "Learned from {LEARNED} looks on the paper's pitch. Another robot, put down anywhere, tries \
+         the map for {TRIED} looks. Wheels are off by up to {CALIBRATION} each. The last two rows \
+         are runs with {LONGER} times as many looks. The map is laid over the world by the best fit \
+         of the first tenth; the odometry begins at the true pose."
     );
     vec![
         learned(ONLINE, "A pose corrected while the map is learned")

@@ -46,9 +46,10 @@ pub(super) fn table(sets: &[MazeSet]) -> Table {
         .metrics_from(CompetitionRun::certified)
         .rows(sets.iter().map(MazeSet::row))
         .note(
-            "One run a maze. Cells are all that the mouse drives from the start until it is back there with a speed \
-             run that is certified to be the fastest; it has been at a goal then. Sets with mazes of more than 16 cells \
-             a side are driven as half-size ones, all others as classic ones.",
+            "One run per maze. Cells are all that the mouse drives from the start until it is back \
+             there with a speed run that is certified to be the fastest. It has been at a goal then. \
+             Sets with mazes of more than 16 cells a side are driven as half-size ones, all others \
+             as classic ones.",
         )
 }
 

@@ -71,10 +71,11 @@ pub(super) fn table(options: &Options) -> Table {
         .metrics_from(NoiseRun::arrived)
         .rows(mice().map(|mouse| Row::new(mouse.row).runs(runs)))
         .note(
-            "One run a maze, half-braided, drawn by the run's seed, on the continuous simulator. Rows are named by its cells and by how many times \
-             ordinary noise there is; without more the mouse has a particle filter. Noise 1: wheels slip by up to \
-             10 % and drift by 0.2 rad/m; three range sensors are off by 3 mm and 2 %. Steps and score are of the runs that \
-             arrived, the error is where the mouse thinks it is against where it is.",
+            "One run per maze, half-braided, drawn by the run's seed, on the continuous simulator. A \
+             row's name has the maze's cells and the multiple of ordinary noise. Unless it says \
+             otherwise the mouse has a particle filter. Noise 1: wheels slip by up to 10 % and drift \
+             by 0.2 rad/m; three range sensors are off by 3 mm and 2 %. Steps and score are of the \
+             runs that arrived. The error is the distance between believed and true position.",
         )
 }
 

@@ -66,9 +66,9 @@ fn graph(contest: &Contest, learned: &Learned, at: &str, here: &str) -> Figure {
         drawing::graph_over_maze(&contest.venue.course, learned),
     )
     .caption(format!(
-        "The nodes of the first {SHOWN_ACTIONS} actions where the robot truly was when it made them; those in the \
-         destination are filled. Of all {} nodes {percent:.0} % have no more than two ways on: the graph is highly \
-         linear, as the paper found.",
+        "The nodes of the first {SHOWN_ACTIONS} actions at the robot's true positions when they were \
+         made. Those in the destination are filled. Of all {} nodes {percent:.0} % have no more than \
+         two ways on: the graph is highly linear, as the paper found.",
         nodes.len()
     ))
 }

@@ -85,9 +85,10 @@ impl Hardest {
         DrivenRun::table(HARDEST, "The worlds that are hardest for the better system")
             .rows(rows)
             .note(format!(
-                "A run is a map with {} starts. In wings everything off the spine is there twice: where it takes one wing for the other, it leaves the \
-                 goal's, and goes to and fro until the spine tells the wings apart. Blocks has crossing after equal crossing, and the loops of \
-                 ladder are the same from both ends.",
+                "A run is a map with {} starts. In wings everything off the spine exists twice. If \
+                 the robot takes one wing for the other, it leaves the goal's wing, and goes to and \
+                 fro until the spine tells the wings apart. Blocks has many equal crossings, and the \
+                 loops of ladder are the same from both ends.",
                 self.starts
             ))
     }

@@ -54,8 +54,9 @@ pub(super) fn table(runs: u32) -> Table {
         .metric(Metric::mean(MapSizeRun::actions_per_unit).decimals(2))
         .rows(ROWS.map(|(row, _)| Row::new(row).runs(mazes)))
         .note(format!(
-            "{mazes} mazes. True places are the positions where actions ended, as many as lie a robot's diameter apart, first come first \
-             counted. After exploring, the robot wanders on like Avoid."
+            "{mazes} mazes. True places are the positions where actions ended, not counting those \
+             within a robot's diameter of an earlier one. After exploring, the robot wanders on like \
+             Avoid."
         ))
 }
 

@@ -105,8 +105,9 @@ impl Robustness {
         DrivenRun::table(name, title)
             .rows(rows.into_iter().map(|row| Row::new(row).runs(self.mazes)))
             .note(format!(
-                "A run is a drawing of Large with {} starts, by one map that was learned in it. The Unlocalized oracle's robot is as \
-                 calibrated, with sensors that do not err; where a door has shut since, it knows that.",
+                "A run is a drawing of Large with {} starts, by one map that was learned in it. The \
+                 Unlocalized oracle's robot has the same calibration, with sensors without errors. \
+                 It knows of a door that was shut since.",
                 self.starts
             ))
     }

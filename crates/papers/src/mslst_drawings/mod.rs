@@ -116,8 +116,9 @@ fn table(drawing: Drawing, judged: u32) -> Table {
         .metrics_from(DrawingRun::as_listed)
         .row(Row::new("drawings"))
         .note(
-            "Run n is drawing n of a sequence with a seed of its own. A drawing is rejected (×) for each condition that it misses; \
-             one whose loop rules it out is not played. Each is judged by 1000 runs of Avoid, Wall-follow and the Oracle.",
+            "Run n is drawing n of a sequence with its own seed. A drawing is rejected (×) for each \
+             condition that it misses. One that its loop rules out is not played. Each is judged by \
+             1000 runs of Avoid, Wall-follow and the Oracle.",
         )
 }
 

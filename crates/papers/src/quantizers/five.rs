@@ -43,10 +43,11 @@ pub(super) fn tables() -> Vec<Table> {
         measured(NAME, "Five clusters in 10 % noise, points drawn from all")
         .rows(rows.clone())
         .note(format!(
-            "{POINTS} points a run. A run is right if each region's own points fall, but for 5 %, into a cluster of \
-             their own. SOINN literal: Shen and Hasegawa 2006, λ = age_dead = 100, c = 1, second layer's threshold by \
-             algorithm 3.3. SOINN: units judged by their age and age_dead = 20 in the first layer, λ = 500 and a \
-             threshold of four mean edges of the first layer in the second."
+            "{POINTS} points per run. A run is right if the points of each region, except for 5 %, \
+             are in a cluster of their own. SOINN literal: Shen and Hasegawa 2006, λ = age_dead = \
+             100, c = 1, second layer's threshold by algorithm 3.3. SOINN: units judged by their age \
+             and age_dead = 20 in the first layer; in the second, λ = 500 and a threshold of four \
+             mean edges of the first layer."
         )),
         measured(
             ONE_AFTER_ANOTHER,

@@ -38,8 +38,9 @@ pub(super) fn table() -> Table {
         .metrics_from(OrderRun::mean_squared_error)
         .rows([SHUFFLED, IN_TIME, REPLAYED].map(Row::new))
         .note(format!(
-            "The 4000 scans of a run of table 1, {PASSES} times over, to a GNG of at most {UNITS} units; the error is \
-             that of all those scans. Replayed: eight remembered scans are learnt for each that comes."
+            "The 4000 scans of a run of table 1, {PASSES} times over, to a GNG of at most {UNITS} \
+             units. The error is over all those scans. Replayed: eight remembered scans are learned \
+             for each new one."
         ))
 }
 

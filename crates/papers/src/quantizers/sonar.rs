@@ -116,7 +116,8 @@ pub(crate) fn table() -> Table {
         .metrics_from(SonarRun::rms_error)
         .rows(ROWS.map(Row::new))
         .note(
-        "A log of four laps (Freire and Barreto 2010). Three are learnt, in random orders; of each scan of the fourth, the unit \
-         nearest to it tells the action that was most frequent with that unit before.",
+        "A log of four laps (Freire and Barreto 2010). Three are learned, in random orders. For each \
+         scan of the fourth, the nearest unit predicts the action that was most frequent with that \
+         unit before.",
     )
 }

@@ -111,9 +111,12 @@ pub(super) fn table(graphs: &Graphs, options: &Options) -> Table {
         .metric(Metric::greatest("worst_false_supported", AuditRun::false_supported).titled("false supported, worst run"))
         .rows(rows)
         .note(format!(
-            "{MANY} false closures of each kind are added to a graph, {FEW} to the project's own `rooms`. A closure is false that is off by more than 1 m or 20°; those of the kind near are off \
-             by less, but beyond five standard deviations. Groups are 10 to 20 consecutive pairs that agree with each other. Stated standard deviations × {MANHATTAN_SCALE} for manhattan, whose file \
-             understates its information, × 1 for the others.{gtsam}"
+            "{MANY} false closures of each kind are added to a graph, {FEW} to the project's own \
+             `rooms`. A closure is false if it is off by more than 1 m or 20°. Those of the kind \
+             near are off by less, but beyond five standard deviations. Groups are 10 to 20 \
+             consecutive pairs that agree with each other. Stated standard deviations are multiplied \
+             by {MANHATTAN_SCALE} for manhattan, whose file understates its information, and by 1 \
+             for the others.{gtsam}"
         ))
 }
 

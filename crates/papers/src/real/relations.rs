@@ -101,18 +101,21 @@ pub(super) fn table() -> Table {
         None => Row::new(name).run_each(1),
     };
     let worst = Metric::greatest("worst_over_30s_m", RelationRun::error_over_30s_m);
-    Table::of::<RelationRun>(NAME, "The Intel lab, held against relations verified by hand")
+    Table::of::<RelationRun>(NAME, "The Intel lab, compared with relations verified by hand")
         .metrics_from(RelationRun::error_m)
         .metric(worst.titled("worst, over 30 s").unit("m").decimals(3))
         .rows(ROWS.map(row))
         .note(
-            "Every fifth scan of the raw log. Relations whose times lie within 30 s have a floor of 0.09 m, since their times lie between scans \
-             that are a second apart. Published: the corrected log that others map with, which went through a mapper of its authors. \
-             Matching: scans matched to those before, without closures. Places: with closures where a junction, a bend, a dead end or a room \
-             was recognized. Diktiometry, CPM, place graph: the same places, recognized by that mapper alone. Dense: with closures everywhere; wrong is a \
-             closure of a map of places that the dense map has more than half a metre elsewhere, and a place recognized that it has more than \
-             four metres from where the robot was before. Wheels made worse: all the way they turn 2° a metre to one side besides, and \
-             every way is 5 % too long or too short; the sides are drawn for each run.",
+            "Every fifth scan of the raw log. Relations within 30 s have a floor of 0.09 m, because \
+             their times are between scans that are a second apart. Published: the corrected log \
+             that others use, made by a mapper of its authors. Matching: scans matched to earlier \
+             ones, without closures. Places: with closures where a junction, a bend, a dead end or a \
+             room was recognized. Diktiometry, CPM, place graph: the same places, recognized by that \
+             mapper alone. Dense: with closures everywhere. A closure of a map of places is wrong if \
+             the dense map has it more than half a metre elsewhere. A place is wrongly recognized if \
+             the dense map has it more than four metres from the earlier visit. Wheels made worse: \
+             they also turn 2° a metre to one side all the way, and every way is 5 % too long or too \
+             short. The sides are drawn for each run.",
         )
 }
 

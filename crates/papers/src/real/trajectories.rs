@@ -88,12 +88,13 @@ pub(super) fn table() -> Table {
         Some(_) if is_raw => Row::new(name).run_each(1),
         Some(_) => Row::new(name),
     };
-    Table::of::<TrajectoryRun>(NAME, "Other buildings, held against their corrected logs")
+    Table::of::<TrajectoryRun>(NAME, "Other buildings, compared with their corrected logs")
         .metrics_from(TrajectoryRun::rms_m)
         .rows(ROWS.map(row))
         .note(
-            "By scan matching with closures, the configuration of the Intel lab. CSAIL has raw odometry. Of the others the corrected log alone \
-             is public, so its wheels are made worse: 2° a metre to one side, and 1.3° (standard deviation) each step.",
+            "By scan matching with closures, with the configuration of the Intel lab. CSAIL has raw \
+             odometry. Of the others only the corrected log is public, so errors are added to its \
+             wheels: 2° a metre to one side, and 1.3° (standard deviation) each step.",
         )
 }
 

@@ -69,8 +69,10 @@ pub(super) fn table() -> Table {
         .metrics_from(TucRun::matches)
         .rows(ROWS.map(row))
         .note(
-            "864 m to and fro. Matches say that two places look alike, and how much; true is one whose places lie within 2 m. Accepted is what \
-             the audit of closures supports: matches that agree with each other by dead reckoning. Recall is of all true matches of the data set.",
+            "864 m to and fro. A match says that two places look alike, and how much. It is true if \
+             the places are within 2 m. Accepted are the matches that the audit of closures \
+             supports: they agree with each other by dead reckoning. Recall is over all true matches \
+             of the data set.",
         )
 }
 

@@ -74,10 +74,12 @@ pub(super) fn table() -> Table {
         .metrics_from(UtiasRun::score)
         .rows([PLACE_MAP, RANDOM].map(row))
         .note(
-            "Three robots among landmarks, each by itself; run n is pair n of who learns and who tries. The way of the learning robot is corrected \
-             by a pose graph of its wheels and of the landmarks it saw. A growing neural gas learns where it was and how far the landmarks \
-             are from there. The other robot takes itself to be at the node whose ranges are nearest to those it has seen in the last ten \
-             seconds. The map is laid over the world by the way of the robot that learned it. Random: at a node by chance.",
+            "Three robots among landmarks, each alone. Run n is pair n of the robots that learn and \
+             try. The way of the learning robot is corrected by a pose graph of its wheels and of \
+             the landmarks it saw. A growing neural gas learns its positions, with their distances \
+             from the landmarks. The other robot believes that it is at the node with the ranges \
+             nearest to those it has seen in the last ten seconds. The map is laid over the world by \
+             the way of the robot that learned it. Random: at a random node.",
         )
 }
 

@@ -58,9 +58,10 @@ pub(super) fn table() -> Table {
         .metrics_from(WeanRun::way_m)
         .rows(ROWS.map(row))
         .note(
-            "Maps of places, each of one log; nobody knows the truth. Each is laid over the map of the next log of the three, turned by any \
-             quarter and put down anywhere. A place is found again if the other map has one within 1.5 m; known ground is within 1.5 m of where the \
-             other robot went.",
+            "Maps of places, each of one log; the truth is unknown. Each is laid over the map of the \
+             next log of the three, turned by any quarter and put anywhere. A place is found again \
+             if the other map has one within 1.5 m. Known ground is within 1.5 m of the other \
+             robot's way.",
         )
 }
 

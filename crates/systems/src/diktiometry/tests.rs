@@ -267,7 +267,7 @@ fn a_robot_that_is_carried_off_while_it_learns_says_so_and_stops() {
             assert_eq!(standing, Standing::UnderWay, "seed {seed}");
         }
         let visits = Mapper::visits(&system);
-        // Amid a corridor: no place looks like that.
+        // In mid-corridor: no place looks like that.
         robot.robot_mut().at = Point::new(0.5, 2.0);
         let standing = pursue(&mut system, &mut robot, Task::Explore);
         assert!(

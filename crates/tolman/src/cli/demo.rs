@@ -236,10 +236,9 @@ fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Resu
             "Put down elsewhere, it found out where it is after {} moves, {:.1} m.",
             found.actions, found.metres
         )?,
-        (LocateOutcome::Wrong, true) => writeln!(
-            out,
-            "Put down elsewhere, it took itself to be where it is not."
-        )?,
+        (LocateOutcome::Wrong, true) => {
+            writeln!(out, "Put down elsewhere, it named a place where it is not.")?
+        }
         (LocateOutcome::Abstained { .. }, true) => {
             writeln!(out, "Put down elsewhere, it did not find out where it is.")?;
         }

@@ -62,7 +62,7 @@ impl ChangedMap {
         }
     }
 
-    /// Forgets all walls; returns whether there were any.
+    /// Forgets all walls, and returns whether there were any.
     pub(super) fn forget(&mut self) -> bool {
         let has_changed = !Arc::ptr_eq(&self.now, &self.learned);
         *self = Self::new(Arc::clone(&self.learned));
