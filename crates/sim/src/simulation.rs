@@ -457,7 +457,7 @@ pub enum PlaceError {
     Step {
         /// The robot's, µs.
         step_us: u64,
-        /// That of the robots before it, µs; 0 if it is the first.
+        /// Time step of the robots before it, µs; 0 if it is the first.
         expected_us: u64,
     },
     /// There is no such robot.

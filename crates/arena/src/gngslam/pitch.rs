@@ -177,7 +177,7 @@ impl Pitch {
     /// Returns the [paper's robot](paper_robot) in this arena's light.
     ///
     /// # Errors
-    /// As that.
+    /// As [`paper_robot`].
     pub fn robot(&self, seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, PitchError> {
         let mut robot = paper_robot(seed, calibration)?;
         robot.camera.light = self.light;

@@ -24,9 +24,9 @@ pub struct SelfCheck {
     /// Number of places that may be one with another: the bounds allow it, they look alike, and so
     /// does all that follows along the same actions.
     pub doubtful: usize,
-    /// Those of them from where an action of a static world leads to two places, or not back.
+    /// Number of them from which an action of a static world leads to two places, or not back.
     pub torn: usize,
-    /// Those of them where an action that could be tried never was.
+    /// Number of them where an action that could be tried never was.
     pub open: usize,
 }
 

@@ -451,7 +451,7 @@ const fn beside_a_place() -> Vector3<f64> {
     Vector3::new(0.05 * 0.05, 0.05 * 0.05, 0.04 * 0.04)
 }
 
-/// So much of each look contradicts a map that is right, since light changes and edges are vague.
+/// Share of each look that contradicts a right map, because light changes and edges are vague.
 const USUAL_CONTRADICTION: f64 = 0.08;
 
 /// Squared distance, in standard deviations, from the pose by the wheels beyond which a fit is

@@ -24,11 +24,12 @@ use super::{App, Failure, OrBadInput};
 /// Sends systems into worlds of every kind; judges their maps, and whether they reach the goal
 #[derive(clap::Args)]
 #[command(after_help = "\
-Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam, gng-slam-better, micromouse, wall-belief; random, avoid,
-wall-follow, oracle and unlocalized-oracle, which only drive to the goal. `tolman maze generate --list` names the families. `tolman experiment arena` fills tables with the same.
+Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam, gng-slam-better, micromouse, wall-belief.
+Baselines, which only drive to the goal: random, avoid, wall-follow, oracle, unlocalized-oracle.
+`tolman maze generate --list` names the families. `tolman experiment arena` fills whole tables.
 
-Conditions: as-made; wheels-1, wheels-2 and wheels-5 (each wheel off by a constant of up to this many percent), compass-offset, constant-odometry,
-fresh-odometry, doors, kidnapping, drop-outs.
+Conditions: as-made, wheels-1, wheels-2, wheels-5 (each wheel is off by a constant of up to this many percent), compass-offset,
+constant-odometry, fresh-odometry, doors, kidnapping, drop-outs. docs/arena.md explains them.
 
 Examples:
   tolman arena --system cpm-better --family office --worlds 4

@@ -237,7 +237,7 @@ fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Resu
             found.actions, found.metres
         )?,
         (LocateOutcome::Wrong, true) => {
-            writeln!(out, "Put down elsewhere, it named a place where it is not.")?
+            writeln!(out, "Put down elsewhere, it named a place where it is not.")?;
         }
         (LocateOutcome::Abstained { .. }, true) => {
             writeln!(out, "Put down elsewhere, it did not find out where it is.")?;

@@ -21,11 +21,11 @@ use crate::system::MapText;
 /// Lets a system learn a map of a maze or a world, and writes the map to a file
 #[derive(clap::Args)]
 #[command(after_help = "\
-Exit code 1: no map was learned, or the map that was written is known to be wrong or unfinished. `tolman systems`
-lists systems, presets and robots; an unknown --set is answered with the known ones.
+Exit code 1: no map was learned, or the map that was written is known to be wrong or unfinished.
+`tolman systems` lists systems, presets and robots. The error about an unknown --set lists the known ones.
 
-Ctrl-C writes the map so far, and saves the run beside it; --from FILE.unfinished continues that run, and the map
-becomes the same, bit for bit, as without an interruption.
+Ctrl-C writes the map so far, and saves the run beside it. --from FILE.unfinished continues that run. The map is
+then the same, bit for bit, as without the interruption.
 
 Examples:
   tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json

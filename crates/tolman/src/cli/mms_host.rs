@@ -24,15 +24,15 @@ use super::{Failure, OrBadInput, interrupt, keep, maze};
 #[derive(clap::Args)]
 #[command(after_help = "\
 The mouse starts in the south-west cell and looks north; the goal is the middle of the maze. Its score
-is the best run's turns and effective distance plus a tenth of all turns and effective distance: less is
-better, 2000 means unsolved. The code of mms measures in half-steps, its README in cells; both scores are shown.
+is the best run's turns and effective distance, plus a tenth of all turns and effective distance. Less is
+better, and 2000 means unsolved. The code of mms measures in half-steps, its README in cells; both scores are shown.
 
---live, --svg, --trace and --replay need a single maze, whose cells are drawn 0.18 m wide, and show the mouse as it was hosted. A line of
---trace has a move or turn, its answer, where it led, and which walls the mouse had asked for before it. --json writes one
-object per maze, one per line.
+--live, --svg, --trace and --replay need a single maze, whose cells are drawn 0.18 m wide. A line of --trace has a move or
+turn, its answer, where it led, and the walls that the mouse had asked about before it. --json writes one object per
+maze, one per line.
 
-A mouse is ended with all processes that it started, however this program ends (on Linux). Ctrl-C ends the
-mice and shows the scores so far.
+When this program ends, however it does, the mouse is ended with all processes that it started (on Linux).
+Ctrl-C ends the mice and shows the scores so far.
 
 Examples:
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/braided-2.txt

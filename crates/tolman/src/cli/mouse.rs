@@ -30,12 +30,15 @@ pub(super) use way::{Came, Way, WayStep, half_cells};
 #[command(after_help = "\
 The rules are those of \"Plot and Navigate a Virtual Maze\": at most 1000 steps for both runs. A step is a quarter turn or
 none, then up to three cells. The score is a thirtieth of the steps of the first run plus those of the second. The
-floor is the score of a mouse that knows the maze. With --mms the rules are those of the simulator mms, which hosts the
-mouse: they exchange lines on stdin and stdout, and the mouse logs to stderr.
+floor is the score of a mouse that knows the maze.
 
---live, --svg, --trace and --replay need a single maze, whose cells are drawn 0.18 m wide. A line of --trace has a step's \"rotation\"
-(-90, 0, 90 or \"Reset\") and \"movement\" (-3 to 3 cells or \"Reset\"), where it led, and how many cells the mouse had seen open to its left,
-ahead and to its right before it. --json writes one object per maze, one per line.
+With --mms the rules are those of the simulator mms, which hosts the mouse. They exchange lines on stdin and stdout,
+and the mouse logs to stderr.
+
+--live, --svg, --trace and --replay need a single maze, whose cells are drawn 0.18 m wide. A line of --trace has a step's
+\"rotation\" (-90, 0, 90 or \"Reset\") and \"movement\" (-3 to 3 cells or \"Reset\"), and where it led. It also has the number
+of open cells that the mouse saw to its left, ahead and to its right before the step. --json writes one object per
+maze, one per line.
 
 Examples:
   tolman mouse mazes/grid/braided-2.txt

@@ -26,16 +26,17 @@ use params::Params;
 /// moves
 #[derive(clap::Args)]
 #[command(after_help = "\
-The mouse drives cell by cell and looks at the walls around it. Once it has been at a goal and no run can be faster than the
-one it knows, whatever the walls it has not seen, it drives home. The fast run has straights, diagonals and slalom turns; --mouse
-sets their speeds. Without it, mazes of more than 16 cells a side are driven as half-size ones. A mouse with a wall
-ahead of its start turns to the next open side, clockwise.
+The mouse drives cell by cell and looks at the walls around it. It drives home once it has been at a goal, and no run
+can be faster than the one it knows, whatever the unseen walls are. The fast run has straights, diagonals and slalom
+turns; --mouse sets their speeds. Without it, mazes of more than 16 cells a side are driven as half-size ones. A mouse
+with a wall ahead of its start turns to the next open side, clockwise.
 
-The search is the way until it is first at a goal, the proof the way from there until no run can be faster.
---json writes one object per maze, one per line: the cells of search, proof and way home, and the run's moves with their times. Both
-ways are also given as letters, those of kerikun11/micromouse-maze-library. Exploring: S a cell ahead, L and R to the left and right, T
-back. Running: S a cell, w half a diagonal, z c F45, q Q F90, a d F135, u U F180, p P FV90 to the left and right, and Z C A D
-out of a diagonal.
+The search is the way until the mouse is first at a goal. The proof is the way from there until no run can be faster.
+--json writes one object per maze, one per line: the cells of search, proof and way home, and the run's moves with
+their times. Both ways are also given as the letters of kerikun11/micromouse-maze-library:
+  exploring   S a cell ahead, L and R to the left and right, T back
+  running     S a cell, w half a diagonal; to the left and right z c F45, q Q F90, a d F135, u U F180, p P FV90;
+              Z C A D out of a diagonal
 
 --live, --svg, --trace and --replay need a single maze.
 

@@ -16,8 +16,8 @@ use super::{Failure, OrBadInput, maze};
 /// Makes a replay from a trace: one HTML file that plays it in any browser
 #[derive(clap::Args)]
 #[command(after_help = "\
-Traces are written by `--trace` of `tolman run`, `learn` and `drive`. Several of the same world play side by side on one slider. The
-step at which each first differs from the first trace is reported and marked.
+`tolman run`, `learn` and `drive` write traces with --trace. Several traces of the same world play side by side on one
+slider. The step at which each first differs from the first trace is reported and marked.
 
 Examples:
   tolman run wall-follow --maze mazes/j.maze --trace one.jsonl

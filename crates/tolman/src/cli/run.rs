@@ -14,9 +14,8 @@ pub(super) use outing::{Name, Outing, carry_out as send};
 /// Sends one robot through a maze or a world and reports the result
 #[derive(clap::Args)]
 #[command(after_help = "\
-The same brain, maze, start and seed make the same run, on any machine. With the seed of a line of
-runs.jsonl, the default start and the step_limit of its world in config.toml as --steps, it is the run of
-that line.
+The same brain, maze, start and seed make the same run, on any machine. To repeat the run of a line in runs.jsonl,
+give its --seed, and as --steps the step_limit of its world in config.toml.
 
 Examples:
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg

@@ -148,7 +148,7 @@ impl Motors {
         }
     }
 
-    /// Those of the paper's robot.
+    /// Errors of the motors of the paper's robot.
     pub const PIONEER: Self = Self {
         turn_per_command: 91.0 * core::f64::consts::PI / 180.0,
         turn_sd: 0.12,

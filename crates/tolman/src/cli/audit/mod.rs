@@ -22,9 +22,12 @@ use certificates::CertificateFile;
 /// Finds which loop closures of a pose graph are right, wrong or undecided; exits 1 if one is wrong
 #[derive(clap::Args)]
 #[command(after_help = "\
-A closure is supported by independent cycles that agree with it, refuted by a certificate (a cycle beyond five standard deviations that can be
-measured again), or undecided, with the reason. The folder gets audit.html, cleaned.g2o (without the refuted closures), certificates.json and
-verdicts.csv. docs/audit.md says what the words mean.
+A closure gets one of three verdicts:
+  supported   independent cycles agree with it
+  refuted     a cycle is off by more than five standard deviations; the certificate names it, so it can be measured again
+  undecided   neither, with the reason
+
+The folder gets audit.html, cleaned.g2o (without the refuted closures), certificates.json and verdicts.csv. docs/audit.md has more.
 
 Example:
   tolman audit mazes/graphs/rooms.g2o --out audited # exits 1

@@ -17,9 +17,17 @@ use crate::cli::replay_file::{self, Overwrite};
 use crate::cli::{Failure, OrBadInput, called, file};
 
 pub(super) const EXAMPLES: &str = "\
-Into the folder go report.html, replay.html (the log played beside its map), map.svg (occupancy, and both ways over it), trajectory.tum, odometry.tum and noted.tum (the way found, by the wheels, and as
-the log notes it: time x y z qx qy qz qw, as evo reads them), and map.yaml with map.pgm, as map_server of ROS and `tolman run --world` read them; of a map of
-places also places.graphml, places.dot, places.json (node-link, as networkx reads it) and places.geojson (for nav2_route).
+The folder gets:
+  report.html                     pictures and figures
+  replay.html                     the log played beside its map
+  map.svg                         occupancy, the way found and the odometry
+  trajectory.tum                  the way found, in the format of evo: time x y z qx qy qz qw
+  odometry.tum, noted.tum         the ways by the wheels and as noted in the log, in the same format
+  map.yaml, map.pgm               the map for map_server of ROS, and for `tolman run --world`
+A map of places adds:
+  places.graphml, places.dot
+  places.json                     node-link, as networkx reads it
+  places.geojson                  for nav2_route
 
 Examples:
   tolman map --log logs/office.clf.gz --out office
