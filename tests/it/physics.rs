@@ -1,5 +1,5 @@
-//! What a run may do, whoever drives: held to the walls themselves, not to the simulator's own idea
-//! of them.
+//! What a run may do, whatever drives: compared with the walls themselves, not with the simulator's
+//! own idea of them.
 
 use tolman_arena::course::Course;
 use tolman_arena::episode;

@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: the speed of things, reported and never asserted.
+//! `cargo xtask bench`: measures speed. It reports figures and never fails because of them.
 
 use anyhow::Result;
 

@@ -1,4 +1,4 @@
-//! `cargo xtask dist`: one file that runs on every Linux of this processor.
+//! `cargo xtask dist`: builds one file that runs on every Linux of this processor.
 
 use std::process::Command;
 use std::time::Instant;
@@ -8,11 +8,11 @@ use anyhow::{Context, Result, ensure};
 
 use crate::workspace::{cargo, output, succeed, target_folder};
 
-/// How often the start is timed; the fastest counts.
+/// Number of times that the start is measured; the fastest counts.
 const STARTS: u32 = 20;
 
-/// Builds the command with all its Rust features, linked statically, and says how large it is and
-/// how long it takes to start.
+/// Builds the command with all its Rust features, linked statically, and prints its size and how
+/// long it takes to start.
 ///
 /// # Errors
 /// If the target for static linking is not installed, or the command does not build or run.

@@ -1,5 +1,5 @@
-//! `cargo xtask docs`: the API documentation builds without a warning, the links between the
-//! written pages lead somewhere, and the moving picture of README is made again.
+//! `cargo xtask docs`: builds the API documentation without warnings, checks the links of the
+//! written pages, and makes README's animated picture.
 
 mod links;
 
@@ -9,7 +9,7 @@ use anyhow::{Result, bail};
 
 use crate::workspace::{cargo, entries, read, root, succeed};
 
-/// All of it.
+/// Does all three.
 ///
 /// # Errors
 /// If rustdoc warns, a link leads nowhere or the demo fails.
@@ -19,14 +19,14 @@ pub(crate) fn run() -> Result<()> {
     pages()
 }
 
-/// Writes the moving picture of README from the run of `tolman demo`.
+/// Writes README's animated picture from the run of `tolman demo`.
 fn moving_picture() -> Result<()> {
     let demo = "run --quiet --package tolman -- demo --svg docs/images/demo.svg \
                 --out target/tmp/demo.html --force";
     succeed(&mut cargo(demo))
 }
 
-/// `cargo doc` of the workspace with all its features, warnings denied.
+/// Runs `cargo doc` on the workspace with all features; warnings are errors.
 ///
 /// # Errors
 /// If rustdoc warns.
@@ -34,7 +34,8 @@ pub(crate) fn api() -> Result<()> {
     succeed(cargo("doc --workspace --all-features --no-deps").env("RUSTDOCFLAGS", "-Dwarnings"))
 }
 
-/// Every relative link of every Markdown page names a file that exists, and a heading of it.
+/// Checks that every relative link of every Markdown page names an existing file, and a heading of
+/// it.
 ///
 /// # Errors
 /// One line for each link that leads nowhere.
@@ -63,7 +64,7 @@ pub(crate) fn pages() -> Result<()> {
     )
 }
 
-/// The Markdown files below `folder`, build products and hidden folders left out.
+/// Collects the Markdown files below `folder`, without build products and hidden folders.
 fn collect(folder: &Path, pages: &mut Vec<PathBuf>) -> Result<()> {
     for path in entries(folder)? {
         let name = path.file_name().unwrap_or_default().to_string_lossy();

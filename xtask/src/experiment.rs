@@ -1,11 +1,11 @@
-//! `cargo xtask experiment`: the `tolman experiment` command, built in release.
+//! `cargo xtask experiment`: runs `tolman experiment`, built in release.
 
 use std::ffi::OsString;
 use std::process::{Command, ExitCode};
 
 use crate::workspace;
 
-/// Runs `tolman experiment` with these arguments in the caller's folder, and ends as it ends.
+/// Runs `tolman experiment` with these arguments in the caller's folder, and returns its exit code.
 pub(crate) fn run(arguments: &[OsString]) -> ExitCode {
     let status = Command::new(workspace::cargo_program())
         .args(["run", "--release", "--package", "tolman", "--manifest-path"])
@@ -14,7 +14,7 @@ pub(crate) fn run(arguments: &[OsString]) -> ExitCode {
         .args(arguments)
         .status();
     match status {
-        // No code: ended by a signal, which is a failure.
+        // Without a code, a signal ended it, which is a failure.
         Ok(status) => status.code().map_or(ExitCode::FAILURE, exit_code),
         Err(error) => {
             eprintln!("error: cannot start cargo: {error}");

@@ -1,4 +1,4 @@
-//! `cargo xtask fuzz`: every reader of files gets almost valid ones.
+//! `cargo xtask fuzz`: gives every reader of files mutated ones.
 
 use anyhow::Result;
 
@@ -10,7 +10,7 @@ use crate::workspace::{built, cargo, succeed, target_folder};
 /// # Errors
 /// If a reader panics, takes longer than 2 s or holds more than 1 GiB.
 pub(crate) fn run(seconds: u64, seed: u64, targets: &[String]) -> Result<()> {
-    // Named by the whole workspace, so that what the tests have compiled serves.
+    // The whole workspace is named, so that what the tests have compiled is used.
     succeed(&mut cargo(
         "build --workspace --all-features --bin fuzz --quiet",
     ))?;

@@ -1,5 +1,5 @@
-//! `cargo xtask golden`: a few runs of every experiment give the values that are committed, to the
-//! bit.
+//! `cargo xtask golden`: plays a few runs of every experiment, and compares their values, to the
+//! bit, with the committed ones.
 
 use alloc::collections::BTreeSet;
 use std::fs;
@@ -10,11 +10,11 @@ use anyhow::{Context, Result, ensure};
 
 use crate::workspace::{self, cargo, succeed};
 
-/// An experiment whose runs are pinned, the runs of each row (none: those of `--quick`), and the
-/// tables of which there are more.
+/// An experiment with committed runs, the number of runs of each row (0: those of `--quick`), and
+/// the tables that have another number.
 type Pinned = (&'static str, u32, &'static [(u32, &'static str)]);
 
-/// The rows that an experiment has for a first look: the slowest are left out.
+/// Number that stands for the rows and runs of `--quick`, which leaves out the slowest.
 const QUICK: u32 = 0;
 
 const PINNED: &[Pinned] = &[
@@ -34,7 +34,7 @@ const PINNED: &[Pinned] = &[
     ("arena", QUICK, &[]),
 ];
 
-/// Of experiments with too many runs the tables that are pinned; of all others all are.
+/// Tables that are compared, for experiments with too many runs. Of all others, every table is.
 const TABLES: &[(&str, &[&str])] = &[(
     "arena",
     &[
@@ -45,13 +45,13 @@ const TABLES: &[(&str, &[&str])] = &[(
     ],
 )];
 
-/// Plays the runs of these experiments, or of all, and compares them with those in `tests/golden`;
-/// `bless` puts them there instead.
+/// Plays the runs of these experiments, or of all, and compares them with those in `tests/golden`.
+/// With `bless` it writes them there instead.
 ///
-/// They are made without the data of others, which are not everywhere.
+/// External data sets are not used, because not every machine has them.
 ///
 /// # Errors
-/// If there is no such experiment, one fails or a value is another.
+/// If there is no such experiment, one fails, or a value differs.
 pub(crate) fn run(names: &[String], bless: bool) -> Result<()> {
     let known: Vec<&str> = PINNED.iter().map(|pinned| pinned.0).collect();
     for name in names {
@@ -66,13 +66,13 @@ pub(crate) fn run(names: &[String], bless: bool) -> Result<()> {
     run_those(is_asked_for, bless, "release")
 }
 
-/// What takes longest, and is left to `cargo xtask golden` by hand.
+/// The slowest experiments, which are left to `cargo xtask golden` by hand.
 const SLOW: &[&str] = &["mslst", "mslst-sweeps", "diktiometry", "gngslam"];
 
 /// Compares all but the slowest, with the command that the tests have built.
 ///
 /// # Errors
-/// If an experiment fails or a value is another.
+/// If an experiment fails or a value differs.
 pub(crate) fn run_quick() -> Result<()> {
     run_those(|name| !SLOW.contains(&name), false, "debug")
 }
@@ -140,7 +140,7 @@ fn run_those(is_asked_for: impl Fn(&str) -> bool, bless: bool, profile: &str) ->
     Ok(())
 }
 
-/// The folder of an experiment's committed runs.
+/// Returns the folder of an experiment's committed runs.
 fn pinned(name: &str) -> PathBuf {
     workspace::root().join("tests").join("golden").join(name)
 }

@@ -1,8 +1,8 @@
-//! `cargo xtask layers`: the dependencies between the crates are those of docs/architecture.md, and
-//! one public name means one thing.
+//! `cargo xtask layers`: checks that the dependencies between the crates are those of
+//! docs/architecture.md, and that every public name means one thing.
 //!
-//! The page's tables are the rule, `cargo metadata` is the fact; [`rules::faults`] compares them.
-//! [`names::faults`] holds the names of types to docs/glossary.md.
+//! [`rules::faults`] compares the page's tables with `cargo metadata`. [`names::faults`] compares
+//! the names of types with docs/glossary.md.
 
 mod names;
 mod page;
@@ -17,10 +17,10 @@ use crate::workspace;
 pub(crate) use page::{Library, Page};
 use rules::{Kind, Package};
 
-/// Compares the workspace with the page.
+/// Compares the workspace with the pages.
 ///
 /// # Errors
-/// One line for each edge or crate that breaks a rule.
+/// One line for each dependency or crate that breaks a rule.
 pub(crate) fn run() -> Result<()> {
     let page = read_page()?;
     let packages = packages()?;
@@ -47,7 +47,7 @@ pub(crate) fn run() -> Result<()> {
     )
 }
 
-/// The tables of the architecture page.
+/// Returns the tables of the architecture page.
 ///
 /// # Errors
 /// If the page cannot be read or a row of a table is not understood.
@@ -59,7 +59,7 @@ pub(crate) fn read_page() -> Result<Page> {
 const PAGE: &str = "docs/architecture.md";
 const GLOSSARY: &str = "docs/glossary.md";
 
-/// The workspace's packages as cargo sees them.
+/// Returns the workspace's packages from `cargo metadata`.
 fn packages() -> Result<Vec<Package>> {
     packages_of(&workspace::metadata()?).context("`cargo metadata` has another form than expected")
 }

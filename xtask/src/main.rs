@@ -1,8 +1,8 @@
-//! The project's chores, one module a verb: `cargo xtask --help`.
+//! The project's chores, one module per verb: `cargo xtask --help`.
 //!
-//! It depends on none of the crates it looks after, so it builds in seconds and still runs when
-//! they do not build.
-#![expect(clippy::print_stderr, reason = "a chore reports to whoever started it")]
+//! It depends on none of the crates it checks. So it builds in seconds, and still runs when they do
+//! not build.
+#![expect(clippy::print_stderr, reason = "a chore reports on stderr")]
 
 extern crate alloc;
 
@@ -34,40 +34,40 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Verb {
-    /// Runs the experiments in release and writes their report; `experiment --help` tells more
+    /// Runs the experiments in release and writes their report; see `experiment --help`
     #[command(disable_help_flag = true)]
     Experiment {
-        /// Handed on to `tolman experiment` as they stand
+        /// Arguments for `tolman experiment`
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
-    /// Everything a change must pass: format, lints, tests, pages in a browser, docs, layers,
+    /// Runs everything a change must pass: format, lints, tests, pages in a browser, docs, layers,
     /// mazes, bare metal
     Ci {
         /// Run the remaining steps after one has failed
         #[arg(long)]
         keep_going: bool,
-        /// Also what takes long: fuzzing, the slowest golden runs, the Python module
+        /// Also run the long steps: fuzzing, the slowest golden runs, the Python module
         #[arg(long)]
         thorough: bool,
     },
     /// Plays a few runs of every experiment and compares them, to the bit, with those in
     /// tests/golden
     Golden {
-        /// The experiments; all of them when left out
+        /// Experiments to play; all if left out
         names: Vec<String>,
-        /// Put the runs into tests/golden instead
+        /// Write the runs to tests/golden instead
         #[arg(long)]
         bless: bool,
     },
-    /// Holds the dependencies between the crates to the tables of docs/architecture.md
+    /// Compares the dependencies between the crates with the tables of docs/architecture.md
     Layers,
     /// Reads every maze in mazes/ and checks that it can be solved, and that the fragments of Mazes
     /// 1 to 3 of CPM are distinctive
     Mazes,
     /// Measures the speed: all criterion benches and the long ray fuzz, or one bench
     Bench {
-        /// The bench to run; all of them when left out
+        /// Bench to run; all if left out
         name: Option<String>,
     },
     /// Checks that comments keep to 100 columns, and that comments, messages and pages use plain
@@ -75,22 +75,22 @@ enum Verb {
     Prose,
     /// Builds the command as one file that runs on every Linux of this processor: target/dist
     Dist,
-    /// Gives every reader of files, or those named, almost valid ones; exits 1 if one panics, takes
-    /// longer than 2 s or holds more than 1 GiB
+    /// Gives every reader of files, or those named, mutated files; exits 1 if one panics, takes
+    /// longer than 2 s or uses more than 1 GiB
     Fuzz {
-        /// How long altogether, seconds
+        /// Duration of the whole run, seconds
         #[arg(long, default_value_t = 60)]
         seconds: u64,
-        /// What the files are drawn from
+        /// Seed of the mutations
         #[arg(long, default_value_t = 1)]
         seed: u64,
-        /// Formats, such as `carmen` or `map_of_cpm`; all of them when left out
+        /// Formats, such as `carmen` or `map_of_cpm`; all if left out
         targets: Vec<String>,
     },
-    /// Builds the Python module, installs it into target/python and runs its tests; needs Python
-    /// and its packages, and says so where they are not there
+    /// Builds the Python module, installs it into target/python and runs its tests; skipped with a
+    /// note if Python or a package is missing
     Python,
-    /// Builds the API documentation, makes the moving picture of README and checks the links of the
+    /// Builds the API documentation, makes README's animated picture and checks the links of the
     /// written pages
     Docs,
 }

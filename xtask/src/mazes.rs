@@ -1,5 +1,5 @@
-//! `cargo xtask mazes`: every maze of the project can be read and solved, and the fragments of
-//! Mazes 1 to 3 of CPM are distinctive.
+//! `cargo xtask mazes`: checks that every maze of the project can be read and solved, and that the
+//! fragments of Mazes 1 to 3 of CPM are distinctive.
 
 use std::process::Command;
 
@@ -10,7 +10,7 @@ use crate::workspace;
 /// "Every path-fragment in the environment is distinctive" (CPM, section 4.3).
 const DISTINCTIVE: [&str; 3] = ["cpm-1.maze", "cpm-2.maze", "cpm-3.maze"];
 
-/// Builds the command and lets it check all files in `mazes/`.
+/// Builds the command and checks all files in `mazes/` with it.
 ///
 /// # Errors
 /// If there is none, or one of them is refused.
@@ -18,7 +18,8 @@ pub(crate) fn run() -> Result<()> {
     check_with(|| Ok(workspace::cargo("run --quiet --package tolman --")))
 }
 
-/// Lets `tolman` check all files in `mazes/`, and an e-puck walk those that have to be distinctive.
+/// Checks all files in `mazes/` with `tolman`, and lets an e-puck walk those that have to be
+/// distinctive.
 ///
 /// # Errors
 /// As [`run`].

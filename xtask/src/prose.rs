@@ -1,5 +1,5 @@
-//! `cargo xtask prose`: comments keep to the code's width, and neither comments, messages nor pages
-//! use a phrase for which the project has a better word.
+//! `cargo xtask prose`: checks that comments keep to the code's width, and that comments, messages
+//! and pages use no phrase for which the project has a better word.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 
 use crate::workspace::{entries, read, root};
 
-/// The longest line of a comment, in characters, as rustfmt's `max_width`.
+/// Maximum length of a comment's line, in characters, as rustfmt's `max_width`.
 const WIDTH: usize = 100;
 
 /// Phrases that read as translated, each with what to write instead. Lower case, whole words.
@@ -30,6 +30,25 @@ const PHRASES: &[(&str, &str)] = &[
     ("on the spot", "\"in place\""),
     ("nobody has been through", "\"unexplored\""),
     ("that in which", "what it is, by its noun"),
+    ("that which", "what it is, by its noun"),
+    ("whoever", "who it is, such as \"the caller\""),
+    ("nobody is left", "what cannot be done"),
+    ("held against", "\"compared with\""),
+    ("takes itself", "\"believes that it is\""),
+    ("took itself", "\"believed that it was\""),
+    ("taken for one of", "\"counts as one of\""),
+    ("amid a", "\"in the middle of\" or \"inside\""),
+    (
+        "so far apart",
+        "the distance, as in \"at least `spacing` apart, m\"",
+    ),
+    ("to the letter", "\"literally\""),
+    ("is no number", "\"is not a number\""),
+    ("is no length", "\"is not a positive length\""),
+    ("is no text", "\"is not text\""),
+    ("that there is not", "what is missing"),
+    ("a line each", "\"one per line\""),
+    ("one a core", "\"one per core\""),
 ];
 
 /// "There is none" is plain English.
@@ -56,7 +75,7 @@ pub(crate) fn run() -> Result<()> {
     bail!("{} lines to reword:\n{}", faults.len(), faults.join("\n"))
 }
 
-/// How the prose of a file is told from the rest.
+/// Kind of file, which decides where its prose is.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Rust,
@@ -76,7 +95,7 @@ impl Kind {
 /// A line to reword.
 #[derive(Debug, PartialEq)]
 struct Fault {
-    /// Counted from 1.
+    /// Line number, counted from 1.
     line: usize,
     /// What is wrong and what to write.
     what: String,
@@ -114,8 +133,7 @@ fn faults_of(text: &str, kind: Kind) -> Vec<Fault> {
     faults
 }
 
-/// Returns whether `phrase` stands as whole words in the first `length` bytes of `text`, or begins
-/// there.
+/// Returns whether `phrase` begins, as whole words, in the first `length` bytes of `text`.
 fn begins_in(text: &str, length: usize, phrase: &str) -> bool {
     text.match_indices(phrase).any(|(start, _)| {
         let (before, rest) = (&text[..start], &text[start..]);
@@ -133,7 +151,7 @@ fn begins_in(text: &str, length: usize, phrase: &str) -> bool {
 }
 
 /// Returns the words of a line in lower case: of a comment without its slashes, of a line of code
-/// only what stands in quotes, of a page all.
+/// only what is in quotes, of a page all.
 fn prose(line: &str, kind: Kind) -> String {
     let line = line.trim();
     let words = match kind {
@@ -152,8 +170,8 @@ fn prose(line: &str, kind: Kind) -> String {
     words.to_lowercase()
 }
 
-/// Collects the Rust files and pages below `folder`, without build products, hidden folders, this
-/// list itself and the notebooks, which keep their history's words.
+/// Collects the Rust files and pages below `folder`. Build products, hidden folders and this list
+/// itself are left out. So are the notebooks, which keep their old words.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<()> {
     for path in entries(folder)? {
         let name = path.file_name().unwrap_or_default().to_string_lossy();

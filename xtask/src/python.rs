@@ -1,5 +1,5 @@
-//! `cargo xtask python`: the Python module is built, installed and tested in an environment of its
-//! own, `target/python`.
+//! `cargo xtask python`: builds, installs and tests the Python module in an environment of its own,
+//! `target/python`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,17 +10,17 @@ use anyhow::{Context, Result, bail};
 use crate::ci::Outcome;
 use crate::workspace::{self, entries, succeed, target_folder};
 
-/// What the module is built and tested with.
+/// Packages to build and test the module with.
 const PACKAGES: &[&str] = &["maturin>=1.9,<2", "pytest", "mypy", "networkx", "gymnasium"];
 
 /// MDP 3.6 uses names that later versions of numpy dropped, and this one has wheels for Python 3.9
 /// to 3.11.
 const WITH_MDP: &[&str] = &["MDP==3.6", "numpy==1.23.5", "setuptools<60"];
 
-/// What serves where those cannot be installed; the comparison with MDP is then skipped.
+/// Packages to use where those cannot be installed. The comparison with MDP is then skipped.
 const WITHOUT_MDP: &[&str] = &["numpy"];
 
-/// Where the crate lies.
+/// Folder of the crate.
 const CRATE: &str = "crates/python";
 
 /// Tests the module, or says why it does not.
@@ -36,10 +36,10 @@ pub(crate) fn run() -> Result<()> {
 }
 
 /// Builds the wheel in release, installs it and runs its tests, if Python and its packages are
-/// there.
+/// available.
 ///
 /// # Errors
-/// If a step fails for another reason than that they are not.
+/// If a step fails for another reason than that they are missing.
 pub(crate) fn check() -> Result<Outcome> {
     let Some(system) = system_python() else {
         let why = "there is no Python 3.9 or newer with the module venv (PYTHON names another)";
@@ -83,7 +83,7 @@ fn system_python() -> Option<PathBuf> {
     })
 }
 
-/// Python with the packages that are needed, apart from those of the system.
+/// A Python with the packages that are needed, apart from those of the system.
 struct Environment<'a> {
     folder: &'a Path,
 }
@@ -101,7 +101,7 @@ impl Environment<'_> {
         Command::new(self.program("python"))
     }
 
-    /// Makes it again from nothing, and returns whether all that must be there could be installed.
+    /// Makes it again from nothing, and returns whether all required packages could be installed.
     fn make(&self, system: &Path) -> Result<bool> {
         let mut make = Command::new(system);
         succeed(make.args(["-m", "venv", "--clear"]).arg(self.folder))?;
@@ -111,7 +111,7 @@ impl Environment<'_> {
                 return Ok(false);
             }
         }
-        // Last, since an environment that has maturin is taken for whole.
+        // Last, because an environment with maturin counts as complete.
         Ok(self.install(PACKAGES).is_ok())
     }
 

@@ -1,4 +1,4 @@
-//! Where the workspace lies, and starting other programs in it.
+//! The workspace's folders, and starting other programs in it.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,18 +7,18 @@ use std::{env, fs};
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 
-/// The folder of the workspace's `Cargo.toml`.
+/// Returns the folder of the workspace's `Cargo.toml`.
 pub(crate) fn root() -> &'static Path {
     let xtask = Path::new(env!("CARGO_MANIFEST_DIR"));
     xtask.parent().unwrap_or(xtask)
 }
 
-/// The cargo that runs this chore.
+/// Returns the cargo that runs this chore.
 pub(crate) fn cargo_program() -> PathBuf {
     env::var_os("CARGO").map_or_else(|| PathBuf::from("cargo"), PathBuf::from)
 }
 
-/// `cargo` with these arguments, separated by spaces, in the workspace's root.
+/// Returns `cargo` with these arguments, separated by spaces, in the workspace's root.
 pub(crate) fn cargo(arguments: &str) -> Command {
     let mut command = Command::new(cargo_program());
     command
@@ -27,7 +27,7 @@ pub(crate) fn cargo(arguments: &str) -> Command {
     command
 }
 
-/// What `cargo metadata` says of the workspace's members.
+/// Returns what `cargo metadata` says of the workspace's members.
 ///
 /// # Errors
 /// If cargo cannot read a manifest.
@@ -36,12 +36,12 @@ pub(crate) fn metadata() -> Result<Value> {
     serde_json::from_str(&text).context("`cargo metadata` is not JSON")
 }
 
-/// The text of a file.
+/// Returns the text of a file.
 pub(crate) fn read(path: &Path) -> Result<String> {
     fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
 }
 
-/// What lies in a folder, by name.
+/// Returns the paths in a folder, sorted by name.
 pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
     let entries =
         fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()))?;
@@ -52,7 +52,7 @@ pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// The folder that cargo builds into.
+/// Returns the folder that cargo builds into.
 ///
 /// # Errors
 /// As [`metadata`].
@@ -64,7 +64,7 @@ pub(crate) fn target_folder() -> Result<PathBuf> {
         .context("cargo names no target folder")
 }
 
-/// A command of the workspace as the tests built it, in the workspace's root.
+/// Returns a command of the workspace as the tests built it, in the workspace's root.
 ///
 /// # Errors
 /// As [`metadata`].
@@ -74,7 +74,7 @@ pub(crate) fn built(name: &str) -> Result<Command> {
     Ok(command)
 }
 
-/// Runs a command to its end and asks for success.
+/// Runs a command to its end.
 ///
 /// # Errors
 /// If it cannot be started or does not exit with 0.
@@ -105,7 +105,7 @@ pub(crate) fn output(command: &mut Command) -> Result<String> {
     String::from_utf8(output.stdout).with_context(|| format!("`{shown}` did not write UTF-8"))
 }
 
-/// Whether `program` can be started at all.
+/// Returns whether `program` can be started.
 pub(crate) fn installed(program: &str) -> bool {
     Command::new(program)
         .arg("--version")

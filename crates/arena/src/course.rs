@@ -33,7 +33,7 @@ pub enum CourseError {
     /// The maze marks no start.
     #[error("the maze marks no start: mark a cell with S")]
     NoStart,
-    /// There is no cell to start from: every cell that can reach the destination is part of it.
+    /// No cell is left to start from: every cell that can reach the destination is part of it.
     #[error("no cell outside the destination can reach it: open a way to it")]
     CutOff,
     /// The world has no destination.
@@ -42,7 +42,7 @@ pub enum CourseError {
     /// The world has no start.
     #[error("the world has no zone `start`: add one to its file")]
     NoStartZone,
-    /// There is no place to start from in a world.
+    /// A world has no place to start from.
     #[error(
         "nowhere outside the destination can a robot {diameter} m across stand and reach it: open a way that is at least half its radius wider, or put the destination elsewhere with --goal X,Y"
     )]

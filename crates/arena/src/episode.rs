@@ -36,7 +36,7 @@ pub struct Trial<'a> {
     pub seed: u64,
 }
 
-/// A robot that is lifted in the middle of a run and put down elsewhere. Nobody tells its brain.
+/// A robot that is lifted in the middle of a run and put down elsewhere. Its brain is not told.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lifted {
     /// Time steps after which it is lifted, at the end of the action under way.
@@ -118,7 +118,7 @@ pub fn run_lifted(
     })
 }
 
-/// Runs like [`run_lifted`], until `watch` breaks off: the run then ends with the action under way.
+/// Runs like [`run_lifted`], until `watch` breaks. The run then ends with the present action.
 ///
 /// # Errors
 /// As [`run_lifted`].

@@ -260,7 +260,7 @@ mod tests {
                     let maze = (family.draw)(size, rng).unwrap();
                     let name = family.name;
                     assert_eq!(maze.check(), Ok(()), "{name}\n{maze}");
-                    // Within the J there is floor that nobody gets to.
+                    // Inside the J there is floor that cannot be reached.
                     assert!(
                         name == "papers" || maze.sealed().count() == 0,
                         "{name}\n{maze}"

@@ -10,7 +10,7 @@ pub type AnyBrain = dyn Brain<Observation = TimeStep, Error = Infallible>;
 /// A brain of any kind that uses wheel encoders.
 pub type AnyRollingBrain = dyn Brain<Observation = RolledStep, Error = Infallible>;
 
-/// Whoever chooses the actions in an [episode](crate::episode).
+/// The brain or system that chooses the actions in an [episode](crate::episode).
 #[derive(Debug)]
 pub enum Mind {
     /// One that perceives.

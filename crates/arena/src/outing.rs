@@ -79,13 +79,13 @@ pub trait Outing: InRun {
     /// Measures from now on how long the system thinks.
     fn measure(&mut self, _stopwatch: Stopwatch) {}
 
-    /// Returns how long the system thought while that was measured, the robot's own time aside.
+    /// Returns the system's own computing time while it was measured, without the robot's.
     fn thinking(&self) -> Duration {
         Duration::ZERO
     }
 
-    /// Lifts the robot, puts it down at `pose` and tells the system, and returns whether that goes
-    /// on.
+    /// Lifts the robot, puts it down at `pose` and tells the system. Returns whether the system can
+    /// continue.
     ///
     /// # Errors
     /// If the robot cannot stand there.
@@ -117,7 +117,7 @@ pub trait Outing: InRun {
     /// # Errors
     /// If there is no such door.
     fn set_door(&mut self, name: &str, _state: DoorState) -> Result<(), BoxError> {
-        Err(format!("nobody opens or shuts its door {name}").into())
+        Err(format!("its door {name} cannot be opened or shut").into())
     }
 
     /// Returns where the places of the map truly lie, as far as that is known, for pictures.

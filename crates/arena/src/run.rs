@@ -16,7 +16,7 @@ pub struct Limited<R: Robot> {
     steps: u32,
     step_limit: u32,
     stopwatch: Option<Stopwatch>,
-    /// Time that the robot itself took, while somebody measured it.
+    /// Time that the robot itself took, while times are measured.
     stepping: Duration,
 }
 
@@ -112,7 +112,7 @@ impl<R: SensesLandmarks> SensesLandmarks for Limited<R> {
     }
 }
 
-/// A robot in a run, or who drives it.
+/// A robot in a run, with what drives it.
 pub trait InRun {
     /// Returns the number of time steps that the robot has made.
     fn steps(&self) -> u32;
@@ -138,7 +138,7 @@ pub struct Ended {
     pub end: TaskEnd,
     /// Actions that were begun.
     pub actions: u32,
-    /// Time steps made in all runs of this robot so far.
+    /// Number of time steps made in all runs of this robot so far.
     pub steps: u32,
 }
 
@@ -199,7 +199,7 @@ pub fn until_done<D: InRun + ?Sized, E>(
             Ok(Standing::UnderWay) => {}
             Ok(Standing::Done) => break TaskEnd::Done,
             Ok(Standing::GaveUp { why }) => break TaskEnd::GaveUp { why },
-            // It broke off amid an action, as it had to.
+            // It had to break off in the middle of an action.
             Err(_) if robot.is_out_of_time() => break TaskEnd::OutOfTime,
             Err(failure) => return Err(failure),
         }

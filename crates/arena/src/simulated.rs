@@ -80,7 +80,7 @@ impl<M: Model> Simulated<M> {
         self.solo.place(pose)
     }
 
-    /// Opens or shuts a door of the world it is in.
+    /// Opens or shuts a door of its world.
     ///
     /// # Errors
     /// If there is no such door.

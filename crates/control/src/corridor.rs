@@ -28,13 +28,13 @@ pub enum RingError {
         /// Bearing from beam to beam, rad.
         spacing: f64,
     },
-    /// The corridor's width is no length.
+    /// The corridor's width is not a positive length.
     #[error("the corridor is {width} m wide; give a finite width above 0 m")]
     Width {
         /// The width given, m.
         width: f64,
     },
-    /// The robot's diameter is no length.
+    /// The robot's diameter is not a positive length.
     #[error("the robot is {robot_unit} m in diameter; give a finite diameter above 0 m")]
     RobotUnit {
         /// The diameter given, m.
@@ -80,7 +80,8 @@ impl CorridorDetector {
     /// Returns a detector for `ring` in corridors `width` metres wide.
     ///
     /// # Errors
-    /// [`RingError`] if the ring is no full circle of quarters or the width is no length.
+    /// [`RingError`] if the ring is not a full circle of quarters or the width is not a positive
+    /// length.
     pub fn new(ring: Ring, width: f64) -> Result<Self, RingError> {
         if ring.beams < 8 || !ring.beams.is_multiple_of(4) {
             return Err(RingError::Quarters { beams: ring.beams });

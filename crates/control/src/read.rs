@@ -1,5 +1,4 @@
-//! Reads the numbers of a configuration and refuses those without sense: a file is as little to be
-//! trusted as whoever wrote it.
+//! Reads the numbers of a configuration and refuses invalid ones: files cannot be trusted.
 
 use serde::de::{Deserialize, Deserializer, Error, Unexpected};
 

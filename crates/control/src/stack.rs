@@ -21,12 +21,12 @@ pub struct Stack {
 }
 
 impl Stack {
-    /// Returns a stack of any layers, the highest first, round one detector.
+    /// Returns a stack of any layers, the highest first, with a shared detector.
     ///
-    /// Whether every action ends is up to the layers. [`Stack::paper`] ends them all; a stack
+    /// Whether every action ends is up to the layers. [`Stack::paper`] ends them all. A stack
     /// without [`Settle`] can turn to and fro forever, and one without [`Move`] has no end of its
-    /// own. A [`Drive`](crate::Drive) breaks such an action off as [`Outcome::TimedOut`]; whoever
-    /// calls [`correct`](Self::correct) counts the time steps.
+    /// own. A [`Drive`](crate::Drive) breaks such an action off as [`Outcome::TimedOut`]. If you
+    /// call [`correct`](Self::correct) yourself, count the time steps.
     #[must_use]
     pub fn new(detector: CorridorDetector, layers: Vec<Box<dyn Layer + Send>>) -> Self {
         Self {
@@ -41,7 +41,7 @@ impl Stack {
     /// through `ring`, in corridors `width` metres wide.
     ///
     /// # Errors
-    /// [`RingError`] if the ring is no full circle of quarters or a length is invalid.
+    /// [`RingError`] if the ring is not a full circle of quarters or a length is invalid.
     pub fn paper(ring: Ring, robot_unit: f64, width: f64) -> Result<Self, RingError> {
         if !(robot_unit.is_finite() && robot_unit > 0.0) {
             return Err(RingError::RobotUnit { robot_unit });

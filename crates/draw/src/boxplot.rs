@@ -9,20 +9,21 @@ use super::{Drawing, Series};
 use tolman_stats::{FiveNumbers, five_numbers};
 
 const LEFT: f64 = 52.0;
-/// Room for the title of the value axis.
+/// Height for the title of the value axis, user units.
 const TOP: f64 = 30.0;
 const PLOT_HEIGHT: f64 = 260.0;
 const BOTTOM: f64 = 34.0;
-/// Characters of a row's name in one line below its box.
+/// Maximum number of characters in one line of a row's name below its box.
 const NAME: usize = 18;
 const SLOT: f64 = 128.0;
 const BOX: f64 = 38.0;
-/// Room for the dots beside a box.
+/// Width for the dots beside a box, user units.
 const DOTS: f64 = 44.0;
-/// Distance of dots of nearly the same value, and the height of the band they share.
+/// Distance of dots with nearly the same value, and the height of the band that they share, user
+/// units.
 const DOT: f64 = 3.2;
 
-/// One run in a box plot.
+/// A run in a box plot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dot {
     /// The measured value, kept with the dot as `data-value`.
@@ -38,7 +39,7 @@ pub struct Dot {
 pub struct PaperMark {
     /// The mean.
     pub mean: f64,
-    /// The standard deviation, where it is given.
+    /// The standard deviation; `None` if the paper gives none.
     pub sd: Option<f64>,
 }
 
@@ -49,16 +50,16 @@ pub struct BoxGroup {
     pub row: String,
     /// The colour.
     pub series: Series,
-    /// The runs; values that are not finite are left out.
+    /// The runs; non-finite values are left out.
     pub dots: Vec<Dot>,
     /// Value of the paper.
     pub paper: Option<PaperMark>,
 }
 
 /// A box plot: R-7 quartiles, whiskers to the last datum within 1.5 interquartile ranges, every run
-/// a dot beside its box, and a diamond with a bar for the paper's mean ± standard deviation.
+/// as a dot beside its box, and a diamond with a bar for the paper's mean ± standard deviation.
 ///
-/// The value axis begins at 0, or below the least value if that is negative.
+/// The value axis begins at 0, or below the smallest value if that is negative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoxPlot {
     /// The table it shows, kept with the dots as `data-table`.
@@ -131,7 +132,7 @@ impl BoxPlot {
         }
     }
 
-    /// Returns the five numbers of each box in words.
+    /// Returns a description of each box: number of runs, median, quartiles and whiskers.
     fn describe(&self) -> String {
         let mut text = format!(
             "Box plot of {} for each row of table {}.",
@@ -192,8 +193,8 @@ fn paper_mark(paper: PaperMark, x: f64, y: &impl Fn(f64) -> f64) -> Markup {
     }
 }
 
-/// Places the dots. Those that share a band of the value axis lie side by side from `left` on, so
-/// that a crowd looks wide; a crowd too wide for its room is packed closer.
+/// Places the dots. Those in the same band of the value axis are side by side from `left` on, so
+/// that a crowd looks wide. A crowd that is too wide is packed closer.
 fn swarm(dots: &[Dot], left: f64, y: &impl Fn(f64) -> f64) -> Vec<(f64, Dot)> {
     let band = |dot: &Dot| (y(dot.value) / DOT).floor() as i64;
     let mut sorted = dots.to_vec();

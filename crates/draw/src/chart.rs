@@ -1,4 +1,5 @@
-//! A frame with two axes: lines with bands of spread, points, graphs and pictures over them.
+//! Charts: a frame with two axes that holds lines with bands of spread, points, graphs and
+//! pictures.
 
 use maud::{Markup, html};
 use tolman_geom::Point;
@@ -9,12 +10,12 @@ use super::words;
 use super::{Drawing, GraphPicture, Image, Series};
 use tolman_stats::ConfidenceInterval;
 
-/// Room for the labels of the value axis.
+/// Width for the labels of the value axis, user units.
 const LEFT: f64 = 56.0;
 const RIGHT: f64 = 22.0;
-/// Room for the title of the value axis.
+/// Height for the title of the value axis, user units.
 const TOP: f64 = 24.0;
-/// Room for the labels and the title of the other axis.
+/// Height for the labels and the title of the other axis, user units.
 const BOTTOM: f64 = 42.0;
 
 /// One axis of a [`Chart`].
@@ -27,7 +28,7 @@ pub struct Axis {
     ticks: Ticks,
 }
 
-/// Possible labels of an axis.
+/// How the labels of an axis are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ticks {
     Anywhere,
@@ -35,7 +36,7 @@ enum Ticks {
 }
 
 impl Axis {
-    /// Returns an axis on which equal differences are equally long, as far as the data go.
+    /// Returns a linear axis whose range is that of the data.
     pub fn linear(title: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -46,15 +47,15 @@ impl Axis {
         }
     }
 
-    /// Labels whole numbers alone, as of what is counted.
+    /// Labels only whole numbers, as for counts.
     #[must_use]
     pub const fn whole_numbers(mut self) -> Self {
         self.ticks = Ticks::AtWholeNumbers;
         self
     }
 
-    /// Returns an axis on which equal ratios are equally long, in whole powers of ten. Values that
-    /// are not positive have no place on it.
+    /// Returns a logarithmic axis, from one whole power of ten to another. Values that are not
+    /// positive are left out.
     pub fn log(title: impl Into<String>) -> Self {
         Self {
             spacing: Spacing::Log,
@@ -62,21 +63,21 @@ impl Axis {
         }
     }
 
-    /// Lets the axis begin at 0 and end at a round number.
+    /// Makes the axis begin at 0 and end at a round number.
     #[must_use]
     pub const fn from_zero(mut self) -> Self {
         self.from_zero = true;
         self
     }
 
-    /// Sets the ends; what lies beyond them is cut off.
+    /// Sets the range; what lies beyond it is cut off.
     #[must_use]
     pub const fn between(mut self, low: f64, high: f64) -> Self {
         self.ends = Some(ConfidenceInterval::new(low, high));
         self
     }
 
-    /// Returns the scale for `values`, with about `steps` steps.
+    /// Returns the scale for `values`, with about `steps` labels.
     fn scale(&self, values: impl Iterator<Item = f64>, steps: f64) -> Scale {
         let positive = self.spacing == Spacing::Log;
         let usable = |value: &f64| value.is_finite() && (!positive || *value > 0.0);
@@ -141,7 +142,7 @@ pub struct Chart {
     layers: Vec<Layer>,
 }
 
-/// Whether a unit is as long on one axis as on the other.
+/// Whether a unit has the same length on both axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Aspect {
     Free,
@@ -183,9 +184,9 @@ impl Line {
 pub struct LinePoint {
     /// Position on the first axis.
     pub x: f64,
-    /// The value.
+    /// Value on the second axis.
     pub y: f64,
-    /// Spread of values around it: quartiles, a 95 % interval, extremes.
+    /// Spread around the value: quartiles, a 95 % interval or extremes.
     pub spread: Option<ConfidenceInterval>,
 }
 
@@ -203,7 +204,7 @@ impl LinePoint {
     }
 }
 
-/// A picture with its middle at a place of a chart.
+/// A picture with its middle at a point of a chart.
 #[derive(Clone, Debug, PartialEq)]
 struct Pinned {
     at: Point,
@@ -224,7 +225,7 @@ pub struct Points {
 }
 
 impl Points {
-    /// Returns these points.
+    /// Returns a set of points.
     pub fn new(label: impl Into<String>, series: Series, positions: Vec<Point>) -> Self {
         Self {
             label: label.into(),
@@ -255,8 +256,8 @@ impl Chart {
         self
     }
 
-    /// Makes a unit as long on one axis as on the other, if both are linear; the height follows
-    /// from the width and the data.
+    /// Gives a unit the same length on both axes, if both are linear. The height then follows from
+    /// the width and the data.
     #[must_use]
     pub const fn equal(mut self) -> Self {
         self.aspect = Aspect::Equal;
@@ -278,7 +279,7 @@ impl Chart {
         self.layers.push(Layer::Graph(graph));
     }
 
-    /// Adds an image with its middle at a place, `width` user units wide. The note shows when the
+    /// Adds an image with its middle at a point, `width` user units wide. The note appears when the
     /// pointer rests on it.
     pub fn image(&mut self, at: Point, image: Image, width: f64, note: impl Into<String>) {
         let note = note.into();
@@ -290,7 +291,7 @@ impl Chart {
         }));
     }
 
-    /// Returns the finished picture; `description` says in words what it shows.
+    /// Returns the finished picture. `description` says in words what it shows.
     pub fn drawing(&self, description: impl Into<String>) -> Drawing {
         let (legend, legend_height) = self.legend();
         let top = TOP + legend_height;
@@ -315,7 +316,7 @@ impl Chart {
             (legend)
             g transform={ "translate(" (tenths(LEFT)) " " (tenths(top)) ")" } {
                 (frame.axes(&self.x.title))
-                // An inner picture cuts off what lies beyond its edges.
+                // An inner SVG element cuts off what lies beyond its edges.
                 svg width=(tenths(width)) height=(tenths(height)) {
                     @for layer in &self.layers { (frame.layer(layer)) }
                 }
@@ -329,7 +330,7 @@ impl Chart {
         }
     }
 
-    /// Returns all that needs room, as pairs of values.
+    /// Returns everything that the axes have to cover, as pairs of values.
     fn positions(&self) -> impl Iterator<Item = (f64, f64)> {
         self.layers.iter().flat_map(|layer| -> Vec<(f64, f64)> {
             match layer {
@@ -402,7 +403,7 @@ struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// Returns where a pair of values lies; `None` if it has no place.
+    /// Returns the position of a pair of values in the picture; `None` if it has none.
     fn at(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         let at = (
             self.x.share(x) * self.width,
@@ -437,7 +438,7 @@ impl Frame<'_> {
         match layer {
             Layer::Line(line) => self.line(line),
             Layer::Points(points) => self.points(points),
-            // A node without a place is drawn as one that is not finite: not at all.
+            // A node without a position is passed on as non-finite, and so is not drawn.
             Layer::Graph(graph) => {
                 let mut graph = graph.clone();
                 for node in &mut graph.nodes {
@@ -560,7 +561,7 @@ mod tests {
         let corners = corners.map(|(x, y)| Point::new(x, y)).to_vec();
         chart.points(Points::new("data", Series(1), corners));
         let drawing = chart.drawing("a rectangle");
-        // Half as high as wide, and a row for the legend.
+        // Half as high as wide, and one row for the legend.
         let height = drawing.height - TOP - BOTTOM - 18.0;
         assert!((height - 50.0).abs() < 1e-9, "{height}");
     }

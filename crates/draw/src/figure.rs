@@ -5,9 +5,9 @@ use maud::{Markup, PreEscaped, html};
 use super::number::tenths;
 
 /// Returns the style rules of all drawings, with the colours of the light and the dark scheme. A
-/// file that stands alone carries them itself; a page carries them once.
+/// stand-alone file contains them itself; a page contains them once.
 ///
-/// The reader's scheme decides, unless the root element's `data-theme` says `light` or `dark`.
+/// The reader's scheme decides, unless the root element's `data-theme` is `light` or `dark`.
 pub const fn style() -> &'static str {
     concat!(
         ":root { color-scheme: light;\n",
@@ -42,9 +42,9 @@ pub struct Figure {
     pub name: String,
     /// Title, in a few words.
     pub title: String,
-    /// How to read it; empty if nothing need be said.
+    /// How to read it; empty if that is clear.
     pub caption: String,
-    /// The table it belongs to; `None` puts it behind all tables.
+    /// Table that it belongs to; `None` puts it after all tables.
     pub table: Option<String>,
     /// The picture.
     pub drawing: Drawing,
@@ -62,21 +62,21 @@ impl Figure {
         }
     }
 
-    /// Says how to read it.
+    /// Sets the caption, which says how to read it.
     #[must_use]
     pub fn caption(mut self, caption: impl Into<String>) -> Self {
         self.caption = caption.into();
         self
     }
 
-    /// Puts it with a table.
+    /// Sets the table that it belongs to.
     #[must_use]
     pub fn table(mut self, table: impl Into<String>) -> Self {
         self.table = Some(table.into());
         self
     }
 
-    /// Returns the picture as an element of a page that carries [`style`].
+    /// Returns the picture as an element for a page that contains [`style`].
     pub fn inline(&self) -> Markup {
         self.element(None, &html! {})
     }
@@ -118,7 +118,7 @@ impl Figure {
     }
 }
 
-/// Returns what no XML document may hold, not even escaped.
+/// Returns whether XML forbids a character, even escaped.
 const fn forbidden_in_xml(c: char) -> bool {
     matches!(c, '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}')
 }

@@ -18,9 +18,9 @@ const MARGIN: f64 = 8.0;
 pub enum ZoneStyle {
     /// Destination of the robot.
     Destination,
-    /// A part of the floor that is told apart.
+    /// A part of the floor that is marked.
     Region,
-    /// No floor at all: walled off.
+    /// Walled off: no floor.
     Solid,
 }
 
@@ -74,8 +74,8 @@ impl FloorPlan {
         }
     }
 
-    /// Returns a plan that is `width` user units wide and holds all walls. Walls lie above every
-    /// layer. Without a wall of some extent the plan shows one square metre around it.
+    /// Returns a plan that is `width` user units wide and holds all walls. Walls are drawn above
+    /// every layer. If all walls are at one point, the plan shows one square metre around it.
     pub fn of_walls(walls: &[[Point; 2]], width: f64) -> Self {
         Self::of_walls_and(walls, &[], width)
     }
@@ -95,8 +95,8 @@ impl FloorPlan {
         Self::of_world_holding(world, &[], width)
     }
 
-    /// Returns a plan of a world that is large enough for these points, too, as what a robot
-    /// believes may lie beyond the walls.
+    /// Returns a plan of a world that is also large enough for these points. What a robot believes
+    /// may lie beyond the walls.
     pub fn of_world_holding(world: &World, held: &[Point], width: f64) -> Self {
         let walls = world.walls().iter();
         let walls: Vec<[Point; 2]> = walls.map(|wall| [wall.start, wall.end]).collect();
@@ -105,12 +105,13 @@ impl FloorPlan {
         plan
     }
 
-    /// Adds a scale bar below the plan, which a plan of a world has: its units are metres.
+    /// Adds a scale bar below the plan, which requires that its units are metres. A plan of a world
+    /// has one already.
     pub fn scale_bar(&mut self) {
         self.key.scale = Some(self.scale);
     }
 
-    /// Says below the plan what a sign means.
+    /// Adds the meaning of a sign to the key below the plan.
     pub fn key(&mut self, mark: KeyMark, series: Series, meaning: impl Into<String>) {
         self.key.entries.push((mark, series, meaning.into()));
     }
@@ -148,8 +149,8 @@ impl FloorPlan {
         self.stroke("trajectory faint", None, positions, series);
     }
 
-    /// Adds a broad band along positions, without ends: a way of a map, above which other things
-    /// can be seen.
+    /// Adds a broad band along positions, without ends: a way on a map that leaves other things
+    /// visible.
     pub fn way(&mut self, positions: &[Point], series: Series) {
         self.stroke("way", None, positions, series);
     }
@@ -192,7 +193,7 @@ impl FloorPlan {
         self.layers.push(markup);
     }
 
-    /// Adds where something may be.
+    /// Adds a region where something may be.
     pub fn region(&mut self, region: &Region, series: Series) {
         let class = format!("uncertain {}", series.class());
         let markup = match *region {
@@ -228,9 +229,9 @@ impl FloorPlan {
         self.layers.push(markup);
     }
 
-    /// Adds square cells, `side` metres wide, each with its middle and its value, coloured by the
-    /// depth of `shade`; values that are not finite are left out. Below the plan stands what the
-    /// colours mean, once for all cells: give every call the same shade.
+    /// Adds square cells, `side` metres wide, each with its middle and its value. `shade` colours
+    /// them; non-finite values are left out. The key below the plan appears once, so give every
+    /// call the same shade.
     ///
     /// ```
     /// use tolman_draw::{FloorPlan, Shade};
@@ -246,7 +247,7 @@ impl FloorPlan {
     /// ```
     pub fn cells(&mut self, cells: &[(Point, f64)], side: f64, shade: &Shade) {
         let size = side * self.scale;
-        // Values are written where there is room for them.
+        // Values are written only if there is room for them.
         let longest = cells.iter().map(|cell| shade.text(cell.1).len()).max();
         let written = words::width("0") * longest.unwrap_or(0) as f64 + 4.0 < size && size > 16.0;
         let placed = cells.iter().filter(|(_, value)| value.is_finite());
@@ -284,12 +285,12 @@ impl FloorPlan {
         });
     }
 
-    /// Adds SVG elements of the caller's own; [`Self::at`] gives their coordinates.
+    /// Adds the caller's own SVG elements; [`Self::at`] gives their coordinates.
     pub fn layer(&mut self, elements: Markup) {
         self.layers.push(elements);
     }
 
-    /// Returns where a world position lies on the plan, in user units.
+    /// Returns the position on the plan of a position in the world, user units.
     pub fn at(&self, position: Point) -> (f64, f64) {
         (
             MARGIN + (position.x - self.west) * self.scale,
@@ -297,7 +298,7 @@ impl FloorPlan {
         )
     }
 
-    /// Returns the finished picture; `description` says in words what it shows.
+    /// Returns the finished picture. `description` says in words what it shows.
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let legend = self.legend.as_ref().map_or(0.0, |_| Shade::LEGEND + 8.0);
         let (key, key_height) = self.key.markup(MARGIN, self.height + legend, self.width);
@@ -316,8 +317,8 @@ impl FloorPlan {
         }
     }
 
-    /// Returns SVG path data through positions. Corners too small to see are left out, and so is a
-    /// place that rounds to the one before.
+    /// Returns SVG path data through positions. It leaves out corners too small to see, and
+    /// positions that round to the same point as the one before.
     fn path(&self, positions: &[Point]) -> String {
         let places = positions.iter().map(|position| self.at(*position));
         short_line(simplified(&places.collect::<Vec<_>>()))
@@ -379,7 +380,7 @@ mod tests {
             Series(1),
         );
         let svg = plan.drawing("regions").body.into_string();
-        // 100 units a metre: north-west, south-west, south-east, north-east of 208, 108.
+        // 100 units per metre: north-west, south-west, south-east, north-east of 208, 108.
         assert!(svg.contains("M183 58L183 158L233 158L233 58Z"), "{svg}");
         assert!(svg.contains("rx=\"50\" ry=\"10\" transform=\"translate(208 108) rotate(-30)\""));
     }

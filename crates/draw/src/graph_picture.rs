@@ -1,4 +1,4 @@
-//! A graph whose nodes lie at coordinates of their own: a learned map, a network over its data.
+//! Graphs whose nodes have coordinates: a learned map, or a network over its data.
 
 use maud::{Markup, html};
 use tolman_geom::Point;
@@ -96,7 +96,7 @@ pub enum EdgeLine {
 }
 
 impl GraphPicture {
-    /// Returns a picture without nodes, which will be 3.2 user units in radius.
+    /// Returns a picture without nodes, whose nodes will have a radius of 3.2 user units.
     pub const fn new() -> Self {
         Self {
             nodes: Vec::new(),
@@ -113,7 +113,7 @@ impl GraphPicture {
         self
     }
 
-    /// Adds a node and tells its index.
+    /// Adds a node and returns its index.
     pub fn node(&mut self, node: GraphNode) -> usize {
         self.nodes.push(node);
         self.nodes.len() - 1
@@ -124,8 +124,8 @@ impl GraphPicture {
         self.edges.push(edge);
     }
 
-    /// Returns the elements, with coordinates as `at` gives them, in a picture of this width and
-    /// height, which labels of nodes do not leave where they need not.
+    /// Returns the SVG elements, with coordinates from `at`, in a frame of this width and height.
+    /// Labels of nodes stay inside the frame where possible.
     pub(super) fn markup(&self, at: &dyn Fn(Point) -> (f64, f64), frame: (f64, f64)) -> Markup {
         html! {
             g class="graph" {
@@ -169,8 +169,8 @@ impl GraphPicture {
         }
     }
 
-    /// Returns the labels of nodes, each with where its text begins: beside its node, where it
-    /// covers least of the nodes, the signs and the labels before it.
+    /// Returns the labels of nodes, each with the position where its text begins: beside its node,
+    /// where it covers the least of nodes, signs and earlier labels.
     fn labels(
         &self,
         at: &dyn Fn(Point) -> (f64, f64),
@@ -181,7 +181,7 @@ impl GraphPicture {
         let nodes = nodes.map(|node| Patch::about(at(node.position), self.radius, self.radius));
         let signs = self.signs.iter();
         let signs = signs.map(|sign| Patch::about(at(*sign), 5.0, 5.0));
-        // Without labels nothing is to be laid out.
+        // Without labels there is nothing to place.
         let mut taken: Vec<Patch> = Vec::new();
         if labelled.clone().next().is_some() {
             taken.extend(nodes.chain(signs));
@@ -193,11 +193,11 @@ impl GraphPicture {
             let covered = |(x, y): (f64, f64)| {
                 let label = Patch::of_text(x, y, width);
                 let covered = taken.iter().map(|other| label.overlap(other)).sum::<f64>();
-                // What is cut off cannot be read at all.
+                // A label that is cut off cannot be read at all.
                 covered + 10.0 * label.outside(frame)
             };
             let places = self.beside_node(at(node.position), width);
-            // Of equals the first.
+            // Of equally good places, the first.
             let best = places
                 .into_iter()
                 .min_by(|a, b| covered(*a).total_cmp(&covered(*b)));
@@ -208,7 +208,7 @@ impl GraphPicture {
         placed
     }
 
-    /// Returns where the label of a node may begin, the best place first.
+    /// Returns the positions where the label of a node may begin, the best one first.
     fn beside_node(&self, (x, y): (f64, f64), width: f64) -> [(f64, f64); 12] {
         let gap = self.radius + 2.0;
         let (east, west, middle) = (x + gap, x - gap - width, x - width / 2.0);
@@ -222,7 +222,7 @@ impl GraphPicture {
             (middle, below + 3.0),
             (east + 2.0, y + 3.5),
             (west - 2.0, y + 3.5),
-            // Farther off, where all that is near is taken.
+            // Farther away, in case everything near is taken.
             (east + 6.0, above - 8.0),
             (east + 6.0, below + 8.0),
             (west - 6.0, above - 8.0),
@@ -241,7 +241,7 @@ impl GraphPicture {
         patches.collect()
     }
 
-    /// Returns one path for each class of edges, so that hundreds stay few elements.
+    /// Returns one path for each class of edges, so that hundreds of edges need few elements.
     fn lines(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(Series, EdgeLine, String)> {
         let mut paths: Vec<(Series, EdgeLine, String)> = Vec::new();
         for (edge, [from, to]) in self.sound_edges() {
@@ -255,7 +255,7 @@ impl GraphPicture {
         paths
     }
 
-    /// Returns the arrow heads, two thirds along their edges.
+    /// Returns the arrow heads, each at two thirds of its edge.
     fn heads(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(String, Series)> {
         let arrows = self
             .sound_edges()
@@ -281,7 +281,7 @@ impl GraphPicture {
             .collect()
     }
 
-    /// Returns the edges between nodes that have a place, with the places.
+    /// Returns the edges between nodes that have positions, with these positions.
     fn sound_edges(&self) -> impl Iterator<Item = (&GraphEdge, [Point; 2])> {
         let place = |index: usize| {
             let node = self.nodes.get(index).filter(|node| is_finite(node))?;
@@ -296,7 +296,7 @@ impl GraphPicture {
 /// The size of labels, as a share of that of other text.
 const LABEL: f64 = 0.85;
 
-/// A part of a drawing that something covers, user units.
+/// A rectangle of a drawing that something covers, user units.
 #[derive(Clone, Copy, Debug)]
 struct Patch {
     x: (f64, f64),
@@ -311,7 +311,7 @@ impl Patch {
         }
     }
 
-    /// Returns a label that begins there, on its base line.
+    /// Returns the rectangle of a label whose text begins at (`x`, `y`), on its base line.
     fn of_text(x: f64, y: f64, width: f64) -> Self {
         Self {
             x: (x, x + width),
@@ -319,7 +319,7 @@ impl Patch {
         }
     }
 
-    /// Returns the area that lies outside a picture of this width and height.
+    /// Returns the area that lies outside a frame of this width and height.
     fn outside(&self, frame: (f64, f64)) -> f64 {
         let area = (self.x.1 - self.x.0) * (self.y.1 - self.y.0);
         let inside = Self {
@@ -329,7 +329,7 @@ impl Patch {
         area - self.overlap(&inside)
     }
 
-    /// Returns the area that both cover.
+    /// Returns the area of the overlap.
     fn overlap(&self, other: &Self) -> f64 {
         let along = |a: (f64, f64), b: (f64, f64)| (a.1.min(b.1) - a.0.max(b.0)).max(0.0);
         along(self.x, other.x) * along(self.y, other.y)
@@ -343,7 +343,7 @@ impl Default for GraphPicture {
 }
 
 impl GraphNode {
-    /// Returns a plain node.
+    /// Returns a plain node at a position.
     pub fn at(position: Point) -> Self {
         Self {
             position,
@@ -368,14 +368,14 @@ impl GraphNode {
         self
     }
 
-    /// Writes something beside it.
+    /// Sets the text beside it.
     #[must_use]
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self
     }
 
-    /// Shows something when the pointer rests on it.
+    /// Sets the text that appears when the pointer rests on it.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.note = note.into();
@@ -409,7 +409,7 @@ impl GraphEdge {
         self
     }
 
-    /// Writes something beside its middle.
+    /// Sets the text beside its middle.
     #[must_use]
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
@@ -417,7 +417,8 @@ impl GraphEdge {
     }
 }
 
-/// Returns the position beside the middle of an edge, above it: text on a line is hard to read.
+/// Returns the position of a label beside the middle of an edge, above it. Text on a line is hard
+/// to read.
 fn beside(from: (f64, f64), to: (f64, f64)) -> (f64, f64) {
     let middle = (f64::midpoint(from.0, to.0), f64::midpoint(from.1, to.1));
     let along = (to.0 - from.0, to.1 - from.1);
@@ -492,7 +493,7 @@ mod tests {
         assert_eq!(place(&graph, "goal"), (5.2, -3.2), "above, to the right");
         graph.signs.push(Point::new(1.5, 0.7));
         assert_eq!(place(&graph, "goal"), (5.2, 11.2), "below, to the right");
-        // A neighbour whose label would stand over that one.
+        // A neighbour whose label would cover that one.
         graph.node(GraphNode::at(Point::new(0.2, -1.8)).label("A10"));
         let (goal, next) = (place(&graph, "goal"), place(&graph, "A10"));
         let patch = |(x, y)| Patch::of_text(x, y, 20.0);

@@ -1,4 +1,4 @@
-//! Values over two parameters.
+//! Values over two parameters, as a picture.
 
 use core::fmt::Write;
 
@@ -11,10 +11,10 @@ use super::{Drawing, Shade};
 const CELL_HEIGHT: f64 = 30.0;
 const LEAST_CELL_WIDTH: f64 = 46.0;
 
-/// Distance between the lines of a hatching.
+/// Distance between the lines of a hatching, user units.
 const HATCH: f64 = 5.0;
 
-/// Text of a cell that is hatched all over.
+/// Text of a cell that is completely hatched.
 const NONE: &str = "–";
 
 /// A table of values as a picture: one parameter across, another down, each value written in its
@@ -46,7 +46,7 @@ pub struct HeatMap {
     pub down: String,
     /// The rows, from the top.
     pub rows: Vec<String>,
-    /// By row and column; one that is not finite, or not there, leaves its cell empty.
+    /// Values by row and column. A value that is not finite or missing leaves its cell empty.
     pub values: Vec<Vec<f64>>,
     /// Colours of values.
     pub shade: Shade,
@@ -54,13 +54,14 @@ pub struct HeatMap {
     pub hatching: Option<Hatching>,
 }
 
-/// Parts of the cells of a [`HeatMap`] that are hatched: the share of what a value is of that is of
-/// another kind than all else.
+/// Hatched parts of the cells of a [`HeatMap`]. They show which share of the data behind a value is
+/// of another kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hatching {
     /// Meaning of a hatched part, in a few words.
     pub title: String,
-    /// By row and column, 0 … 1. A cell that is hatched all over shows a dash for its value.
+    /// Hatched share by row and column, 0 … 1. A completely hatched cell shows a dash instead of
+    /// its value.
     pub shares: Vec<Vec<f64>>,
 }
 
@@ -87,8 +88,8 @@ fn words_of(name: &str) -> Vec<String> {
     name.split_whitespace().map(str::to_owned).collect()
 }
 
-/// Returns slanted lines in a rectangle, and its outline, as path data. It needs no pattern, whose
-/// name would be global to the page.
+/// Returns slanted lines in a rectangle, and its outline, as path data. It uses no SVG pattern,
+/// whose name would be global to the page.
 fn hatch([x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
     let mut path = format!(
         "M{} {}h{}v{}h{}z",
@@ -100,7 +101,7 @@ fn hatch([x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
     );
     let mut foot = HATCH;
     while foot < width + height {
-        // From the lower or right edge up to the left or upper one.
+        // From the bottom or right edge up to the left or top edge.
         let low = (foot - width).max(0.0);
         let high = foot.min(height);
         let line = [x + foot - low, y + low, x + foot - high, y + high].map(tenths);
@@ -111,7 +112,7 @@ fn hatch([x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
 }
 
 impl HeatMap {
-    /// Returns the finished picture; `description` says in words what it shows.
+    /// Returns the finished picture. `description` says in words what it shows.
     pub fn drawing(&self, description: impl Into<String>) -> Drawing {
         let widest = |texts: &[String]| texts.iter().map(|t| words::width(t)).fold(0.0, f64::max);
         let written = self
@@ -120,7 +121,7 @@ impl HeatMap {
             .flatten()
             .filter(|value| value.is_finite());
         let written: Vec<String> = written.map(|value| self.shade.text(*value)).collect();
-        // A word a line: a column is as narrow as its longest word.
+        // One word per line: a column is as narrow as its longest word.
         let names: Vec<Vec<String>> = self.columns.iter().map(|name| words_of(name)).collect();
         let lines = names.iter().map(Vec::len).max().unwrap_or(1).max(1);
         let cell = (widest(&names.concat()).max(widest(&written)) + 14.0).max(LEAST_CELL_WIDTH);
@@ -160,7 +161,7 @@ impl HeatMap {
                 @for (row, column, value, hatched) in cells {
                     @let (x, y) = (left + column * cell, top + row * CELL_HEIGHT);
                     @let (width, height) = (cell - 2.0, CELL_HEIGHT - 2.0);
-                    // Hatched from the right, so that what is left is as wide as its share.
+                    // Hatched from the right, so that the rest is as wide as its share.
                     @let rest = width * (1.0 - hatched);
                     @if rest > 0.0 {
                         rect class="heat" fill-opacity=(self.shade.opacity(value))
@@ -258,7 +259,7 @@ mod tests {
             }),
         };
         let svg = map.drawing("a test").body.into_string();
-        // The cells that are not hatched all over, those that are in part, and the legend.
+        // The cells that are not completely hatched, those hatched in part, and the legend.
         assert_eq!(svg.matches("rx=\"3\"").count(), 2);
         assert_eq!(svg.matches("class=\"hatch\"").count(), 3);
         assert!(svg.contains(">–<") && svg.contains(">not tried<"), "{svg}");

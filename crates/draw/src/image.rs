@@ -25,30 +25,30 @@ pub struct Image {
     png: Vec<u8>,
 }
 
-/// Reason why pixels are no picture.
+/// Reason why pixels do not form a picture.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ImageError {
     /// The number of values does not fit the size.
     #[error("{found} values for {width} × {height} pixels of {channels}; give {expected}")]
     Size {
-        /// Pixels in a row.
+        /// Number of pixels in a row.
         width: u32,
-        /// Rows.
+        /// Number of rows.
         height: u32,
-        /// Values of a pixel: 1 or 3.
+        /// Number of values per pixel: 1 or 3.
         channels: u32,
         /// Number of values expected.
         expected: u64,
-        /// Number found.
+        /// Number of values found.
         found: usize,
     },
     /// The picture cannot be written.
     #[error("{width} × {height} pixels cannot be written as PNG")]
     Png {
-        /// Pixels in a row.
+        /// Number of pixels in a row.
         width: u32,
-        /// Rows.
+        /// Number of rows.
         height: u32,
         /// The underlying error.
         source: png::EncodingError,
@@ -56,19 +56,19 @@ pub enum ImageError {
 }
 
 impl Image {
-    /// Returns a picture of one value for each pixel, 0 black and 255 white, row by row from the
-    /// top left.
+    /// Returns a picture with one value per pixel, 0 black and 255 white, row by row from the top
+    /// left.
     ///
     /// # Errors
-    /// If there are not `width` × `height` values, or none.
+    /// If there are not `width` × `height` values, or zero.
     pub fn grey(width: u32, height: u32, pixels: &[u8]) -> Result<Self, ImageError> {
         Self::new(width, height, 1, png::ColorType::Grayscale, pixels)
     }
 
-    /// Returns a picture of red, green and blue for each pixel, row by row from the top left.
+    /// Returns a picture with red, green and blue for each pixel, row by row from the top left.
     ///
     /// # Errors
-    /// If there are not `width` × `height` × 3 values, or none.
+    /// If there are not `width` × `height` × 3 values, or zero.
     pub fn rgb(width: u32, height: u32, pixels: &[u8]) -> Result<Self, ImageError> {
         Self::new(width, height, 3, png::ColorType::Rgb, pixels)
     }
@@ -105,7 +105,7 @@ impl Image {
         Ok(Self { width, height, png })
     }
 
-    /// Returns the picture `width` user units wide; `description` says in words what it shows.
+    /// Returns the picture `width` user units wide. `description` says in words what it shows.
     pub fn drawing(&self, description: impl Into<String>, width: f64) -> Drawing {
         let height = width * f64::from(self.height) / f64::from(self.width);
         let data = self.data();
@@ -120,8 +120,8 @@ impl Image {
         }
     }
 
-    /// Returns the picture as an element of another, with its top left corner and its size in user
-    /// units.
+    /// Returns the picture as an element of another picture, with its top left corner and its size
+    /// in user units.
     pub(super) fn element(&self, (x, y): (f64, f64), (width, height): (f64, f64)) -> Markup {
         html! {
             image class="pixels" href=(self.data()) x=(tenths(x)) y=(tenths(y)) width=(tenths(width))

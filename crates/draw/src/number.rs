@@ -12,12 +12,13 @@ pub(super) fn tenths(value: f64) -> String {
     }
 }
 
-/// Returns path data of a line through places; empty for none.
+/// Returns path data of a line through `places`; empty if there are none.
 pub(super) fn line(places: impl IntoIterator<Item = (f64, f64)>) -> String {
     joined(&places.into_iter().map(place).collect::<Vec<_>>())
 }
 
-/// Returns the same, without a place that rounds to the one before.
+/// Returns path data of a line through `places`, without those that round to the same point as the
+/// one before.
 pub(super) fn short_line(places: impl IntoIterator<Item = (f64, f64)>) -> String {
     let mut places: Vec<String> = places.into_iter().map(place).collect();
     places.dedup();
@@ -41,18 +42,18 @@ pub(super) fn trimmed(value: f64, decimals: usize) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Returns the least and the greatest of values and of `extent`.
+/// Returns the minimum and the maximum of `values` and of `extent`.
 pub(super) fn extent(values: impl Iterator<Item = f64>, extent: (f64, f64)) -> (f64, f64) {
     values.fold(extent, |(low, high), value| {
         (low.min(value), high.max(value))
     })
 }
 
-/// Range of no values: nothing is below its low end or above its high end.
+/// Empty range: every value is above its high end and below its low end.
 pub(super) const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
-/// Returns the label of a value on an axis with this distance between labels: as many decimals as
-/// that needs, digits in groups of three, powers of ten where there would be too many.
+/// Returns the label of a value on an axis whose labels are `step` apart. It has as many decimals
+/// as that needs, groups of three digits, and powers of ten for long numbers.
 pub(super) fn tick_label(value: f64, step: f64) -> String {
     let exponent = libm::log10(step.abs()).floor();
     if exponent >= 5.0 && value.abs() > 0.0 {
@@ -73,7 +74,7 @@ pub(super) fn power_of_ten(value: f64, exponent: f64) -> String {
         '1' => '¹',
         '2' => '²',
         '3' => '³',
-        // The others follow each other.
+        // The other superscript digits are consecutive.
         digit => char::from_u32(0x2070 + u32::from(digit) - u32::from('0')).unwrap_or(digit),
     });
     let sign = if exponent < 0.0 { "⁻" } else { "" };

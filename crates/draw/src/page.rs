@@ -4,7 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::{Figure, style};
 
-/// A page with what is said first, and then its parts from top to bottom.
+/// A page: facts and text first, then figures and tables from top to bottom.
 ///
 /// ```
 /// use tolman_draw::{Page, PageTable};
@@ -32,7 +32,7 @@ pub struct PageTable {
 }
 
 impl Page {
-    /// Returns a page with a title and nothing else.
+    /// Returns a page that has only a title.
     #[must_use]
     pub fn new(title: impl Into<String>) -> Self {
         Self {
@@ -75,7 +75,7 @@ impl Page {
         self
     }
 
-    /// Returns the file.
+    /// Returns the text of the HTML file.
     #[must_use]
     pub fn html(&self) -> String {
         let page = html! {
@@ -129,7 +129,7 @@ impl PageTable {
         self
     }
 
-    /// Says something below it.
+    /// Sets the note below the table.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.note = note.into();

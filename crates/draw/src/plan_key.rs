@@ -1,4 +1,4 @@
-//! Key below a plan: the length of a metre, and the meaning of its signs.
+//! The key below a plan: a scale bar, and the meaning of its signs.
 
 use maud::{Markup, html};
 
@@ -15,34 +15,34 @@ const SIGN: f64 = 18.0;
 /// Longest scale bar, as a share of the plan's width.
 const LONGEST: f64 = 0.25;
 
-/// The sign whose meaning is told.
+/// A sign that a key explains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeyMark {
-    /// An open ring, a node.
+    /// An open ring, for a node.
     Ring,
-    /// A filled disc, a node.
+    /// A filled disc, for a node.
     Disc,
-    /// An open square, a node.
+    /// An open square, for a node.
     Square,
-    /// A line, an edge or a way.
+    /// A line, for an edge or a way.
     Line,
-    /// A dashed line, what is doubtful.
+    /// A dashed line, for what is doubtful.
     Dashed,
-    /// A box, where something may be.
+    /// A box, for where something may be.
     Box,
 }
 
 /// The key of a plan.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PlanKey {
-    /// User units per metre, where the plan has a scale bar.
+    /// User units per metre; `None` for a plan without a scale bar.
     pub(super) scale: Option<f64>,
     pub(super) entries: Vec<(KeyMark, Series, String)>,
 }
 
 impl PlanKey {
-    /// Returns the key in lines from `left` and `top` on, none beyond `width` that can break, and
-    /// its height.
+    /// Returns the key in lines from `left` and `top`, and its height. Lines break before `width`
+    /// where they can.
     pub(super) fn markup(&self, left: f64, top: f64, width: f64) -> (Markup, f64) {
         let bar = self.scale.and_then(|scale| bar(scale, width));
         if bar.is_none() && self.entries.is_empty() {
@@ -80,7 +80,7 @@ impl PlanKey {
 }
 
 /// Returns how many metres a bar shows, 1, 2 or 5 times a power of ten, and its length in user
-/// units; `None` where there is no room for one.
+/// units; `None` if there is no room for a bar.
 fn bar(scale: f64, width: f64) -> Option<(f64, f64)> {
     let longest = LONGEST * width / scale;
     if !longest.is_finite() || longest <= 0.0 {

@@ -6,7 +6,7 @@ use tolman_robot::{Ring, Scan};
 use super::number::{line, tenths, trimmed};
 use super::{Drawing, Series};
 
-/// Room around the outer ring for its label, user units.
+/// Margin around the outer ring for its label, user units.
 const MARGIN: f64 = 14.0;
 
 /// Scans in polar coordinates: the robot in the middle, bearing 0 upwards, bearings growing
@@ -36,8 +36,8 @@ pub struct PolarPlot {
 }
 
 impl PolarPlot {
-    /// Returns an empty plot with `size` user units to each side whose outer ring lies at `reach`
-    /// metres.
+    /// Returns an empty plot, a square with sides of `size` user units, whose outer ring is at
+    /// `reach` metres.
     pub const fn new(reach: f64, size: f64) -> Self {
         Self {
             reach,
@@ -46,7 +46,7 @@ impl PolarPlot {
         }
     }
 
-    /// Adds a scan. Ranges that are not finite or beyond the outer ring end there.
+    /// Adds a scan. Ranges that are not finite, or beyond the outer ring, are drawn to that ring.
     pub fn scan(&mut self, scan: &Scan, series: Series) {
         self.ranges(&scan.ring, &scan.ranges, series);
     }
@@ -57,7 +57,7 @@ impl PolarPlot {
         let ends = beams.map(|(beam, range)| (self.at(ring.bearing(beam), *range), *range));
         let reach = ring.max_range.min(self.reach);
         let met = ends.clone().filter(|(_, range)| *range < reach);
-        // A fan ends at the robot, a whole turn at its first beam.
+        // The outline of a fan ends at the robot, that of a full circle at its first beam.
         let turn = ring.spacing * f64::from(ring.beams);
         let middle =
             (turn < 0.99 * core::f64::consts::TAU).then_some((self.middle(), self.middle()));
@@ -72,7 +72,7 @@ impl PolarPlot {
         });
     }
 
-    /// Returns the finished picture; `description` says in words what it shows.
+    /// Returns the finished picture. `description` says in words what it shows.
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let middle = tenths(self.middle());
         let (half, full) = (0.5 * self.radius(), self.radius());
@@ -106,7 +106,7 @@ impl PolarPlot {
         0.5 * self.size - MARGIN
     }
 
-    /// Returns where a beam ends.
+    /// Returns the end of a beam in the picture.
     fn at(&self, bearing: f64, range: f64) -> (f64, f64) {
         let share = range / self.reach;
         let share = if share.is_finite() {

@@ -1,4 +1,4 @@
-//! Regions where something may be: boxes and ellipses of uncertainty.
+//! Regions where something may be: boxes and ellipses.
 
 use tolman_geom::{Heading, Point, Pose};
 use tolman_sim::Bounds;
@@ -55,10 +55,11 @@ impl Region {
         }
     }
 
-    /// Returns the ellipse of `deviations` standard deviations around the mean of a Gaussian: half
-    /// its axes are the square roots of the covariance's eigenvalues, times `deviations`. An
-    /// eigenvalue that rounding has made negative counts as 0; of the two entries off the diagonal
-    /// their mean counts.
+    /// Returns the ellipse of `deviations` standard deviations around the mean of a Gaussian. Its
+    /// semi-axes are the square roots of the covariance's eigenvalues, times `deviations`.
+    ///
+    /// An eigenvalue that rounding has made negative counts as 0. If the two entries off the
+    /// diagonal differ, their mean counts.
     pub fn of_covariance(mean: Point, covariance: [[f64; 2]; 2], deviations: f64) -> Self {
         let [[xx, xy], [yx, yy]] = covariance;
         let xy = f64::midpoint(xy, yx);
@@ -66,7 +67,7 @@ impl Region {
         let half_difference = 0.5 * (xx - yy);
         let root = libm::hypot(half_difference, xy);
         let half_axis = |eigenvalue: f64| deviations * eigenvalue.max(0.0).sqrt();
-        // The direction of the greater eigenvalue.
+        // The direction of the larger eigenvalue.
         let angle = 0.5 * libm::atan2(xy, half_difference);
         Self::Ellipse {
             pose: Pose::new(mean, Heading::from_radians(angle)),

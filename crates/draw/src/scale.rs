@@ -2,7 +2,7 @@
 
 use super::number::{power_of_ten, tick_label};
 
-/// An axis of known ends.
+/// An axis with known ends.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Scale {
     spacing: Spacing,
@@ -29,8 +29,8 @@ pub(super) struct Tick {
 }
 
 impl Scale {
-    /// Returns a linear axis from 0 to a round number that takes in all values up to `max`, with
-    /// about `steps` steps. An axis for nothing ends at 1.
+    /// Returns a linear axis from 0 to a round number that is at least `max`, with about `steps`
+    /// steps. Without data the axis ends at 1.
     pub(super) fn up_to(max: f64, steps: f64) -> Self {
         let max = if max.is_finite() && max > 0.0 {
             max
@@ -41,8 +41,8 @@ impl Scale {
         Self::linear_with_step(0.0, (max / step).ceil() * step, step)
     }
 
-    /// Returns a linear axis with just these ends and about `steps` steps. Ends that are no
-    /// interval become one of length 1.
+    /// Returns a linear axis with exactly these ends and about `steps` steps. If the ends do not
+    /// form an interval, it gets the length 1.
     pub(super) fn linear(low: f64, high: f64, steps: f64) -> Self {
         let (low, high) = proper(low, high);
         Self::linear_with_step(low, high, round_step((high - low) / steps))
@@ -71,14 +71,14 @@ impl Scale {
     }
 
     /// Returns a logarithmic axis with whole powers of ten at its ends, which must be positive. Few
-    /// decades have ticks at 2 and 5 as well, many only at some powers.
+    /// decades also have ticks at 2 and 5; many have ticks only at some powers.
     pub(super) fn log(low: f64, high: f64) -> Self {
         let (low, high) = if low > 0.0 && high >= low && high.is_finite() {
             (low, high)
         } else {
             (1.0, 10.0)
         };
-        // An end that is a power of ten but for rounding is one.
+        // An end within rounding of a power of ten counts as that power.
         let (first, last) = (
             (libm::log10(low) + 1e-9).floor(),
             (libm::log10(high) - 1e-9).ceil(),
@@ -115,8 +115,8 @@ impl Scale {
         (self.spacing == Spacing::Linear).then_some(self.high - self.low)
     }
 
-    /// Returns where a value lies, from 0 at the low end to 1 at the high end. Not finite for a
-    /// value that has no place, such as 0 on a logarithmic axis.
+    /// Returns the position of a value, from 0 at the low end to 1 at the high end. It is not
+    /// finite for a value without a position, such as 0 on a logarithmic axis.
     pub(super) fn share(&self, value: f64) -> f64 {
         match self.spacing {
             Spacing::Linear => (value - self.low) / (self.high - self.low),
@@ -125,7 +125,7 @@ impl Scale {
     }
 }
 
-/// Powers of ten from 10⁴ on, and below 10⁻³, are written as such.
+/// Returns a label; powers of ten from 10⁴, and below 10⁻³, are written as such.
 fn power_label(value: f64, power: f64) -> String {
     match (-3.0..4.0).contains(&power) {
         true => tick_label(value, value),
@@ -133,7 +133,7 @@ fn power_label(value: f64, power: f64) -> String {
     }
 }
 
-/// Returns ends with some distance between them.
+/// Returns the ends with some distance between them.
 fn proper(low: f64, high: f64) -> (f64, f64) {
     match (low.is_finite() && high.is_finite(), high > low) {
         (true, true) => (low, high),
@@ -142,7 +142,7 @@ fn proper(low: f64, high: f64) -> (f64, f64) {
     }
 }
 
-/// Returns the least of 1, 2 and 5 times a power of ten that is not below `rough`.
+/// Returns the smallest of 1, 2 and 5 times a power of ten that is not below `rough`.
 fn round_step(rough: f64) -> f64 {
     let power = libm::pow(10.0, libm::log10(rough).floor());
     [1.0, 2.0, 5.0]

@@ -1,4 +1,4 @@
-//! Values as depths of a colour.
+//! Values shown as depths of a colour.
 
 use maud::{Markup, html};
 
@@ -11,9 +11,9 @@ use super::number::{NOTHING, extent, tenths};
 pub struct Shade {
     /// Quantity of the values, with its unit.
     pub title: String,
-    /// The value that is not coloured at all.
+    /// Value without colour.
     pub low: f64,
-    /// The value of full colour.
+    /// Value with the full colour.
     pub high: f64,
     /// The colour.
     pub series: Series,
@@ -22,7 +22,8 @@ pub struct Shade {
 }
 
 impl Shade {
-    /// Depths of the first colour between two values, written without decimals.
+    /// Returns the shade of the first colour between two values, which are written without
+    /// decimals.
     pub fn new(title: impl Into<String>, low: f64, high: f64) -> Self {
         Self {
             title: title.into(),
@@ -33,8 +34,8 @@ impl Shade {
         }
     }
 
-    /// Returns the shade from the least to the greatest of these values; those that are not finite
-    /// do not count.
+    /// Returns the shade from the minimum to the maximum of these values. Non-finite values are
+    /// ignored.
     pub fn of(title: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
         let finite = values.into_iter().filter(|value| value.is_finite());
         let (low, high) = extent(finite, NOTHING);
@@ -52,7 +53,7 @@ impl Shade {
         self
     }
 
-    /// Sets how many decimals values are written with.
+    /// Sets the number of decimals.
     #[must_use]
     pub const fn decimals(mut self, decimals: u8) -> Self {
         self.decimals = decimals;
@@ -64,7 +65,7 @@ impl Shade {
         format!("{value:.0$}", usize::from(self.decimals))
     }
 
-    /// Returns the share from 0 to 1; 0 if all values are the same.
+    /// Returns the depth from 0 to 1; 0 if the range is empty.
     fn share(&self, value: f64) -> f64 {
         let share = (value - self.low) / (self.high - self.low);
         if share.is_finite() {
@@ -76,12 +77,13 @@ impl Shade {
 
     /// Returns the attribute that gives an element with the class `heat` its depth.
     pub(super) fn opacity(&self, value: f64) -> String {
-        // Text upon it must be readable at full depth, and the least value must not look like none.
+        // Text on it must be readable at full depth, and the smallest value must still look
+        // coloured.
         format!("{:.2}", 0.06 + 0.84 * self.share(value))
     }
 
-    /// Returns the class of text upon a value: what stands out more from this depth, be the page
-    /// light or dark.
+    /// Returns the class of text on a value: the one that is easier to read at this depth, on a
+    /// light or a dark page.
     pub(super) fn text_class(&self, value: f64) -> &'static str {
         if self.share(value) > 0.8 { "upon" } else { "" }
     }
@@ -89,7 +91,7 @@ impl Shade {
     /// The height of [`Self::legend`].
     pub(super) const LEGEND: f64 = 34.0;
 
-    /// Returns a bar of all depths with its ends named, from `x` on.
+    /// Returns a bar of all depths with labelled ends, from `x` on.
     pub(super) fn legend(&self, x: f64, y: f64) -> Markup {
         const STEPS: u32 = 24;
         const STEP: f64 = 5.0;

@@ -1,14 +1,13 @@
-//! Lines with fewer corners that look the same.
+//! Simplifies lines without visible change.
 
-/// Maximum distance of a line from what it stands for, user units: less than the eye sees.
+/// Maximum distance between a line and its simplification, user units: less than the eye sees.
 const BESIDE: f64 = 0.3;
 
-/// Returns the corners of a line that matter: no position left out lies farther than [`BESIDE`]
-/// from the line through those that are kept (Douglas and Peucker, "Algorithms for the reduction of
-/// the number of points required to represent a digitized line or its caricature", 1973). The ends
-/// are kept.
+/// Returns the corners of a line that matter; the ends are kept. No position left out lies farther
+/// than [`BESIDE`] from the line through those that are kept.
 ///
-/// O(n log n) for most lines, O(n²) at worst.
+/// Douglas and Peucker, "Algorithms for the reduction of the number of points required to represent
+/// a digitized line or its caricature", 1973. O(n log n) for most lines, O(n²) at worst.
 pub(super) fn simplified(line: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut kept = vec![false; line.len()];
     if let (Some(first), Some(last)) = (kept.first_mut(), line.len().checked_sub(1)) {
@@ -31,7 +30,7 @@ pub(super) fn simplified(line: &[(f64, f64)]) -> Vec<(f64, f64)> {
     pairs.filter(|(_, kept)| *kept).map(|(at, _)| *at).collect()
 }
 
-/// Returns the distance of a point from a stretch between two others.
+/// Returns the distance of a point from the segment between two others.
 fn distance(point: (f64, f64), from: (f64, f64), to: (f64, f64)) -> f64 {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let length = dx * dx + dy * dy;

@@ -37,7 +37,8 @@ impl Tiles {
         }
     }
 
-    /// Adds a picture with its caption, which may be empty. Captions wider than their tile are cut.
+    /// Adds a picture with its caption, which may be empty. Captions wider than their tile are
+    /// shortened.
     pub fn tile(&mut self, caption: impl Into<String>, drawing: Drawing) {
         self.tiles.push((caption.into(), drawing));
     }
@@ -47,7 +48,7 @@ impl Tiles {
         self.tile(caption, image.drawing(caption, width));
     }
 
-    /// Returns the finished picture; `description` says in words what it shows.
+    /// Returns the finished picture. `description` says in words what it shows.
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let widest = |size: fn(&Drawing) -> f64| {
             self.tiles
@@ -91,7 +92,7 @@ impl Tiles {
 
 /// Returns the part of a caption that fits.
 fn cut(caption: &str, room: f64) -> String {
-    // Small text is ten user units high and not twelve.
+    // Small text has a size of ten user units instead of twelve.
     let most = (room / words::width("x") * 1.2) as usize;
     words::cut(caption, most)
 }

@@ -1,4 +1,4 @@
-//! Words in pictures, where no line breaks by itself.
+//! Text in SVG pictures, where lines do not break by themselves.
 
 use maud::{Markup, html};
 
@@ -12,13 +12,13 @@ pub(super) fn width(text: &str) -> f64 {
     6.6 * text.chars().count() as f64
 }
 
-/// Returns the maximum width of a text in a broad font, user units: room for it to end in.
+/// Returns an upper bound for the width of a text in a broad font, user units.
 pub(super) fn broad(text: &str) -> f64 {
     7.6 * text.chars().count() as f64
 }
 
-/// Returns the words of a text in lines of at most `most` characters where words allow it; at most
-/// three lines, of which the last may end in `…`.
+/// Returns a text in lines of at most `most` characters, broken between words where possible. There
+/// are at most three lines; the last may end in `…`.
 pub(super) fn lines(text: &str, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -49,7 +49,7 @@ pub(super) fn cut(text: &str, most: usize) -> String {
     kept.chain(['…']).collect()
 }
 
-/// Lines centred below each other, the first with its base at `y`.
+/// Returns lines centred below each other, the first with its base line at `y`.
 pub(super) fn centred(lines: &[String], x: f64, y: f64) -> Markup {
     html! {
         @for (i, line) in lines.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Every metric of every row, beside the paper and beside the reference row.
+//! Every metric of every row, compared with the paper and with the reference row.
 
 use super::sample::Sample;
 use super::verdict::Case;
@@ -11,7 +11,8 @@ use tolman_stats::{ConfidenceInterval, Method, PValue};
 /// All tables of an experiment, measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// Those that have runs, or would have if their files were here, in the experiment's order.
+    /// Tables that have runs, or would have them if their data files were here, in the experiment's
+    /// order.
     pub tables: Vec<TableAnalysis>,
 }
 
@@ -20,9 +21,9 @@ pub struct Analysis {
 pub struct TableAnalysis {
     /// The table.
     pub table: Table,
-    /// In the table's order.
+    /// Metrics in the table's order.
     pub metrics: Vec<MetricAnalysis>,
-    /// The rows that are compared each with each; empty if none are.
+    /// Rows that are compared pairwise; empty if none are.
     pub pairs: Vec<RowPair>,
 }
 
@@ -42,9 +43,9 @@ pub struct Measured {
     pub row: String,
     /// Number of runs measured; 0 if there is only the paper's value.
     pub n: u64,
-    /// The value, in the metric's unit; NaN of no runs.
+    /// Value in the metric's unit; NaN without runs.
     pub value: f64,
-    /// Whether the value was reached, or is what was not enough.
+    /// Whether the value was reached. If not, it is a lower bound.
     pub reached: Reached,
     /// The standard deviation, for means and medians of two runs or more.
     pub sd: Option<f64>,
@@ -56,7 +57,7 @@ pub struct Measured {
     pub interval: Option<ConfidenceInterval>,
     /// Value of the paper.
     pub paper: Option<PaperValue>,
-    /// Whether that matches, where the paper says something.
+    /// Verdict on the paper's value; `None` if the paper has none.
     pub verdict: Option<Verdict>,
     /// Difference from the reference row.
     pub contrast: Option<Contrast>,
@@ -67,12 +68,13 @@ pub struct Measured {
 pub struct Contrast {
     /// Mann and Whitney's p-value, corrected for the comparisons of the metric.
     pub p: PValue,
-    /// The probability that a run of this row has a greater value than one of the reference row.
+    /// Probability that a run of this row has a greater value than a run of the reference row, 0 …
+    /// 1.
     pub a12: f64,
 }
 
 impl Contrast {
-    /// Returns how two samples differ, not corrected; `None` if one has no numbers.
+    /// Returns the uncorrected difference of two samples; `None` if one has no numbers.
     pub(super) fn of(a: &[f64], b: &[f64]) -> Option<Self> {
         let p = tolman_stats::mann_whitney(a, b, Method::Auto).ok()?.p;
         let a12 = tolman_stats::a12(a, b).ok()?;
@@ -81,7 +83,7 @@ impl Contrast {
 }
 
 impl Analysis {
-    /// Measures runs that are sorted by table, row and index.
+    /// Returns the analysis of runs that are sorted by table, row and index.
     pub(super) fn of(experiment: &Experiment, runs: &[Run], master_seed: u64) -> Self {
         let tables = experiment
             .tables
@@ -103,7 +105,7 @@ impl Analysis {
         Self { tables }
     }
 
-    /// Returns the values that do not match the paper's, each with its table and metric, for
+    /// Returns the values that disagree with the paper's, each with its table and metric, for
     /// `--check`.
     pub fn disagreements(&self) -> impl Iterator<Item = (&Table, &Metric, &Measured)> {
         self.values().filter(|(_, _, measured)| {
@@ -112,7 +114,7 @@ impl Analysis {
         })
     }
 
-    /// Returns how many of the paper's values ours match.
+    /// Returns the number of the paper's values by verdict.
     #[must_use]
     pub fn tally(&self) -> VerdictTally {
         self.tables
@@ -144,7 +146,7 @@ impl TableAnalysis {
 }
 
 impl Measured {
-    /// Returns the paper's value where we have none.
+    /// Returns the entry of a paper's value that we have no value for.
     fn alone(row: &Row, paper: &PaperValue) -> Self {
         let doubt = row.missing.clone().map_or(Doubt::NoRuns, Doubt::NoData);
         Self {
@@ -234,7 +236,7 @@ fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> Me
     }
 }
 
-/// Compares every row with the reference row, if the table wants that and the row was measured.
+/// Compares every row with the reference row, if the table asks for that and the row was measured.
 fn contrast(table: &Table, samples: &[(&Row, Sample<'_>)], rows: &mut [Measured]) {
     let Some(comparison) = &table.comparison else {
         return;

@@ -1,4 +1,4 @@
-//! Files and folders whose errors name them.
+//! File operations whose errors name the file.
 
 use std::fs;
 use std::io;
@@ -10,7 +10,7 @@ use crate::files;
 const REPAIR: &str = "check that the folder is writable and the disk is not full, or choose another \
                       folder with --out";
 
-/// Adds action and path to an error of the system.
+/// Returns `result` with action and path added to an error.
 pub(super) fn at<T>(action: &'static str, path: &Path, result: io::Result<T>) -> Result<T, Error> {
     result.map_err(|source| Error::File {
         action,
@@ -20,7 +20,7 @@ pub(super) fn at<T>(action: &'static str, path: &Path, result: io::Result<T>) ->
     })
 }
 
-/// Returns the same of a path that need not be there: `None` where nothing is.
+/// Like [`at`], for a path that may be missing: `None` if nothing is there.
 pub(super) fn if_there<T>(
     action: &'static str,
     path: &Path,

@@ -18,8 +18,8 @@ pub struct Build {
 }
 
 impl Build {
-    /// Returns the build of the running program, which was built from this `commit` by this
-    /// `compiler`. Reads the executable once.
+    /// Returns the build of the running program, made from this `commit` by this `compiler`. Reads
+    /// the executable once.
     pub fn current(commit: &str, compiler: &str) -> Self {
         let executable = std::env::current_exe().and_then(fs::read);
         Self {

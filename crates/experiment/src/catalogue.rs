@@ -5,19 +5,19 @@ use super::{BoxError, Error, Experiment, Options};
 /// One experiment of a catalogue.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
-    /// The name it is called by on the command line and in `summary.json`.
+    /// Name on the command line and in `summary.json`.
     pub name: &'static str,
     /// Description in one line: the title of the report.
     pub title: &'static str,
     /// The paper whose tables these are, as a reader would cite it; empty if there is none.
     pub source: &'static str,
-    /// Runs of each row when the caller names no number.
+    /// Default number of runs of each row.
     pub runs: u32,
-    /// Runs of each row under `--quick`, for a first look.
+    /// Number of runs of each row with `--quick`, for a first look.
     pub quick_runs: u32,
-    /// Part in the tour of all experiments; `None` leaves it out.
+    /// Part in the tour of all experiments; `None` to leave it out.
     pub tour: Option<Tour>,
-    /// Makes it ready: reads the mazes that the options name.
+    /// Prepares the experiment: reads the mazes that the options name.
     pub open: fn(&Options) -> Result<Experiment, BoxError>,
 }
 
@@ -26,17 +26,19 @@ pub struct Entry {
 pub struct Tour {
     /// The names of the tables.
     pub tables: &'static [&'static str],
-    /// Runs of each row; `None` for those of `--quick`, which tables with a number of their own
-    /// need.
+    /// Number of runs of each row. `None` takes that of `--quick`, as tables with a fixed number
+    /// require.
     pub runs: Option<u32>,
 }
 
-/// Makes the experiment of a catalogue that bears this name ready.
+/// Returns the experiment called `name`, prepared with `options`.
 ///
 /// # Errors
-/// [`Error::Unknown`] if there is none of that name, or it lacks a table or row that the options
-/// choose; [`Error::FixedRuns`] if such a table has a number of runs of its own and the options ask
-/// for another; [`Error::Open`] if what it needs cannot be read.
+/// - [`Error::Unknown`] if there is no such experiment, or it lacks a table or row that the options
+///   name.
+/// - [`Error::FixedRuns`] if such a table has a fixed number of runs and the options ask for
+///   another.
+/// - [`Error::Open`] if its input cannot be read.
 pub fn open(catalogue: &[Entry], name: &str, options: &Options) -> Result<Experiment, Error> {
     let names = catalogue.iter().map(|entry| entry.name);
     let entry = &catalogue[Error::place_of("experiment", name, names)?];

@@ -8,8 +8,8 @@ use super::{
 };
 use tolman_draw::Figure;
 
-/// Refuses options that would run nothing, more than there is room for, or could not be written
-/// down.
+/// Refuses options that would run nothing, run more than fits into memory, or cannot be written to
+/// `config.toml`.
 pub(super) fn options(options: &Options, entry: &Entry) -> Result<(), Error> {
     match options.runs_of(entry) {
         0 => return Err(Error::Zero { option: "--runs" }),
@@ -30,7 +30,8 @@ pub(super) fn options(options: &Options, entry: &Entry) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses tables whose rows or metrics could not be told apart or refer to what is not there.
+/// Refuses tables whose rows or metrics have equal names, or refer to something that does not
+/// exist.
 pub(super) fn tables(experiment: &Experiment) -> Result<(), Error> {
     let sound = |tables: &[Table]| {
         distinct("tables", tables.iter().map(|table| &table.name))?;
@@ -48,7 +49,7 @@ pub(super) fn tables(experiment: &Experiment) -> Result<(), Error> {
     })
 }
 
-/// Refuses a metric that is judged more strictly in one table than in another.
+/// Refuses a metric that has different tolerances in two tables.
 fn one_tolerance(tables: &[Table]) -> Result<(), String> {
     let mut stated: BTreeMap<&str, (&str, Tolerance)> = BTreeMap::new();
     for table in tables {
@@ -113,7 +114,7 @@ fn columns(table: &Table) -> Result<(), String> {
     Ok(())
 }
 
-/// Refuses what no value can be measured or judged by.
+/// Refuses a metric by which no value can be measured or judged.
 fn metric(table: &Table, metric: &Metric) -> Result<(), String> {
     let reaches = |size: f64, least: f64| size.is_finite() && size >= least;
     match metric.tolerance.map(|tolerance| tolerance.within) {
@@ -138,11 +139,11 @@ fn metric(table: &Table, metric: &Metric) -> Result<(), String> {
     Ok(())
 }
 
-/// The names of a run's own parts in `runs.jsonl`.
+/// Names in `runs.jsonl` that identify a run.
 pub(super) const RESERVED: [&str; 5] = ["table", "row", "run", "seed", "checksum"];
 
-/// Refuses a run, just played or read back, that is no record of its table or has a value that none
-/// can have.
+/// Refuses a run, just played or read back, that does not fit the record of its table or has an
+/// impossible value.
 pub(super) fn run(experiment: &Experiment, run: &Run) -> Result<(), BoxError> {
     let mut tables = experiment.tables.iter();
     let Some(table) = tables.find(|table| table.name == run.table) else {
@@ -173,7 +174,7 @@ pub(super) fn run(experiment: &Experiment, run: &Run) -> Result<(), BoxError> {
     }
 }
 
-/// Refuses figures whose names do not serve as file names and ids.
+/// Refuses figures whose names cannot serve as file names and ids.
 pub(super) fn figures(experiment: &Experiment, figures: &[Figure]) -> Result<(), Error> {
     let names: Vec<String> = figures.iter().map(|figure| figure.name.clone()).collect();
     figure_names(&names).map_err(|what| Error::Figures {
@@ -182,8 +183,8 @@ pub(super) fn figures(experiment: &Experiment, figures: &[Figure]) -> Result<(),
     })
 }
 
-/// The longest name of a figure: file systems allow 255 bytes with the extension and what a
-/// temporary file adds, and nobody reads as many.
+/// Maximum length of a figure's name. File systems allow 255 bytes with the extension and the
+/// suffix of a temporary file.
 const LONGEST_NAME: usize = 100;
 
 fn figure_names(names: &[String]) -> Result<(), String> {

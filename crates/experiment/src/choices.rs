@@ -1,10 +1,10 @@
-//! Names that are not known, and those that are.
+//! Suggestions for unknown names.
 
-/// A likeness of two names, 0 … 1, from which one was probably meant for the other.
+/// Similarity of two names, 0 … 1, from which one was probably meant for the other.
 const LIKE: f64 = 0.8;
 
-/// Returns what a message tells of a name that is not among `known`: which one was probably meant,
-/// and which there are.
+/// Returns the part of a message about a name that is not among `known`: which one was probably
+/// meant, and all that exist.
 ///
 /// ```
 /// use tolman_experiment::choices;
@@ -25,7 +25,7 @@ pub fn choices<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Stri
     let mut nearest: Option<(f64, &str)> = None;
     for name in known {
         let like = like(name);
-        // Of two that are as near the first is named.
+        // Of two equally similar names the first is suggested.
         if like >= LIKE && nearest.is_none_or(|(best, _)| like > best) {
             nearest = Some((like, name));
         }

@@ -12,15 +12,15 @@ use super::{Error, Job, Procedure};
 
 /// One of several shares of an experiment's runs, written `3/8`.
 ///
-/// Runs that [share](Procedure::shares) work are in one chunk. Which chunk a run is in depends on
-/// the experiment and the number of runs alone, so machines need not talk to each other.
+/// Runs that [share](Procedure::shares) work are in one chunk. The chunk of a run depends only on
+/// the experiment and the number of runs, so machines need not communicate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Chunk {
     number: u32,
     of: u32,
 }
 
-/// A text that names no chunk.
+/// A text that is not a chunk.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{text:?} is not a chunk; write I/K for the I-th of K, such as 3/8, with I from 1 to K and K up \
@@ -32,10 +32,10 @@ pub struct ChunkError {
 }
 
 impl Chunk {
-    /// The most chunks of an experiment.
+    /// Maximum number of chunks of an experiment.
     pub const MOST: u32 = 100_000;
 
-    /// Returns the `number`-th of `of` chunks, counted from 1; `None` if there is no such chunk.
+    /// Returns the chunk `number` of `of`, counted from 1; `None` if there is no such chunk.
     pub const fn new(number: u32, of: u32) -> Option<Self> {
         if number >= 1 && number <= of && of <= Self::MOST {
             Some(Self { number, of })
@@ -49,13 +49,13 @@ impl Chunk {
         results.join(format!("chunk-{}-of-{}", self.number, self.of))
     }
 
-    /// Returns the chunk that a folder of this name holds, if it holds one.
+    /// Returns the chunk whose results a folder of this name holds; `None` if it is another folder.
     pub(super) fn of_folder(name: &str) -> Option<Self> {
         let (number, of) = name.strip_prefix("chunk-")?.split_once("-of-")?;
         Self::new(number.parse().ok()?, of.parse().ok()?)
     }
 
-    /// Returns the chunks that lie in a folder of results, in order.
+    /// Returns the chunks in a folder of results, in order.
     pub(super) fn all_in(results: &Path) -> Result<Vec<Self>, Error> {
         let action = "read the folder";
         let mut chunks = Vec::new();
@@ -68,7 +68,7 @@ impl Chunk {
         Ok(chunks)
     }
 
-    /// Returns how many chunks there are with this one.
+    /// Returns the number of chunks that this one belongs to.
     pub(super) const fn of(self) -> u32 {
         self.of
     }
@@ -85,8 +85,8 @@ impl Chunk {
     }
 }
 
-/// Returns the number of the chunk of each job: what shares work goes, as a whole, to the chunk
-/// with the fewest runs so far.
+/// Returns the number of the chunk of each job. Jobs that share work go together to the chunk with
+/// the fewest runs so far.
 ///
 /// Complexity: O(n log (n `chunks`)) for n jobs.
 pub(super) fn deal(jobs: &[(Key, Job<'_>)], chunks: u32, procedure: &dyn Procedure) -> Vec<u32> {
@@ -141,7 +141,7 @@ mod tests {
     use super::*;
     use crate::{BoxError, Fields};
 
-    /// Runs of one map share it; the row "alone" shares nothing.
+    /// Runs of the same map share it; those of the row "alone" share nothing.
     #[derive(Debug)]
     struct Maps(u32);
 
@@ -172,7 +172,8 @@ mod tests {
             for number in 1..=of {
                 let chunk = Chunk::new(number, of).unwrap();
                 let taken = chunk.take(jobs.clone(), &procedure);
-                // Ten maps of six runs and thirty runs: none has more than a map above its share.
+                // Ten maps of six runs and thirty runs: no chunk exceeds its share by more than a
+                // map.
                 let share = jobs.len().div_ceil(of as usize);
                 assert!(taken.len().abs_diff(share) <= 6, "{chunk}: {}", taken.len());
                 found.extend(taken);

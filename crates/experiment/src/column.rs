@@ -1,36 +1,37 @@
-//! Description of one field of a record: once, for the runner, the tables and the report.
+//! Description of one field of a record, for the runner, the tables and the report.
 
 use super::Tolerance;
 
 /// One field of a [`Record`](super::Record).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// Name of the field, as serde writes it.
+    /// Name of the field in serde's output.
     pub field: String,
-    /// Kind of its values.
+    /// Type of its values.
     pub kind: Kind,
     /// Whether every run has it.
     pub presence: Presence,
     /// Name on a page.
     pub title: String,
-    /// Unit, shown behind the title; empty if there is none.
+    /// Unit, shown after the title; empty if there is none.
     pub unit: String,
     /// Direction in which values are better.
     pub better: Better,
     /// Definition, in a sentence.
     pub definition: String,
-    /// Least value that a run can have.
+    /// Minimum value of a run; `None` for no limit.
     pub low: Option<f64>,
-    /// Greatest value that a run can have.
+    /// Maximum value of a run; `None` for no limit.
     pub high: Option<f64>,
-    /// Tolerance between our value and the paper's, unless a metric has its own.
+    /// Tolerance between our value and the paper's, unless a metric sets its own.
     pub tolerance: Option<Tolerance>,
-    /// Number of decimals shown, where a metric does not say it.
+    /// Number of decimals shown, unless a metric sets it.
     pub decimals: Option<u8>,
 }
 
 impl Column {
-    /// Returns the column of a field of type `T`, titled by its name, of which no way is better.
+    /// Returns the column of a field of type `T`. Its title is its name, and no direction is
+    /// better.
     pub fn of<T: Value>(field: impl Into<String>, definition: &str) -> Self {
         let field = field.into();
         Self {
@@ -48,19 +49,19 @@ impl Column {
         }
     }
 
-    /// Sets the title of a field of which more is better.
+    /// Sets the title of a field for which more is better.
     #[must_use]
     pub fn higher(self, title: impl Into<String>) -> Self {
         self.titled(title, Better::Higher)
     }
 
-    /// Sets the title of a field of which less is better.
+    /// Sets the title of a field for which less is better.
     #[must_use]
     pub fn lower(self, title: impl Into<String>) -> Self {
         self.titled(title, Better::Lower)
     }
 
-    /// Sets the title of a field of which no way is better.
+    /// Sets the title of a field for which no direction is better.
     #[must_use]
     pub fn neither(self, title: impl Into<String>) -> Self {
         self.titled(title, Better::Neither)
@@ -93,19 +94,19 @@ impl Column {
         self
     }
 
-    /// Says that the field is a part of 1.
+    /// Limits the field to 0 … 1.
     #[must_use]
     pub fn share(self) -> Self {
         self.at_least(0).at_most(1)
     }
 
-    /// Says that the field is a part of 100 %.
+    /// Limits the field to 0 … 100 and sets the unit %.
     #[must_use]
     pub fn percent(self) -> Self {
         self.unit("%").at_least(0).at_most(100)
     }
 
-    /// Sets how far our value may lie from the paper's.
+    /// Sets the maximum difference between our value and the paper's.
     #[must_use]
     pub fn tolerance(mut self, tolerance: Tolerance) -> Self {
         self.tolerance = Some(tolerance);
@@ -119,7 +120,7 @@ impl Column {
         self
     }
 
-    /// Returns the least and the greatest value that a run can have.
+    /// Returns the minimum and the maximum value of a run.
     pub(super) fn range(&self) -> (f64, f64) {
         let least = match self.kind {
             Kind::Count => 0.0,
@@ -131,7 +132,7 @@ impl Column {
         )
     }
 
-    /// Returns whether the range leaves no value.
+    /// Returns whether no value is in the range.
     pub(super) fn is_void(&self) -> bool {
         let sound = |bound: Option<f64>| bound.is_none_or(|bound| !bound.is_nan());
         let ordered = match (self.low, self.high) {
@@ -141,7 +142,7 @@ impl Column {
         !(sound(self.low) && sound(self.high) && ordered)
     }
 
-    /// Says why no run can have `value`; `None` if one can.
+    /// Returns why no run can have `value`; `None` if one can.
     pub(super) fn refusal(&self, value: f64) -> Option<String> {
         let Self { field, .. } = self;
         if !value.is_finite() {
@@ -161,7 +162,7 @@ impl Column {
     }
 }
 
-/// Kind of a field's values.
+/// Type of a field's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Yes or no.
@@ -172,7 +173,7 @@ pub enum Kind {
     Number,
     /// A word.
     Text,
-    /// Numbers at equal steps.
+    /// Numbers at equally spaced steps.
     Curve,
 }
 
@@ -192,7 +193,7 @@ pub enum Better {
     Higher,
     /// Less is better.
     Lower,
-    /// No way is better.
+    /// No direction is better.
     #[default]
     Neither,
 }
@@ -210,7 +211,7 @@ impl Better {
 
 /// A type that a field of a record can have.
 pub trait Value {
-    /// Kind of the values.
+    /// Type of the values.
     const KIND: Kind;
     /// Whether every run has it.
     const PRESENCE: Presence = Presence::Always;

@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 use super::at::at;
 use super::{Error, Fields, Run, runs_file};
 
-/// Compares the `runs.jsonl` of two folders of results. Every value counts to its last bit; the
-/// order of the lines does not. What else lies in the folders is not read.
+/// Returns the differences between the `runs.jsonl` of two folders of results. Values have to agree
+/// to the last bit; the order of lines does not matter. Other files in the folders are not read.
 ///
 /// # Errors
-/// [`Error::File`] if a folder has no `runs.jsonl` that can be read, [`Error::NoRuns`] if a line of
-/// it is no run or repeats one.
+/// - [`Error::File`] if a folder has no readable `runs.jsonl`.
+/// - [`Error::NoRuns`] if a line of it is not a run, or repeats one.
 pub fn compare(first: &Path, second: &Path) -> Result<Differences, Error> {
     let (a, b) = (runs_of(first)?, runs_of(second)?);
     let keys: BTreeSet<&Key> = a.keys().chain(b.keys()).collect();
@@ -43,8 +43,8 @@ pub fn compare(first: &Path, second: &Path) -> Result<Differences, Error> {
 /// Table, row and index of a run.
 type Key = (String, String, u32);
 
-/// The differences between two folders of results; [`Display`](fmt::Display) tells them, a line for
-/// each field of a row.
+/// The differences between two folders of results. [`Display`](fmt::Display) writes a line for each
+/// field of a row.
 #[derive(Clone, Debug)]
 pub struct Differences {
     first: PathBuf,
@@ -54,14 +54,14 @@ pub struct Differences {
     rows: BTreeMap<(String, String, String), Found>,
 }
 
-/// One field of a row that differs.
+/// A difference in one field of a row.
 #[derive(Clone, Debug)]
 struct Found {
-    /// The first run that shows it.
+    /// First run with the difference.
     run: u32,
-    /// How that run shows the difference.
+    /// The difference in that run, in words.
     change: String,
-    /// The number of runs that show it.
+    /// Number of runs with the difference.
     runs: usize,
 }
 
@@ -94,8 +94,8 @@ impl fmt::Display for Differences {
     }
 }
 
-/// Returns what differs between a run of the first folder and its fellow of the second: the name of
-/// the field, or `the run`, and how.
+/// Returns the differences between two runs with the same key: the name of each field, or `the
+/// run`, and the difference in words.
 pub(super) fn changes(a: Option<&Run>, b: Option<&Run>) -> Vec<(String, String)> {
     let (Some(a), Some(b)) = (a, b) else {
         let what = told(a.map(|_| ""), b.map(|_| ""));
@@ -114,7 +114,7 @@ pub(super) fn changes(a: Option<&Run>, b: Option<&Run>) -> Vec<(String, String)>
     changed.collect()
 }
 
-/// Returns a field as it stands in the file, which has every bit of it.
+/// Returns the text of a field in the file, which has all its bits.
 fn written(fields: &Fields, name: &str) -> Option<String> {
     let field = fields.get(name)?;
     Some(serde_json::to_string(field).unwrap_or_default())
@@ -123,7 +123,7 @@ fn written(fields: &Fields, name: &str) -> Option<String> {
 fn told(one: Option<&str>, other: Option<&str>) -> String {
     match (one, other) {
         (Some(one), Some(other)) => {
-            // Curves are long: what counts is where they part.
+            // Curves are long, so only their first difference is shown.
             let differs = |(a, b): &(&str, &str)| a != b;
             let parted = one.split(',').zip(other.split(',')).find(differs);
             let (one, other) = parted.unwrap_or((one, other));

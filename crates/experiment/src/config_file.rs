@@ -1,4 +1,4 @@
-//! `config.toml`: all that is needed to make the results again.
+//! `config.toml`: everything that is needed to repeat the results.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ pub(super) struct ConfigFile {
     format: String,
     version: u32,
     experiment: String,
-    /// The command that makes the results again.
+    /// Command that repeats the results.
     pub(super) command: String,
     seed: u64,
     runs: u32,
@@ -21,7 +21,7 @@ pub(super) struct ConfigFile {
 }
 
 impl ConfigFile {
-    /// Returns the configuration of an experiment that is about to run.
+    /// Returns the configuration of an experiment about to run.
     pub(super) fn new(experiment: &Experiment, options: &Options, build: &Build) -> Self {
         let entry = &experiment.entry;
         Self {
@@ -51,8 +51,8 @@ impl ConfigFile {
         })
     }
 
-    /// Returns why results made under `former` cannot be part of results made under this
-    /// configuration; `None` if they can. The number of runs is free: every run is by itself.
+    /// Returns why results with the configuration `former` cannot be combined with results of this
+    /// one; `None` if they can. The number of runs may differ, because runs are independent.
     pub(super) fn conflict_with(&self, former: &Self) -> Option<String> {
         if former.version != self.version {
             Some(format!("version {} of the folder's format", former.version))

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::{BoxError, Job, choices};
 
-/// Reason why an experiment could not be run to its end.
+/// Reason why an experiment could not be completed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -16,7 +16,7 @@ pub enum Error {
         what: &'static str,
         /// The name asked for.
         name: String,
-        /// The name that was probably meant, and those there are.
+        /// The name that was probably meant, and all that exist.
         choices: String,
     },
     /// Input of the experiment cannot be read.
@@ -33,7 +33,7 @@ pub enum Error {
         /// The option.
         option: &'static str,
     },
-    /// A table has a number of runs that no caller changes.
+    /// A table has a fixed number of runs.
     #[error("table {table:?} always has {own} runs per row; leave --runs out")]
     FixedRuns {
         /// The table.
@@ -41,13 +41,13 @@ pub enum Error {
         /// Maximum number of runs of its rows.
         own: u32,
     },
-    /// No row of a table that was named has a run.
+    /// A table that the options name would have no runs.
     #[error("table {table:?} would have no runs; give a greater number with --runs")]
     EmptyTable {
         /// The table.
         table: String,
     },
-    /// More runs are asked for than there is room for.
+    /// More runs are asked for than fit into memory.
     #[error("{runs} runs of each row are too many; give --runs {most} or fewer")]
     TooManyRuns {
         /// Number of runs asked for.
@@ -55,13 +55,13 @@ pub enum Error {
         /// Maximum number.
         most: u32,
     },
-    /// The master seed does not fit TOML's integers.
+    /// The master seed is too large for TOML's integers.
     #[error("seed {seed} is too large for config.toml; give one below 2^63")]
     Seed {
         /// The seed.
         seed: u64,
     },
-    /// The experiment's tables contradict themselves.
+    /// The experiment's tables are inconsistent.
     #[error("the tables of experiment {name} are invalid: {what}")]
     Tables {
         /// The experiment.
@@ -69,7 +69,7 @@ pub enum Error {
         /// What is wrong.
         what: String,
     },
-    /// The folder of results is in use for something else.
+    /// The folder of results holds something else.
     #[error(
         "{} holds files but no results of tolman ({what}); choose another folder with --out or \
          empty this one",
@@ -81,7 +81,7 @@ pub enum Error {
         /// What was found there.
         what: String,
     },
-    /// Another process has the folder of results open.
+    /// Another process is using the folder of results.
     #[error(
         "another experiment is writing to {}; wait for it or choose another folder with --out",
         folder.display()
@@ -95,9 +95,9 @@ pub enum Error {
     File {
         /// What was tried.
         action: &'static str,
-        /// On what.
+        /// Path of the file or folder.
         path: PathBuf,
-        /// What helps.
+        /// What to do about it.
         repair: &'static str,
         /// The system's error.
         source: io::Error,
@@ -146,12 +146,12 @@ pub enum Error {
         /// The table.
         table: String,
     },
-    /// A file of runs holds something else.
+    /// A file of runs has an invalid line.
     #[error("{}, line {line}: {what}; compare folders that `tolman experiment` wrote", path.display())]
     NoRuns {
         /// The file.
         path: PathBuf,
-        /// The line, from 1.
+        /// Number of the line, from 1.
         line: u64,
         /// What is wrong with it.
         what: String,
@@ -166,7 +166,7 @@ pub enum Error {
         /// The folder.
         folder: PathBuf,
     },
-    /// A chunk, or what was there before, is of something else.
+    /// A chunk, or a folder already there, belongs to something else.
     #[error(
         "{} holds results of {reason}; remove it, or merge with the program that made it and the \
          mazes as they were",
@@ -178,7 +178,7 @@ pub enum Error {
         /// What differs.
         reason: String,
     },
-    /// A folder cannot be verified with this command.
+    /// A folder cannot be verified with this command or program.
     #[error(
         "{} cannot be verified: it was made with {reason}; give the options and the program of \
          the command in its config.toml",
@@ -190,17 +190,17 @@ pub enum Error {
         /// What differs.
         reason: String,
     },
-    /// Chunks are not finished or not there.
+    /// Chunks are unfinished or missing.
     #[error("{missing} of {total} runs are missing; run these chunks again: {chunks}")]
     Incomplete {
-        /// Runs that no chunk has.
+        /// Number of runs that no chunk has.
         missing: usize,
-        /// Runs of the whole experiment.
+        /// Number of runs of the whole experiment.
         total: usize,
         /// The chunks that have them, as I/K.
         chunks: String,
     },
-    /// The pictures could not be made.
+    /// The figures could not be drawn.
     #[error("the figures of experiment {name} could not be drawn")]
     Figures {
         /// The experiment.
@@ -208,26 +208,26 @@ pub enum Error {
         /// The underlying error.
         source: BoxError,
     },
-    /// The caller asked to stop.
+    /// The caller asked the experiment to stop.
     #[error(
         "stopped after {done} of {total} runs, which are kept in {}; go on from there with: \
          {command}",
         folder.display()
     )]
     Interrupted {
-        /// Runs that are finished.
+        /// Number of finished runs.
         done: u64,
-        /// Runs of the whole experiment.
+        /// Number of runs of the whole experiment.
         total: u64,
         /// The folder of results.
         folder: PathBuf,
-        /// The command that goes on.
+        /// Command that continues.
         command: String,
     },
 }
 
 impl Error {
-    /// Returns the place of a name among those there are.
+    /// Returns the index of a name among `known` ones.
     pub(super) fn place_of<'a>(
         what: &'static str,
         name: &str,
@@ -243,7 +243,7 @@ impl Error {
             })
     }
 
-    /// Returns a run that could not be played.
+    /// Returns the error about a run that could not be played.
     pub(super) fn run(job: &Job<'_>, source: BoxError) -> Self {
         Self::Run {
             table: job.table.to_owned(),

@@ -53,49 +53,48 @@ use tolman_replay::Replay;
 pub struct Experiment {
     /// Entry in the catalogue.
     pub entry: Entry,
-    /// The tables, in the order they are shown.
+    /// Tables, in the order in which they are shown.
     pub tables: Vec<Table>,
-    /// Everything, apart from the seed and the number of runs, that the results depend on: mazes
-    /// with their whole contents, gains, noise. Two experiments with equal configurations give
-    /// equal runs; finished runs are reused only then.
+    /// Everything the results depend on except the seed and the number of runs: mazes with their
+    /// contents, gains, noise. Finished runs are reused only if the configuration is equal.
     pub config: toml::Table,
-    /// Parts left out for missing data, and how to get it; `None` if all is here.
+    /// Parts left out because data is missing, and how to get it; `None` if everything is here.
     pub skipped: Option<String>,
-    /// Procedure of its runs.
+    /// Procedure that plays its runs.
     pub procedure: Box<dyn Procedure>,
     /// Whether only some tables are filled.
     in_part: bool,
 }
 
-/// Procedure by which the runs of an experiment are played and drawn.
+/// How the runs of an experiment are played and drawn.
 pub trait Procedure: Sync + core::fmt::Debug {
-    /// Plays one run. A pure function of the job and the configuration: the same job gives the same
-    /// fields on every thread, in any order.
+    /// Plays one run and returns its fields. It is a pure function of the job and the
+    /// configuration: the same job gives the same fields on every thread, in any order.
     ///
     /// # Errors
-    /// If the run cannot be played at all. That a robot does not arrive is a result, not an error.
+    /// If the run cannot be played at all. A robot that does not arrive is a result, not an error.
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError>;
 
-    /// Returns the name of work that this run has in common with others and that is done once for
-    /// all of them, such as a learned map; `None`, the default, if there is no such work. Runs of
-    /// one name are in one [`Chunk`](super::Chunk), so that no two machines do it.
+    /// Returns the name of work that this run shares with others and that is done once for all of
+    /// them, such as learning a map. `None`, the default, if there is no such work. Runs with one
+    /// name are in one [`Chunk`](super::Chunk), so that no two machines repeat it.
     fn shares(&self, job: &Job<'_>) -> Option<String> {
         let _ = job;
         None
     }
 
-    /// Pictures beside the box plots that every experiment gets. `runs` is complete and sorted by
-    /// table, row and index; a run can be played again from its [`Run::job`].
+    /// Returns pictures in addition to the box plots that every experiment gets. `runs` is complete
+    /// and sorted by table, row and index. [`Run::job`] says how to play a run again.
     ///
     /// # Errors
-    /// If a run that is to be drawn cannot be played again.
+    /// If a run cannot be played again for its picture.
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let _ = runs;
         Ok(Vec::new())
     }
 
-    /// Returns the runs that the report carries replays of, as many as fit, the most important
-    /// first; `None`, the default, for the first of each row. `runs` is complete and sorted by
+    /// Returns the runs whose replays the report carries, as many as fit, the most important first.
+    /// `None`, the default, takes the first runs of each row. `runs` is complete and sorted by
     /// table, row and index.
     ///
     /// # Errors
@@ -105,11 +104,11 @@ pub trait Procedure: Sync + core::fmt::Debug {
         Ok(None)
     }
 
-    /// Plays a run again and records it, so that its dots in the report can be opened. The report
-    /// carries the first runs of each row, as many as fit; [`write_replay`](super::write_replay)
-    /// writes any.
+    /// Plays a run again and returns its replay, which opens from its dots in the report. The
+    /// report carries the first runs of each row, as many as fit;
+    /// [`write_replay`](super::write_replay) writes any.
     ///
-    /// `None`, the default, for runs of which there is nothing to see.
+    /// `None`, the default, if the run has nothing to show.
     ///
     /// # Errors
     /// If the run cannot be played again.
@@ -120,7 +119,7 @@ pub trait Procedure: Sync + core::fmt::Debug {
 }
 
 impl Experiment {
-    /// Returns an experiment that leaves nothing out.
+    /// Returns an experiment without missing data.
     pub fn new(
         entry: Entry,
         tables: Vec<Table>,
@@ -137,18 +136,18 @@ impl Experiment {
         }
     }
 
-    /// Says what is left out.
+    /// Sets which parts are left out because data is missing.
     #[must_use]
     pub fn skipped(mut self, skipped: Option<String>) -> Self {
         self.skipped = skipped;
         self
     }
 
-    /// Leaves the tables and rows that the options do not name without runs; where they name none,
-    /// fills all. The configuration stays, so other runs stay in the folder of results.
+    /// Removes the runs of tables and rows that the options do not name, if they name any. The
+    /// configuration does not change, so other runs stay in the folder of results.
     ///
     /// # Errors
-    /// [`Error::Unknown`] if it has no table or no row of a name; [`Error::EmptyTable`].
+    /// [`Error::Unknown`] if there is no table or row of that name; [`Error::EmptyTable`].
     pub(super) fn choose(mut self, options: &Options) -> Result<Self, Error> {
         let Options { tables, rows, .. } = options;
         for name in tables {
@@ -175,7 +174,7 @@ impl Experiment {
         Ok(self)
     }
 
-    /// Leaves rows without runs, by the name of their table and their own.
+    /// Removes the runs of rows for which `is_left_out` is true, given the names of table and row.
     fn leave_out(&mut self, is_left_out: impl Fn(&String, &String) -> bool) {
         self.in_part = true;
         for table in &mut self.tables {
@@ -187,8 +186,8 @@ impl Experiment {
         }
     }
 
-    /// Holds the number of runs that the caller asks for against the tables that have one of their
-    /// own: refuses it for those that are named, and says of the others that it is not theirs.
+    /// Compares the number of runs in the options with tables of a fixed number. It refuses them
+    /// for tables that the options name, and adds a note to the others.
     ///
     /// # Errors
     /// [`Error::FixedRuns`].
@@ -222,7 +221,7 @@ impl Experiment {
         Ok(self)
     }
 
-    /// Returns the table of this name and its place.
+    /// Returns the table of this name and its index.
     ///
     /// # Errors
     /// [`Error::Unknown`] if there is none.
@@ -232,14 +231,14 @@ impl Experiment {
         Ok((place, &self.tables[place]))
     }
 
-    /// Plays a run again and records it; `None` of one of which there is nothing to see.
+    /// Plays a run again and returns its replay; `None` if it has nothing to show.
     pub(super) fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, Error> {
         let replay = self.procedure.replay(job);
         replay.map_err(|source| Error::run(job, source))
     }
 
-    /// Returns the pictures of the procedure. Of an experiment in part those of its tables; figures
-    /// of several tables are left out then.
+    /// Returns the pictures of the procedure. If only some tables are filled, figures of several
+    /// tables are left out.
     pub(super) fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let mut figures = self.procedure.figures(runs)?;
         figures.retain(|figure| {

@@ -1,17 +1,17 @@
-//! Files that are whole or not there, and the files of a folder.
+//! Writes files completely or not at all, and lists the files of a folder.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a file beside its place and moves it there, so that a reader sees the former file or the
-/// new one, never a part. The data are on the disk before the move.
+/// Writes a file completely or not at all. Readers see the old contents or the new ones, never a
+/// part. The data is on the disk before the file is moved to its place.
 ///
-/// A link is followed, a file that may not be written is left as it is, and what is no file (a
-/// device, a pipe) is written to, not replaced.
+/// A link is followed. A read-only file is left as it is. A device or a pipe is written to, not
+/// replaced.
 ///
 /// # Errors
-/// What the system says; nothing new is then left behind.
+/// The system's error; no new file is then left behind.
 pub fn write_whole(path: &Path, contents: &[u8]) -> io::Result<()> {
     let Ok(there) = fs::canonicalize(path) else {
         return move_into_place(path, contents);
@@ -40,16 +40,16 @@ fn move_into_place(path: &Path, contents: &[u8]) -> io::Result<()> {
         fs::rename(&temporary, path)
     });
     if written.is_err() {
-        // What is left of it is of no use; the error that matters is the first one.
+        // The temporary file is useless; the error to report is the first one.
         let _ = fs::remove_file(&temporary);
     }
     written
 }
 
-/// Returns the files in a folder, not those in folders below it, sorted by name.
+/// Returns the files directly in a folder, sorted by name.
 ///
 /// # Errors
-/// What the system says.
+/// The system's error.
 pub fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let listed = fs::read_dir(folder)?.collect::<io::Result<Vec<_>>>()?;
     let mut files: Vec<PathBuf> = listed.iter().map(fs::DirEntry::path).collect();

@@ -1,5 +1,5 @@
-//! The folder of results: opened once at a time, resumed if it is the same experiment, set aside
-//! if it is another.
+//! The folder of results. Only one process may open it at a time. It is resumed for the same
+//! experiment, and set aside for another.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
@@ -12,26 +12,26 @@ use tolman_draw::Figure;
 
 pub(super) const CONFIG: &str = "config.toml";
 pub(super) const RUNS: &str = "runs.jsonl";
-/// Finished runs beyond the number asked for, kept for a later, larger number.
+/// File of finished runs beyond the number asked for, kept in case more are asked for later.
 const SPARE: &str = "spare.jsonl";
-/// An empty file that is locked while a process has the folder open. It stays: to remove it would
-/// let two processes lock two files of the same name.
+/// An empty file that is locked while a process has the folder open. It is never removed: otherwise
+/// two processes could lock two files of the same name.
 const LOCK: &str = ".lock";
 
-/// The folder of single replays, which may be there before any run was played.
+/// Folder of single replays, which may exist before any run was played.
 pub(super) const REPLAYS: &str = "replays";
 
 /// An open folder of results. No other process can open it until this is dropped.
 #[derive(Debug)]
 pub(super) struct Folder {
     path: PathBuf,
-    /// Held for its lock only.
+    /// Kept only for its lock.
     _lock: File,
 }
 
 impl Folder {
-    /// Opens or makes the folder for the experiment that `config` describes and writes its
-    /// `config.toml`. What lies there of another configuration is moved to `PATH.1`, `PATH.2`, ….
+    /// Opens or makes the folder for the experiment that `config` describes, and writes its
+    /// `config.toml`. Results of another configuration are moved to `PATH.1`, `PATH.2`, ….
     pub(super) fn open(
         path: &Path,
         config: &ConfigFile,
@@ -59,8 +59,8 @@ impl Folder {
         })
     }
 
-    /// Reads the finished runs, keeps those below `runs` in `runs.jsonl` and parks the others in
-    /// `spare.jsonl`. Returns the kept ones.
+    /// Reads the finished runs. Those below `runs` stay in `runs.jsonl`, the others go to
+    /// `spare.jsonl`. Returns the former.
     pub(super) fn resume(
         &self,
         experiment: &Experiment,
@@ -74,7 +74,7 @@ impl Folder {
         let (kept, spare): (Runs, Runs) = known
             .into_iter()
             .partition(|(key, _)| runs_file::is_wanted(*key, experiment, runs));
-        // Spare runs are safe before they leave the other file.
+        // Spare runs are on the disk before they are removed from the other file.
         if !spare.is_empty() {
             runs_file::write(&spare_file, spare.values())?;
         }
@@ -85,7 +85,7 @@ impl Folder {
         Ok(kept)
     }
 
-    /// Opens `runs.jsonl` for runs that finish from now on.
+    /// Opens `runs.jsonl` to append finished runs.
     pub(super) fn appender(&self) -> Result<Appender, Error> {
         Appender::open(&self.path.join(RUNS))
     }
@@ -95,7 +95,7 @@ impl Folder {
         runs_file::write(&self.path.join(RUNS), runs.iter())
     }
 
-    /// Writes every figure to `figures/NAME.svg` and removes those of an earlier time.
+    /// Writes every figure to `figures/NAME.svg` and removes older ones.
     pub(super) fn write_figures(&self, figures: &[Figure]) -> Result<(), Error> {
         let folder = self.path.join("figures");
         make_folder(&folder)?;
@@ -130,7 +130,7 @@ impl Folder {
     }
 }
 
-/// Refuses a path that is a file, and a folder with files but without a `config.toml` of ours:
+/// Refuses a path that is a file, and a folder with files but without our `config.toml`, so that
 /// nobody's files are moved or overwritten.
 fn refuse_foreign(path: &Path) -> Result<(), Error> {
     let Some(entries) = if_there("read the folder", path, fs::read_dir(path))? else {
@@ -147,8 +147,8 @@ fn refuse_foreign(path: &Path) -> Result<(), Error> {
     for entry in entries {
         let name = at("read the folder", path, entry)?.file_name();
         let name = name.to_string_lossy();
-        // What a process that died before its first whole file may leave behind, single replays,
-        // and chunks that are to be merged.
+        // Allowed are the remains of a process that died early, single replays, and chunks to
+        // merge.
         let ours = name == LOCK
             || name == REPLAYS
             || (name.starts_with('.') && name.ends_with(".tmp"))
@@ -187,7 +187,8 @@ fn lock(path: &Path) -> Result<File, Error> {
     }
 }
 
-/// Returns what keeps the contents of the folder from being part of the new results.
+/// Returns why the contents of the folder cannot be combined with the new results; `None` if they
+/// can.
 pub(super) fn conflict(path: &Path, config: &ConfigFile) -> Result<Option<String>, Error> {
     let file = path.join(CONFIG);
     let text = if_there("read", &file, fs::read_to_string(&file))?;
@@ -197,10 +198,10 @@ pub(super) fn conflict(path: &Path, config: &ConfigFile) -> Result<Option<String
     }))
 }
 
-/// Returns the first of `PATH.1`, `PATH.2`, … that is free.
+/// Returns the first unused path of `PATH.1`, `PATH.2`, ….
 fn free_name(path: &Path) -> PathBuf {
     let mut number = 1_u64;
-    // Without the slash that may end the path.
+    // Remove a slash at the end of the path.
     let path: PathBuf = path.components().collect();
     loop {
         let mut name = path.as_os_str().to_owned();

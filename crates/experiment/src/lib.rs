@@ -1,17 +1,18 @@
-//! The runner of experiments: every run of every row of every table, in parallel, resumable.
+//! The runner of experiments: plays every run of every row of every table, in parallel, and can be
+//! interrupted and resumed.
 //!
-//! An [`Experiment`] says which [`Table`]s it fills; its [`Procedure`] how one run is played, and
-//! which pictures it adds. The runner knows nothing of mazes or robots: it plays the [`Job`]s that
-//! are missing, keeps a folder of results that can be resumed, and summarizes.
+//! An [`Experiment`] says which [`Table`]s it fills. Its [`Procedure`] says how one run is played,
+//! and which pictures it adds. The runner knows nothing of mazes or robots. It plays the missing
+//! [`Job`]s, keeps a folder of results that can be resumed, and summarizes.
 //!
-//! Each run is keyed by table, row and index. Its seed comes from the master seed, the table and
-//! the index, *not* the row, so that every row of a table meets the same starts and the same noise
-//! and rows can be compared in pairs.
+//! Each run is identified by table, row and index. Its seed follows from the master seed, the table
+//! and the index, *not* from the row. So every row of a table meets the same starts and the same
+//! noise, and rows can be compared in pairs.
 //!
-//! What a run measures is a [`Record`]: a struct whose fields carry title, unit, direction of
-//! better, tolerance, range and definition, declared once by [`record!`]. Results that lie in a
-//! folder are reused only if they are in their ranges and pass [`Record::check`]; a run just played
-//! that does not is an error.
+//! A run measures a [`Record`]: a struct whose fields carry title, unit, direction of better,
+//! tolerance, range and definition, declared once by [`record!`]. Results already in a folder are
+//! reused only if they are in their ranges and pass [`Record::check`]. For a run just played,
+//! failing this is an error.
 
 extern crate alloc;
 

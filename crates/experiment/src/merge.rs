@@ -1,4 +1,4 @@
-//! Chunks of an experiment put together.
+//! Merges the chunks of an experiment.
 
 use alloc::collections::BTreeSet;
 use core::iter::once;
@@ -12,7 +12,7 @@ use super::folder::{CONFIG, Folder, RUNS, conflict};
 use super::runner::{execute, jobs};
 use super::{Build, Error, Experiment, ExperimentOutcome, Options, Progress, check, runs_file};
 
-/// Returns the command that the chunks in a folder of results are a part of.
+/// Returns the command that the chunks in a folder of results belong to.
 ///
 /// # Errors
 /// [`Error::NoChunks`] if there are none; [`Error::File`] if one cannot be read.
@@ -27,12 +27,14 @@ pub fn command_of_chunks(results: &Path) -> Result<String, Error> {
     Err(no_chunks(results))
 }
 
-/// Puts the chunks in the experiment's folder together and makes its results of them, as
-/// [`execute`] does on one machine: the same runs, tables and figures to the byte.
+/// Merges the chunks in the experiment's folder into its results. They are the same to the byte as
+/// those that [`execute`] writes on one machine.
 ///
 /// # Errors
-/// [`Error::NoChunks`] if there are none; [`Error::OtherChunk`] if one is of another experiment,
-/// configuration or build; [`Error::Incomplete`] if runs are missing; those of [`execute`].
+/// - [`Error::NoChunks`] if there are no chunks.
+/// - [`Error::OtherChunk`] if one has another experiment, configuration or build.
+/// - [`Error::Incomplete`] if runs are missing.
+/// - The errors of [`execute`].
 pub fn merge(
     experiment: &Experiment,
     options: &Options,

@@ -7,7 +7,7 @@ use std::thread;
 use super::{Chunk, Entry, Tour};
 use crate::shell::quoted;
 
-/// Program with which the caller runs experiments.
+/// Program that the caller runs experiments with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Program {
     /// The installed program of this name.
@@ -26,8 +26,8 @@ impl Default for Program {
 }
 
 impl Program {
-    /// Returns the one that runs now and is called `command`. Cargo names itself to the programs it
-    /// starts in the variable `CARGO`.
+    /// Returns the running program, which is called `command`. If the variable `CARGO` says that
+    /// cargo started it, it is `cargo xtask`.
     pub fn current(command: &'static str) -> Self {
         match env::var_os("CARGO") {
             Some(_) if command == OWN => Self::Xtask,
@@ -35,7 +35,7 @@ impl Program {
         }
     }
 
-    /// Returns the words that a command begins with.
+    /// Returns the first words of a command line.
     #[must_use]
     pub const fn command(self) -> &'static str {
         match self {
@@ -48,39 +48,41 @@ impl Program {
 /// Options of running an experiment.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// The master seed, from which every run's seed is derived. Below 2^63, for TOML.
+    /// Master seed, from which every run's seed follows. Below 2^63, because of TOML.
     pub seed: u64,
-    /// Runs of each row, at most [`Self::MOST_RUNS`]; `None` takes the experiment's own number.
+    /// Number of runs of each row, at most [`Self::MOST_RUNS`]; `None` for the experiment's own
+    /// number.
     pub runs: Option<u32>,
-    /// Threads, never more than [`Self::MOST_JOBS`] nor than there are runs to play; `None` takes
-    /// one for each core. Results do not depend on it.
+    /// Number of threads, at most [`Self::MOST_JOBS`] and at most the number of runs; `None` for
+    /// one per core. Results do not depend on it.
     pub jobs: Option<u32>,
-    /// Maze files that take the place of the experiment's own worlds.
+    /// Maze files to use instead of the experiment's own worlds.
     pub mazes: Vec<PathBuf>,
-    /// Time steps after which a run has failed, in place of the experiment's own limits, where runs
-    /// have such a limit. What a paper says of another one is then left out.
+    /// Number of time steps after which a run has failed, where runs have such a limit; `None` for
+    /// the experiment's own. If it differs from the paper's, the paper's values are left out.
     pub limit: Option<u32>,
     /// The folder of results; `None` is `results/NAME` under the current folder.
     pub out: Option<PathBuf>,
-    /// The names of the tables that are filled; all of them if none is named.
+    /// Names of the tables to fill; empty for all.
     pub tables: Vec<String>,
-    /// The names of the rows that are filled, in each table that has them; all if none is named.
+    /// Names of the rows to fill, in each table that has them; empty for all.
     pub rows: Vec<String>,
-    /// Few runs, for a first look.
+    /// Whether to play few runs, for a first look.
     pub quick: bool,
-    /// Beginning of the command that makes the results again.
+    /// Program that the command to repeat the results begins with.
     pub program: Program,
 }
 
 impl Options {
-    /// The most runs of each row: every run is kept in memory, about 1 kB each, until all are
-    /// summarized.
+    /// Maximum number of runs of each row. Every run is kept in memory, about 1 kB each, until all
+    /// are summarized.
     pub const MOST_RUNS: u32 = 100_000;
 
-    /// The most threads, whatever the caller asks for: no more help, and each takes memory.
+    /// Maximum number of threads. More would not help, and each takes memory.
     pub const MOST_JOBS: u32 = 256;
 
-    /// Runs of each row: the caller's number, else the experiment's, quick or full.
+    /// Returns the number of runs of each row: the caller's, or else the experiment's, quick or
+    /// full.
     pub fn runs_of(&self, entry: &Entry) -> u32 {
         self.runs.unwrap_or(match self.quick {
             true => entry.quick_runs,
@@ -88,13 +90,13 @@ impl Options {
         })
     }
 
-    /// Runs of a row that has another number than the experiment's: the caller's, else its own,
-    /// `full` or `quick`.
+    /// Returns the number of runs of a row that differs from the experiment's: the caller's, or
+    /// else `full` or `quick`.
     pub fn runs_else(&self, full: u32, quick: u32) -> u32 {
         self.runs.unwrap_or(if self.quick { quick } else { full })
     }
 
-    /// Returns them as the tour of all experiments asks for this one, in a folder below that of the
+    /// Returns the options for this experiment in the tour of all, in a folder below that of the
     /// tour.
     #[must_use]
     pub fn on_tour(&self, tour: &Tour, folder: &Path) -> Self {
@@ -107,7 +109,7 @@ impl Options {
         }
     }
 
-    /// Returns the threads that play this many runs.
+    /// Returns the number of threads for this many runs.
     pub(super) fn threads_for(&self, runs: u64) -> u32 {
         let wanted = self.jobs.unwrap_or_else(|| {
             thread::available_parallelism()
@@ -119,14 +121,14 @@ impl Options {
         wanted.min(useful).clamp(1, Self::MOST_JOBS)
     }
 
-    /// Returns the folder the results of an experiment go to.
+    /// Returns the folder for an experiment's results.
     pub fn folder_of(&self, name: &str) -> PathBuf {
         self.out
             .clone()
             .unwrap_or_else(|| PathBuf::from("results").join(name))
     }
 
-    /// Returns the command that makes the same results again.
+    /// Returns the command that repeats the results.
     pub fn command_of(&self, entry: &Entry) -> String {
         let verb = format!("{} experiment {}", self.program.command(), entry.name);
         self.command(&verb, entry)
@@ -145,10 +147,10 @@ impl Options {
         self.command(&verb, entry)
     }
 
-    /// Returns a command that begins like this, with all options that the results depend on.
+    /// Returns a command with this verb and all options that the results depend on.
     fn command(&self, verb: &str, entry: &Entry) -> String {
         let mut command = format!("{verb} --seed {}", self.seed);
-        // A table alone may have a number of runs of its own.
+        // A table named alone may have a fixed number of runs.
         if self.runs.is_some() || self.tables.is_empty() {
             command += &format!(" --runs {}", self.runs_of(entry));
         }

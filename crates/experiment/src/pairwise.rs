@@ -1,51 +1,51 @@
-//! All rows of a table against each other, as papers report them.
+//! Pairwise comparison of all rows of a table, as papers report it.
 
 use super::sample::Sample;
 use super::{Contrast, Correction, Doubt, Run, Statistic, Table, Verdict};
 
-/// Rows that are compared with each other, and the metric.
+/// Rows that are compared pairwise, and the metric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pairwise {
-    /// The numeric field of the runs that is compared.
+    /// Numeric field that is compared.
     pub field: String,
-    /// The rows; every two of them are a pair.
+    /// Rows; each two of them are a pair.
     pub rows: Vec<String>,
     /// Correction of p-values for the number of pairs.
     pub correction: Correction,
-    /// The paper's p-values, each with its two rows, in either order.
+    /// The paper's p-values, each with its two rows in either order.
     pub paper: Vec<(String, String, f64)>,
 }
 
-/// Two rows, compared.
+/// Comparison of two rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowPair {
-    /// The row that comes first in the table.
+    /// Row that comes first in the table.
     pub first: String,
-    /// The other one.
+    /// The other row.
     pub second: String,
-    /// Runs of both.
+    /// Number of runs of both.
     pub n: u64,
     /// Difference of the first row from the second; its p-value is corrected for the number of
     /// pairs.
     pub contrast: Contrast,
     /// The paper's p-value.
     pub paper: Option<f64>,
-    /// Reason why it is not judged, where the paper has one.
+    /// Reason why the paper's p-value is not judged; `None` if it has none.
     pub verdict: Option<Verdict>,
 }
 
-/// Reason why a p-value is no quantity.
+/// Reason why p-values are not judged.
 const OF_SAMPLES: &str = "a p-value speaks of its samples, not of a quantity";
 
 impl RowPair {
-    /// Returns both rows in words.
+    /// Returns the names of both rows in words.
     pub fn name(&self) -> String {
         format!("{} – {}", self.first, self.second)
     }
 }
 
 impl Pairwise {
-    /// Returns every pair of rows that were measured, in the order of the rows.
+    /// Returns the comparison of every pair of measured rows, in the order of the rows.
     pub(super) fn compare(&self, table: &Table, runs: &[Run]) -> Vec<RowPair> {
         let statistic = Statistic::Mean(self.field.clone());
         let samples: Vec<(&String, Vec<f64>)> = self

@@ -3,21 +3,21 @@
 use super::{Experiment, Metric, Run, Statistic, Table};
 use tolman_draw::{BoxGroup, BoxPlot, Dot, Figure, PaperMark, Series};
 
-/// Returns one box plot for every field of which a metric is the mean or the median, in the order
-/// of tables and metrics.
+/// Returns one box plot for every field with a mean or a median as metric, in the order of tables
+/// and metrics.
 pub(super) fn box_plots(experiment: &Experiment, runs: &[Run]) -> Vec<Figure> {
     plotted(experiment)
         .map(|(name, table, metric, field)| box_plot(name, table, metric, field, runs))
         .collect()
 }
 
-/// Returns the names of the box plots, known before any run.
+/// Returns the names of the box plots, which are known before any run.
 pub(super) fn names(experiment: &Experiment) -> Vec<String> {
     plotted(experiment).map(|(name, ..)| name).collect()
 }
 
-/// Returns what gets a box plot: its name, the table, the metric and the metric's field. Tables go
-/// by number, since their names may be any text of a maze file.
+/// Returns what gets a box plot: its name, the table, the metric and the metric's field. Tables are
+/// numbered, because their names may be any text from a maze file.
 fn plotted(experiment: &Experiment) -> impl Iterator<Item = (String, &Table, &Metric, &str)> {
     (1_u32..)
         .zip(&experiment.tables)
@@ -28,7 +28,7 @@ fn plotted(experiment: &Experiment) -> impl Iterator<Item = (String, &Table, &Me
                 let (Statistic::Mean(field) | Statistic::Median(field)) = &metric.statistic else {
                     return None;
                 };
-                // The mean and the median of one field share a plot.
+                // Mean and median of one field share a plot.
                 if seen.contains(&field.as_str()) {
                     return None;
                 }
@@ -86,7 +86,7 @@ fn box_plot(name: String, table: &Table, metric: &Metric, field: &str, runs: &[R
     .table(&table.name)
 }
 
-/// Returns the name in lower-case letters, digits and single hyphens.
+/// Returns the name with only lower-case letters, digits and single hyphens.
 fn slug(name: &str) -> String {
     let mut slug = String::new();
     for c in name.chars() {

@@ -3,15 +3,15 @@
 use core::time::Duration;
 use std::path::Path;
 
-/// Something a caller may want to show.
+/// An event that the caller may want to show.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum ProgressEvent<'a> {
-    /// The folder held results of another configuration, which now lie elsewhere.
+    /// The folder held results of another configuration, which were moved.
     SetAside {
         /// The folder of results.
         folder: &'a Path,
-        /// New folder of its former contents.
+        /// Folder that its contents were moved to.
         moved_to: &'a Path,
         /// What differs.
         reason: &'a str,
@@ -20,7 +20,7 @@ pub enum ProgressEvent<'a> {
     BrokenLine {
         /// The file.
         file: &'a Path,
-        /// The line, from 1.
+        /// Number of the line, from 1.
         line: u64,
         /// What is wrong with it.
         what: &'a str,
@@ -34,21 +34,21 @@ pub enum ProgressEvent<'a> {
     },
     /// The runs begin.
     Started {
-        /// Runs of the whole experiment.
+        /// Number of runs of the whole experiment.
         total: u64,
-        /// Runs that are there from before.
+        /// Number of runs that are reused.
         reused: u64,
     },
     /// One more run was played.
     RunFinished,
     /// All runs were played.
     RunsFinished {
-        /// Runs that were played now.
+        /// Number of runs that were played now.
         played: u64,
         /// Duration.
         elapsed: Duration,
     },
-    /// The first runs of each row are played again, for the report to replay.
+    /// The first runs of each row are played again, to record replays for the report.
     Recording,
 }
 
@@ -57,19 +57,19 @@ pub enum ProgressEvent<'a> {
 pub enum Remedy {
     /// The run is played again.
     PlayedAgain,
-    /// The run is there from another line, or was not asked for.
+    /// The run is known from another line, or was not asked for.
     Ignored,
-    /// The line does not say which run it was; whichever runs are missing are played.
+    /// The line does not say which run it was. Any missing runs are played.
     MissingPlayed,
 }
 
 /// Receiver of the runner's messages; the runner itself prints nothing.
 pub trait Progress: Sync {
-    /// Hears of an event. May be called from several threads at once.
+    /// Receives an event. It may be called from several threads at once.
     fn event(&self, event: &ProgressEvent<'_>);
 
-    /// Returns whether the caller wants to stop, as after Ctrl-C. Asked before every run; runs that
-    /// are being played are finished and kept.
+    /// Returns whether the caller wants to stop, as after Ctrl-C. It is asked before every run.
+    /// Runs in progress are finished and kept.
     fn stop_requested(&self) -> bool {
         false
     }

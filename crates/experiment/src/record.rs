@@ -1,4 +1,4 @@
-//! Records: what a run measures, as a struct whose columns are declared beside its fields.
+//! Records: what a run measures, as a struct with a column for each field.
 
 use core::any::type_name;
 
@@ -8,13 +8,13 @@ use thiserror::Error;
 
 use super::{BoxError, Column, Fields, Run};
 
-/// Measurements of one run of a table. [`record!`](crate::record) declares the struct and its
-/// columns at once.
+/// Measurements of one run of a table. [`record!`](crate::record) declares the struct with its
+/// columns.
 pub trait Record: Serialize + DeserializeOwned {
     /// Returns one column for each field that serde writes.
     fn columns() -> Vec<Column>;
 
-    /// Refuses a record whose values are each in the range of their column, but not together.
+    /// Refuses a record whose values are in their columns' ranges, but do not fit together.
     ///
     /// # Errors
     /// What is wrong with it.
@@ -22,10 +22,10 @@ pub trait Record: Serialize + DeserializeOwned {
         Ok(())
     }
 
-    /// Returns the records of a row's runs, in their order.
+    /// Returns the records of a row's runs, in order.
     ///
     /// # Errors
-    /// [`FieldsError::Read`] if one is no such record.
+    /// [`FieldsError::Read`] if a run has other fields.
     fn of_row(runs: &[Run], table: &str, row: &str) -> Result<Vec<Self>, FieldsError> {
         let own = runs.iter().filter(|run| run.is_of(table, row));
         own.map(Run::record).collect()
@@ -34,19 +34,22 @@ pub trait Record: Serialize + DeserializeOwned {
     /// Returns the record as the fields of a run.
     ///
     /// # Errors
-    /// [`FieldsError`] if a value is no field.
+    /// [`FieldsError`] if a value cannot be a field.
     fn fields(&self) -> Result<Fields, FieldsError> {
         Fields::of(self)
     }
 }
 
-/// Declares a [`Record`]: a struct with its columns, a line a field.
+/// Declares a [`Record`]: a struct with its columns, one line per field.
 ///
-/// The doc comment of a field is the column's definition, its type says what it holds, and an
-/// `Option` that not every run has it. Behind `=>` stand the methods of [`Column`](crate::Column).
-/// Each field gives a constant of its name, by which metrics refer to it. `#[check(function)]`
-/// names the [check](Record::check); `..base: Base` takes in the fields of another record. The
-/// crate needs serde among its dependencies.
+/// - The doc comment of a field is the column's definition, and its type is the type of the values.
+///   An `Option` says that not every run has it.
+/// - After `=>` come the methods of [`Column`](crate::Column).
+/// - Each field gives a constant of its name, for metrics to refer to.
+/// - `#[check(function)]` names the [check](Record::check).
+/// - `..base: Base` includes the fields of another record.
+///
+/// The crate needs serde as a dependency.
 ///
 /// ```
 /// use tolman_experiment::{Metric, Record, Table, record, require};
@@ -91,7 +94,7 @@ macro_rules! record {
         #[derive(Clone, Debug, Default, PartialEq, ::serde::Serialize, ::serde::Deserialize)]
         $vis struct $name {
             $(
-                /// What it has in common with others.
+                /// The fields that it has in common with others.
                 #[serde(flatten)]
                 $vis $base: $base_type,
             )?
@@ -126,7 +129,7 @@ macro_rules! record {
     };
 }
 
-/// Says `why` a record cannot be, unless a relation between its fields `holds`.
+/// Returns an error with `why` unless a relation between the fields of a record `holds`.
 ///
 /// # Errors
 /// `why`.
@@ -137,19 +140,19 @@ pub fn require(holds: bool, why: &str) -> Result<(), String> {
     }
 }
 
-/// Reason why a record and the fields of a run are not each other's.
+/// Reason why a record and the fields of a run do not fit each other.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FieldsError {
-    /// A record that serde cannot write as fields.
+    /// Serde cannot write the record as fields.
     #[error("the record {record} cannot be written as fields")]
     Write {
         /// Name of the type.
         record: &'static str,
-        /// The error of serde.
+        /// Serde's error.
         source: toml::ser::Error,
     },
-    /// A value that no field can hold.
+    /// A value cannot be a field.
     #[error("{field} is {value}; a field is a flag, a count, a number, a word or a curve")]
     NoField {
         /// Name of the field.
@@ -157,17 +160,17 @@ pub enum FieldsError {
         /// Its value.
         value: String,
     },
-    /// Fields that are no such record.
+    /// The fields are not those of the record.
     #[error("the fields do not match record {record}")]
     Read {
         /// Name of the type.
         record: &'static str,
-        /// The error of serde.
+        /// Serde's error.
         source: toml::de::Error,
     },
 }
 
-/// The record of a table, without its type.
+/// The type of a table's records, without the Rust type.
 #[derive(Clone, Debug)]
 pub struct RecordType {
     name: &'static str,
@@ -184,7 +187,7 @@ impl RecordType {
         }
     }
 
-    /// Returns the column of a field.
+    /// Returns the column of a field; `None` if there is none.
     pub fn column(&self, field: &str) -> Option<&Column> {
         self.columns.iter().find(|column| column.field == field)
     }
@@ -199,7 +202,7 @@ impl RecordType {
         columns.find(|column| column.field == field)
     }
 
-    /// Refuses fields that are no such record, or one that [`Record::check`] refuses.
+    /// Refuses fields that do not form such a record, or one that [`Record::check`] refuses.
     pub(super) fn check(&self, fields: &Fields) -> Result<(), BoxError> {
         (self.check)(fields)
     }

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use super::at::{make_folder, write_whole};
 use super::{Error, Experiment, Job, Options, check};
 
-/// Plays one run again from its seed and writes its replay to `replays/TABLE-ROW-RUN.html` in the
-/// folder of results, where TABLE and ROW are counted from 1. Runs beyond those that an experiment
-/// played can be written as well. Tells where the file is.
+/// Plays one run again from its seed, and writes its replay to `replays/TABLE-ROW-RUN.html` in the
+/// folder of results. TABLE and ROW are counted from 1. Runs that the experiment did not play can
+/// be written as well. Returns the path of the file.
 ///
 /// # Errors
-/// If there is no such table or row, its runs are not recorded, or the run or the file cannot be
+/// If there is no such table or row, its runs cannot be recorded, or the run or the file cannot be
 /// made.
 pub fn write_replay(
     experiment: &Experiment,

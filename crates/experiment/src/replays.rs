@@ -6,20 +6,20 @@ use rayon::prelude::*;
 
 use super::{Error, Experiment, Job, Progress, Run};
 
-/// The most runs of each row that are recorded: as many as MSLST made of each. With more runs a
-/// row, the others are a small part of the time and would be most of the page.
+/// Maximum number of runs of each row that are recorded, as many as MSLST's paper made. More would
+/// take little time, but most of the page.
 const FIRST: u32 = 25;
 
-/// The most bytes that all replays of a page may take.
+/// Maximum size of all replays of a page, bytes.
 const MOST: usize = 4_250_000;
 
-/// The bytes that a page with all its tables, figures and replays stays below.
+/// Maximum size of a page with all its tables, figures and replays, bytes.
 const PAGE: usize = 5_000_000;
 
-/// The bytes that a page spends on a replay beside the replay itself, at most.
+/// Maximum size that a page adds to each replay, bytes.
 const TAG: usize = 400;
 
-/// Returns the bytes that are left for replays on a page that takes `page` bytes without them.
+/// Returns the size left for replays, bytes, on a page that takes `page` bytes without them.
 pub(super) fn budget(page: usize) -> usize {
     let player = tolman_replay::style().len() + tolman_replay::script().len();
     PAGE.saturating_sub(page + player).min(MOST)
@@ -28,13 +28,13 @@ pub(super) fn budget(page: usize) -> usize {
 /// Replays of the first runs of each row.
 #[derive(Clone, Debug, Default)]
 pub struct Replays {
-    /// Number of runs of each row, if the row can be recorded at all.
+    /// Number of runs of each row, if the row can be recorded.
     pub of_each_row: u32,
-    /// By run, then in the order of tables and rows.
+    /// Replays by run, then in the order of tables and rows.
     pub recorded: Vec<Recorded>,
     /// The names of the tables whose runs can be recorded.
     pub tables: BTreeSet<String>,
-    /// The bytes that all replays together may take.
+    /// Maximum size of all replays together, bytes.
     pub budget: usize,
 }
 
@@ -47,20 +47,20 @@ pub struct Recorded {
     pub row: String,
     /// The index of the run.
     pub run: u32,
-    /// Input of the player, fit for a `script` element.
+    /// Input of the player, suitable for a `script` element.
     pub json: String,
 }
 
 impl Recorded {
-    /// Returns the bytes that it takes on a page, at most.
+    /// Returns an upper bound of its size on a page, bytes.
     const fn bytes(&self) -> usize {
         self.json.len() + TAG
     }
 }
 
-/// Records the first runs of each row, in parallel on the current threads, up to [`FIRST`], as long
-/// as their replays fit `budget` bytes; where no room is left for a run as large as those before,
-/// none is played in vain. `None` if the caller asked to stop.
+/// Records the first runs of each row, up to [`FIRST`], as long as their replays fit into `budget`
+/// bytes. It works in parallel on the current threads. It plays no run that is unlikely to fit.
+/// `None` if the caller asked to stop.
 pub(super) fn record(
     experiment: &Experiment,
     runs: &[Run],
@@ -127,7 +127,7 @@ pub(super) fn record(
     Ok(Some(replays))
 }
 
-/// Records these runs one by one, as long as their replays fit the budget.
+/// Records these runs one by one, as long as their replays fit into the budget.
 fn record_shown(
     experiment: &Experiment,
     shown: &[Run],
@@ -149,7 +149,7 @@ fn record_shown(
 }
 
 impl Replays {
-    /// Takes up those that fit, one by one, where others take `bytes` already.
+    /// Adds those that fit, one by one, if others already take `bytes`.
     fn carry(&mut self, recorded: impl Iterator<Item = Recorded>, mut bytes: usize) {
         for one in recorded {
             self.tables.insert(one.table.clone());
@@ -161,8 +161,8 @@ impl Replays {
     }
 }
 
-/// Returns how many more runs of each row are likely to fit, if `done` of them took `bytes` bytes;
-/// the first is always tried.
+/// Returns how many more runs of each row are likely to fit, if `done` of them took `bytes` bytes.
+/// The first is always tried.
 fn room(done: u32, bytes: usize, budget: usize) -> u32 {
     match done {
         0 => 1,
@@ -173,10 +173,10 @@ fn room(done: u32, bytes: usize, budget: usize) -> u32 {
     }
 }
 
-/// Returns the job of one run index for every row.
+/// Returns the job with this run index of every row.
 fn jobs_of(experiment: &Experiment, master_seed: u64, run: u32) -> impl Iterator<Item = Job<'_>> {
     experiment.tables.iter().flat_map(move |table| {
-        // A row with a number of its own may have fewer.
+        // A row with a fixed number of runs may have fewer.
         let rows = table.rows.iter();
         let rows = rows.filter(move |row| row.runs_of(run + 1) > run);
         rows.map(move |row| Job::of(master_seed, &table.name, &row.name, run))

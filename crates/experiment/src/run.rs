@@ -1,4 +1,4 @@
-//! One run: what identifies it and what came of it.
+//! One run: what identifies it, and its results.
 
 use alloc::collections::BTreeMap;
 use core::any::type_name;
@@ -20,7 +20,7 @@ pub struct Job<'a> {
     pub seed: u64,
 }
 
-/// A run that was played: one line of `runs.jsonl`.
+/// A run that was played: a line of `runs.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// The name of the table.
@@ -37,7 +37,7 @@ pub struct Run {
 }
 
 impl<'a> Job<'a> {
-    /// Returns the run of this number in a row.
+    /// Returns the job with this index in a row.
     pub(super) fn of(master_seed: u64, table: &'a str, row: &'a str, run: u32) -> Self {
         let seed = run_seed(master_seed, table, run);
         Self {
@@ -50,7 +50,7 @@ impl<'a> Job<'a> {
 }
 
 impl Run {
-    /// Returns whether it is of this row of this table.
+    /// Returns whether it belongs to this row of this table.
     pub fn is_of(&self, table: &str, row: &str) -> bool {
         self.table == table && self.row == row
     }
@@ -65,23 +65,23 @@ impl Run {
         }
     }
 
-    /// Returns what was measured, as the record of its table.
+    /// Returns the measurements as the record of its table.
     ///
     /// # Errors
-    /// [`FieldsError::Read`] if it is no such record.
+    /// [`FieldsError::Read`] if the fields are not those of the record.
     pub fn record<T: Record>(&self) -> Result<T, FieldsError> {
         self.fields.record()
     }
 }
 
-/// Measurements of one run, by name: a [`Record`](super::Record) without its type. Alphabetical, so
-/// that equal fields are written equally.
+/// Measurements of one run by name: a [`Record`](super::Record) without its type. Sorted by name,
+/// so that equal fields give equal text.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Fields(BTreeMap<String, Field>);
 
 impl Fields {
-    /// Returns the fields of a record; what is `None` is left out.
+    /// Returns the fields of a record; `None` values are left out.
     pub(super) fn of<T: Record>(record: &T) -> Result<Self, FieldsError> {
         let written = toml::Table::try_from(record).map_err(|source| FieldsError::Write {
             record: type_name::<T>(),
@@ -97,10 +97,10 @@ impl Fields {
         fields.collect::<Result<_, _>>().map(Self)
     }
 
-    /// Returns the record that has these fields.
+    /// Returns the record with these fields.
     ///
     /// # Errors
-    /// [`FieldsError::Read`] if a field is missing or of another kind.
+    /// [`FieldsError::Read`] if a field is missing or has another type.
     pub fn record<T: Record>(&self) -> Result<T, FieldsError> {
         let fields = self.0.iter();
         let table: toml::Table = fields
@@ -112,12 +112,12 @@ impl Fields {
         })
     }
 
-    /// Returns the field of a name.
+    /// Returns the field called `name`.
     pub(super) fn get(&self, name: &str) -> Option<&Field> {
         self.0.get(name)
     }
 
-    /// Returns the number of a count or a number.
+    /// Returns the value of a count or a number.
     pub(super) fn number(&self, name: &str) -> Option<f64> {
         match self.get(name)? {
             Field::Count(count) => Some(*count as f64),
@@ -126,7 +126,7 @@ impl Fields {
         }
     }
 
-    /// Returns a flag.
+    /// Returns the value of a flag.
     pub(super) fn flag(&self, name: &str) -> Option<bool> {
         match self.get(name)? {
             Field::Flag(flag) => Some(*flag),
@@ -142,7 +142,7 @@ impl Fields {
         }
     }
 
-    /// Returns all fields, alphabetically.
+    /// Returns all fields, sorted by name.
     pub(super) fn iter(&self) -> impl Iterator<Item = (&str, &Field)> {
         self.0.iter().map(|(name, field)| (name.as_str(), field))
     }
@@ -160,12 +160,12 @@ pub(super) enum Field {
     Number(f64),
     /// A word.
     Text(String),
-    /// Numbers at equal steps.
+    /// Numbers at equally spaced steps.
     Curve(Vec<f64>),
 }
 
 impl Field {
-    /// Returns the field that serde wrote as `value`; or `None` if `value` is not a field.
+    /// Returns the field that serde wrote as `value`; `None` if `value` cannot be a field.
     fn read(value: &toml::Value) -> Option<Self> {
         Some(match value {
             toml::Value::Boolean(flag) => Self::Flag(*flag),
@@ -180,7 +180,7 @@ impl Field {
         })
     }
 
-    /// Returns what serde reads as this field.
+    /// Returns the value that serde reads as this field.
     fn written(&self) -> toml::Value {
         match self {
             Self::Flag(flag) => (*flag).into(),
@@ -191,7 +191,7 @@ impl Field {
         }
     }
 
-    /// Returns the numbers that the range of a column is for.
+    /// Returns the numbers to which a column's range applies.
     pub(super) fn numbers(&self) -> Vec<f64> {
         match self {
             Self::Count(count) => vec![*count as f64],
@@ -201,7 +201,7 @@ impl Field {
         }
     }
 
-    /// Returns what it holds.
+    /// Returns the type of the value.
     pub(super) const fn kind(&self) -> Kind {
         match self {
             Self::Flag(_) => Kind::Flag,

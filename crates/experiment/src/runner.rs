@@ -22,19 +22,19 @@ use tolman_draw::Figure;
 pub struct ExperimentOutcome {
     /// Entry in the catalogue.
     pub entry: Entry,
-    /// Parts left out for missing data.
+    /// Parts left out because data is missing.
     pub skipped: Option<String>,
     /// Folder of the results.
     pub folder: PathBuf,
-    /// The command that makes them again.
+    /// Command that repeats the results.
     pub command: String,
     /// The master seed.
     pub seed: u64,
-    /// Runs of each row that has no number of its own.
+    /// Number of runs of each row without a fixed number.
     pub runs_per_row: u32,
-    /// The threads that played.
+    /// Number of threads that played.
     pub jobs: u32,
-    /// Runs that were played now; the others were there from before.
+    /// Number of runs that were played now; the others are reused.
     pub played: u64,
     /// Duration of the runs that were played now.
     pub elapsed: Duration,
@@ -52,14 +52,15 @@ pub struct ExperimentOutcome {
     pub replays: Replays,
 }
 
-/// Runs an experiment: resumes its folder, plays what is missing, and writes `config.toml`,
-/// `runs.jsonl`, `summary.json`, `figures/*.svg` and `report.html`.
+/// Runs an experiment and returns its outcome. It resumes the folder, plays the missing runs, and
+/// writes `config.toml`, `runs.jsonl`, `summary.json`, `figures/*.svg` and `report.html`.
 ///
-/// The results depend on the experiment's configuration and the seed alone, not on the number of
-/// threads nor on how often the experiment was interrupted.
+/// The results depend only on the experiment's configuration and the seed. They do not depend on
+/// the number of threads, or on interruptions.
 ///
 /// # Errors
-/// Typed with place and repair; finished runs are kept in every case. See [`Error::is_bad_input`].
+/// The error says where it happened and what to do; finished runs are kept in any case. See
+/// [`Error::is_bad_input`].
 pub fn execute(
     experiment: &Experiment,
     options: &Options,
@@ -78,11 +79,11 @@ pub fn execute(
     run.conclude(played)
 }
 
-/// Plays a chunk of an experiment: resumes its folder under the experiment's and plays what is
-/// missing. Returns the folder, which [`merge`](super::merge) reads.
+/// Plays a chunk of an experiment: resumes its folder below the experiment's and plays the missing
+/// runs. Returns the folder, which [`merge`](super::merge) reads.
 ///
 /// # Errors
-/// Those of [`execute`]; the same call goes on where it was interrupted.
+/// As [`execute`]; the same call continues an interrupted chunk.
 pub fn play_chunk(
     experiment: &Experiment,
     options: &Options,
@@ -103,7 +104,7 @@ pub fn play_chunk(
     Ok(played.path)
 }
 
-/// Experiment and options of a run.
+/// Experiment and options of a run of the runner.
 struct Runner<'a> {
     experiment: &'a Experiment,
     options: &'a Options,
@@ -111,7 +112,7 @@ struct Runner<'a> {
     progress: &'a dyn Progress,
 }
 
-/// All runs of a folder, with what it took to play those that were missing.
+/// All runs of a folder, and what it took to play the missing ones.
 struct Played {
     path: PathBuf,
     folder: Folder,
@@ -125,8 +126,8 @@ struct Played {
 }
 
 impl Runner<'_> {
-    /// Opens the folder `path`, plays those of the jobs that `choose` keeps and that are not there,
-    /// and writes `config.toml` and `runs.jsonl`. `command` is what goes on if it is interrupted.
+    /// Opens the folder `path` and plays the missing jobs among those that `choose` keeps. Writes
+    /// `config.toml` and `runs.jsonl`. `command` is the one that continues after an interruption.
     fn play_missing<'a>(
         &'a self,
         path: PathBuf,
@@ -155,7 +156,7 @@ impl Runner<'_> {
         let is_known = |(key, _): &&(Key, Job<'_>)| known.contains_key(key);
         let reused = jobs.iter().filter(is_known).count() as u64;
         if reused < total {
-            // What they say of fewer runs must not pass for the outcome of these.
+            // The summary of fewer runs must not be taken for that of these.
             folder.discard("summary.json")?;
             folder.discard("report.html")?;
         }
@@ -199,7 +200,7 @@ impl Runner<'_> {
         })
     }
 
-    /// Makes summary, figures and report of all runs.
+    /// Makes summary, figures and report from all runs.
     fn conclude(&self, played: Played) -> Result<ExperimentOutcome, Error> {
         let Self {
             experiment,
@@ -263,7 +264,7 @@ impl Runner<'_> {
     }
 }
 
-/// Returns every job of the experiment with its place in the order of results.
+/// Returns every job of the experiment with its key in the order of results.
 pub(super) fn jobs(experiment: &Experiment, master_seed: u64, runs: u32) -> Vec<(Key, Job<'_>)> {
     let mut jobs = Vec::new();
     for (t, table) in experiment.tables.iter().enumerate() {
@@ -276,7 +277,7 @@ pub(super) fn jobs(experiment: &Experiment, master_seed: u64, runs: u32) -> Vec<
     jobs
 }
 
-/// Plays the jobs that are not known yet, in parallel; every finished run is in the file before the
+/// Plays the jobs that are not known yet, in parallel. Every finished run is in the file before the
 /// next one begins. Returns fewer than are missing only if the caller asked to stop.
 fn play(
     experiment: &Experiment,

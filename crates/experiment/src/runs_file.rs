@@ -1,4 +1,4 @@
-//! `runs.jsonl`: one line a run, appended as runs finish, sorted at the end.
+//! `runs.jsonl`: one line per run, appended as runs finish, sorted at the end.
 
 use alloc::collections::btree_map::Entry;
 use alloc::collections::{BTreeMap, BTreeSet};
@@ -13,17 +13,17 @@ use super::at::{at, if_there, write_whole};
 use super::hash::fnv64;
 use super::{Error, Experiment, Progress, ProgressEvent, Remedy, Run, check, run_seed};
 
-/// A line of the file: a run, and the checksum of how it is written.
+/// A line of the file: a run, and the checksum of its text.
 #[derive(Serialize, Deserialize)]
 struct Line<R> {
     #[serde(flatten)]
     run: R,
-    /// Missing in files of versions that wrote none.
+    /// `None` for files of versions without checksums.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
 }
 
-/// Reads the run of a line.
+/// Returns the run of a line, and whether its checksum is right.
 pub(super) fn read_line(line: &[u8]) -> Result<(Run, Intact), serde_json::Error> {
     let Line { run, checksum }: Line<Run> = serde_json::from_slice(line)?;
     let computed = checksum_of(&run)?;
@@ -36,14 +36,14 @@ pub(super) fn read_line(line: &[u8]) -> Result<(Run, Intact), serde_json::Error>
     Ok((run, intact))
 }
 
-/// Whether the values of a line are those that were written; what speaks against it otherwise.
+/// `Ok` if a line's values have their checksum; otherwise what is wrong.
 pub(super) type Intact = Result<(), String>;
 
 fn checksum_of(run: &Run) -> Result<String, serde_json::Error> {
     Ok(format!("{:016x}", fnv64(&serde_json::to_vec(run)?)))
 }
 
-/// The places of a run's table and row, and its index: the order of the finished file.
+/// Indices of a run's table and row, and its run index: the order of the finished file.
 pub(super) type Key = (usize, usize, u32);
 
 /// The runs of a folder by key.
@@ -54,14 +54,14 @@ struct Broken<'a> {
     file: &'a Path,
     line: u64,
     what: String,
-    /// Its run, if it says so.
+    /// Its run; `None` if the line does not say.
     key: Option<Key>,
 }
 
-/// Reads the usable runs of files; tells of every line that is not usable and of what becomes of
-/// its run when `wanted` runs of each row are. A file that is not there has no runs.
+/// Returns the usable runs of files. Reports every other line, and what happens to its run if
+/// `wanted` runs of each row are to be made. A missing file has no runs.
 ///
-/// Of two lines that contradict each other none is used: nothing says which one is right.
+/// If two lines contradict each other, neither is used: nothing says which is right.
 pub(super) fn read<'a>(
     files: impl IntoIterator<Item = &'a Path>,
     experiment: &Experiment,
@@ -139,21 +139,21 @@ fn tell(
     }
 }
 
-/// Returns whether a run is one of those to be made when `runs` of each row are.
+/// Returns whether a run is among those to make, with `runs` of each row.
 pub(super) fn is_wanted((table, row, run): Key, experiment: &Experiment, runs: u32) -> bool {
     let table = experiment.tables.get(table);
     let row = table.and_then(|table| table.rows.get(row));
     row.is_some_and(|row| run < row.runs_of(runs))
 }
 
-/// Returns the run of a line; or what is wrong with the line, and which run it was if it says so.
+/// Returns the run of a line; or what is wrong with the line, and its run if known.
 fn parse(
     line: &[u8],
     experiment: &Experiment,
     master: u64,
 ) -> Result<(Key, Run), (String, Option<Key>)> {
     let (run, intact) = read_line(line).map_err(|error| {
-        // It was given one line, so the line it names is not that of the file.
+        // The parser saw a single line, so its line number is not that of the file.
         let what = error.to_string();
         let what = what.split(" at line ").next().unwrap_or_default();
         (
@@ -177,7 +177,7 @@ fn parse(
     }
 }
 
-/// Returns which run a line is of whose fields hold what no field can.
+/// Returns the run of a line whose fields are invalid; `None` if it is not known.
 fn identity(line: &[u8], experiment: &Experiment) -> Option<Key> {
     let mut line: serde_json::Value = serde_json::from_slice(line).ok()?;
     line.as_object_mut()?
@@ -195,7 +195,7 @@ fn key_of(experiment: &Experiment, run: &Run) -> Option<Key> {
     Some((table, row, run.run))
 }
 
-/// Writes runs in order, as a whole file.
+/// Writes a whole file of runs, in order.
 pub(super) fn write<'a>(path: &Path, runs: impl Iterator<Item = &'a Run>) -> Result<(), Error> {
     let mut text = Vec::new();
     for run in runs {
@@ -211,7 +211,7 @@ fn write_line(out: &mut Vec<u8>, run: &Run) -> io::Result<()> {
     Ok(())
 }
 
-/// A file that runs are added to from several threads.
+/// A file to which several threads append runs.
 #[derive(Debug)]
 pub(super) struct Appender {
     path: PathBuf,
@@ -219,7 +219,7 @@ pub(super) struct Appender {
 }
 
 impl Appender {
-    /// Opens a file that is there.
+    /// Opens an existing file.
     pub(super) fn open(path: &Path) -> Result<Self, Error> {
         let file = at("open", path, OpenOptions::new().append(true).open(path))?;
         Ok(Self {
@@ -228,12 +228,13 @@ impl Appender {
         })
     }
 
-    /// Adds one run. The line goes to the system at once, so it outlives the end of this process.
+    /// Appends one run. The line is handed to the system at once, so it survives the end of this
+    /// process.
     pub(super) fn append(&self, run: &Run) -> Result<(), Error> {
         let mut line = Vec::new();
         let written = write_line(&mut line, run).and_then(|()| {
-            // A thread that panicked while it held the file has written a whole line or a broken
-            // one, which the next reading reports.
+            // A thread that panicked while it held the file left a whole line or a broken one. The
+            // next reading reports the latter.
             let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
             file.write_all(&line)
         });

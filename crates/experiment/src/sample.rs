@@ -1,4 +1,4 @@
-//! The runs of one row as the sample of one metric.
+//! The runs of a row as a sample of one metric.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -7,7 +7,7 @@ use super::settling::settles;
 use super::{Reached, Run, Settling, Statistic};
 use tolman_stats::ConfidenceInterval;
 
-/// Resamples of the bootstrap.
+/// Number of resamples of the bootstrap.
 pub(crate) const RESAMPLES: u32 = 2000;
 /// The confidence of every interval.
 pub(crate) const LEVEL: f64 = 0.95;
@@ -15,7 +15,7 @@ pub(crate) const LEVEL: f64 = 0.95;
 /// The measured values of one metric in one row. Never empty.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Sample<'a> {
-    /// Whether each run succeeded; the value is `whole` × the share of those that did.
+    /// Whether each run succeeded. The value is `whole` × the share of those that did.
     Flags { flags: Vec<bool>, whole: f64 },
     /// One number for each run.
     Numbers { numbers: Vec<f64>, centre: Centre },
@@ -23,9 +23,9 @@ pub(super) enum Sample<'a> {
     Pairs(Vec<(f64, f64)>),
     /// Two numbers for each run, whose spreads are compared.
     Spreads(Vec<(f64, f64)>),
-    /// The squared error of each run's forecast, and what came about, 1 or 0: both did in some run.
+    /// Squared error of each run's forecast, and the outcome, 1 or 0. Both outcomes occur.
     Forecasts(Vec<(f64, f64)>),
-    /// A curve for each run, and the limit that their mean is to stay below.
+    /// A curve for each run, and the limit that their mean has to stay below.
     Curves {
         curves: Vec<&'a [f64]>,
         step: f64,
@@ -33,7 +33,7 @@ pub(super) enum Sample<'a> {
     },
 }
 
-/// Statistic by which numbers become one value.
+/// Statistic that turns numbers into one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Centre {
     Mean,
@@ -55,9 +55,9 @@ fn skill(forecasts: &[(f64, f64)]) -> f64 {
 }
 
 impl<'a> Sample<'a> {
-    /// Returns what a statistic measures of runs; `None` if no run has the field. `others` are the
-    /// runs of the row that [`Statistic::Multiple`] names, sorted by index; `table` are those of
-    /// all rows, row by row.
+    /// Returns the sample of a statistic; `None` if no run has the field. `others` are the runs of
+    /// the row that [`Statistic::Multiple`] names, sorted by index. `table` are the runs of all
+    /// rows, row by row.
     pub(super) fn of(
         statistic: &Statistic,
         runs: &[&'a Run],
@@ -135,7 +135,7 @@ impl<'a> Sample<'a> {
         (sample.len() > 0).then_some(sample)
     }
 
-    /// Returns how many runs were measured.
+    /// Returns the number of measured runs.
     pub(super) fn len(&self) -> usize {
         match self {
             Self::Flags { flags, .. } => flags.len(),
@@ -145,9 +145,9 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// Returns the value: part of a whole, mean, median, quantile, least, greatest, sum, ratio of
-    /// sums or of spreads, or when the mean curve settles; and whether what the metric waits for
-    /// came about, always where it waits for nothing.
+    /// Returns the value and whether it was reached. It is a share of a whole, a mean, median,
+    /// quantile, minimum, maximum, sum, ratio of sums or of spreads, or the time at which the mean
+    /// curve settles. Only a curve may fail to settle; all else counts as reached.
     pub(super) fn value(&self) -> (f64, Reached) {
         let value = match self {
             Self::Flags { flags, whole } => whole * mean(&zeros_and_ones(flags)),
@@ -163,7 +163,7 @@ impl<'a> Sample<'a> {
                 Centre::Total => numbers.iter().sum(),
             },
             Self::Pairs(pairs) => ratio_of_sums(pairs),
-            // Without a spread to divide by there is no sample.
+            // Such a sample exists only if the denominators have a spread.
             Self::Spreads(pairs) => ratio_of_spreads(pairs).unwrap_or(f64::NAN),
             Self::Forecasts(forecasts) => skill(forecasts),
             Self::Curves {
@@ -190,8 +190,8 @@ impl<'a> Sample<'a> {
         tolman_stats::quantile(self.spread()?, 0.5).ok()
     }
 
-    /// Returns the numbers whose spread says something of the value, which it does not of the
-    /// least, the greatest and the sum.
+    /// Returns the numbers whose spread says something about the value; `None` for minimum, maximum
+    /// and sum.
     fn spread(&self) -> Option<&[f64]> {
         match self {
             Self::Numbers {
@@ -207,8 +207,8 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// Returns the 95 % interval of the value: exact binomial for a share, that of order statistics
-    /// for a median, BCa bootstrap otherwise. `None` where there are too few runs for one.
+    /// Returns the 95 % interval of the value: exact binomial for a share, order statistics for a
+    /// median, BCa bootstrap otherwise. `None` if there are too few runs.
     pub(super) fn interval(&self, seed: u64) -> Option<ConfidenceInterval> {
         let rng = &mut ChaCha8Rng::seed_from_u64(seed);
         match self {
@@ -240,9 +240,9 @@ impl<'a> Sample<'a> {
         .ok()
     }
 
-    /// Returns the interval of the difference between the value and that of a sample of `others`
-    /// runs which is known by its value alone: `observed` less how far two such samples of this
-    /// one's runs differ by chance. `None` where there is nothing to draw from.
+    /// Returns the interval of the difference between the value and that of another sample of
+    /// `others` runs, of which only the value is known. It is `observed` minus the random
+    /// difference of two such samples of these runs. `None` if there is nothing to resample.
     pub(super) fn stand_in(
         &self,
         observed: f64,
@@ -291,13 +291,13 @@ impl<'a> Sample<'a> {
         match self {
             Self::Flags { flags, .. } => zeros_and_ones(flags),
             Self::Numbers { numbers, .. } => numbers.clone(),
-            // A run without denominator says nothing of the ratio.
+            // A run with a denominator of 0 has no ratio.
             Self::Pairs(pairs) => pairs
                 .iter()
                 .filter(|(_, under)| *under > 0.0)
                 .map(|(over, under)| over / under)
                 .collect(),
-            // A mean curve settles, many runs have a spread or a skill; one run has none.
+            // Only several runs together have a settling mean curve, a spread or a skill.
             Self::Curves { .. } | Self::Spreads(_) | Self::Forecasts(_) => Vec::new(),
         }
     }
@@ -309,12 +309,12 @@ fn drawn<T: Copy>(all: &[T], count: usize, rng: &mut ChaCha8Rng) -> Vec<T> {
     (0..count).map(one).collect()
 }
 
-/// Returns whether a run says both how low its curve ends and what the margin is a share of.
+/// Returns whether a run has both the lowest level of its curve and the scale of the margin.
 fn is_measured(Settling { level, scale, .. }: &Settling, run: &Run) -> bool {
     run.fields.number(level).is_some() && run.fields.number(scale).is_some()
 }
 
-/// Returns what the mean curves of a table are to stay below; `None` if no run says so.
+/// Returns the limit that the mean curves of a table have to stay below; `None` if no run gives it.
 fn limit(settling: &Settling, table: &[Vec<&Run>]) -> Option<f64> {
     let mean_of = |runs: &[&Run], field: &str| {
         let measured = runs.iter().filter(|run| is_measured(settling, run));
@@ -345,7 +345,7 @@ fn mean(numbers: &[f64]) -> f64 {
     numbers.iter().sum::<f64>() / numbers.len() as f64
 }
 
-/// Returns the ratio of the standard deviations, or `None` where there is nothing to divide by.
+/// Returns the ratio of the standard deviations; `None` if the denominator is 0.
 fn ratio_of_spreads(pairs: &[(f64, f64)]) -> Option<f64> {
     let (over, under): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
     let over = tolman_stats::standard_deviation(&over).ok()?;
@@ -369,7 +369,7 @@ mod tests {
             numbers: vec![5.0, 1.0, 4.0, 2.0, 3.0],
             centre: Centre::Quantile(0.25),
         };
-        // Numerators spread twice as far as denominators.
+        // The numerators spread twice as far as the denominators.
         let spreads = Sample::Spreads(vec![(10.0, 3.0), (14.0, 5.0), (18.0, 7.0)]);
         for sample in [quarter, spreads] {
             assert!((sample.value().0 - 2.0).abs() < 1e-12, "{sample:?}");

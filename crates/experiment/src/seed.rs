@@ -8,8 +8,8 @@ use super::hash::fnv64;
 /// Returns the seed of run `run` of a table: word `run` of the table's own `ChaCha8` stream under
 /// the master seed.
 ///
-/// The row has no part in it, so all rows of a table meet the same starts. The seed has 53 bits and
-/// survives JSON readers that know only doubles.
+/// It does not depend on the row, so all rows of a table meet the same starts. The seed has 53
+/// bits, which JSON readers that only know doubles keep exactly.
 ///
 /// ```
 /// use tolman_experiment::run_seed;
@@ -29,7 +29,7 @@ pub fn run_seed(master: u64, table: &str, run: u32) -> u64 {
 mod tests {
     use super::run_seed;
 
-    /// Published results name seeds, so they never change.
+    /// Checks seeds that published results name; they must never change.
     #[test]
     fn seeds_are_pinned() {
         assert_eq!(

@@ -1,34 +1,35 @@
 //! When the mean curve of a row settles.
 
-/// The settling time of control theory: from when on the mean of all runs' curves stays at or below
-/// a limit that all rows of the table share.
+/// The settling time of control theory: the time from which the mean of all runs' curves stays at
+/// or below a limit. All rows of the table share the limit.
 ///
-/// The limit is the lowest mean of `level` among the rows, and `margin` times the mean of `scale`
-/// in the row `of` above it. Rows whose runs lack one of the three fields have no part in it. The
-/// value is the end of the first step from which on no step's mean is above the limit; where the
-/// last one is, the row does not settle, and the value is the length of the curve.
+/// The limit is the lowest mean of `level` among the rows, plus `margin` times the mean of `scale`
+/// in the row `of`. Rows whose runs lack one of the three fields are ignored.
+///
+/// The value is the end of the first step after which no step's mean is above the limit. If the
+/// last step is above it, the row does not settle, and the value is the length of the curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settling {
-    /// A field that holds numbers at equal steps.
+    /// Field that holds numbers at equally spaced steps.
     pub curve: String,
-    /// Amount of the metric's unit per number of the curve.
+    /// Step between two numbers of the curve, in the metric's unit.
     pub step: f64,
-    /// A numeric field: where a run's curve ends up.
+    /// Numeric field: the level at which a run's curve ends.
     pub level: String,
     /// Distance of the limit above the lowest level, as a share of `scale`.
     pub margin: f64,
-    /// A numeric field: what the margin is a share of.
+    /// Numeric field: the quantity of which the margin is a share.
     pub scale: String,
-    /// The row whose scale counts.
+    /// Row whose scale counts.
     pub of: String,
 }
 
-/// Whether something came about that a metric waits for.
+/// Whether the event that a metric waits for happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reached {
     /// It did.
     Yes,
-    /// Not before the end: the value is only what it is more than.
+    /// It did not happen before the end: the value is a lower bound.
     No,
 }
 
@@ -68,7 +69,7 @@ mod tests {
 
     #[test]
     fn the_mean_counts_and_a_relapse_too() {
-        // At once, in the third step, after a relapse.
+        // It settles at once, in the third step, and after a relapse.
         check(&[&[0.5, 0.5, 0.5]], 25.0, Reached::Yes);
         check(&[&[3.0, 2.0, 0.5, 0.5]], 75.0, Reached::Yes);
         check(&[&[3.0, 0.5, 2.0, 0.5]], 100.0, Reached::Yes);

@@ -1,7 +1,7 @@
-//! Commands as a shell reads them.
+//! Quotes arguments for a shell.
 
-/// Returns an argument as a shell takes it: in single quotes if it holds anything unusual, in
-/// `$'…'` if it holds what a terminal would obey.
+/// Returns an argument as a shell reads it: in single quotes if it has unusual characters, and in
+/// `$'…'` if it has control characters.
 #[must_use]
 pub fn quoted(argument: &str) -> String {
     let usual = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+@%".contains(c);

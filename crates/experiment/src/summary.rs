@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{Analysis, Error, Reached, Verdict};
 
-/// The table of all p-values of rows compared each with each.
+/// Name of the table with all p-values of pairwise comparisons.
 pub const P_TABLE: &str = "p";
 
 /// The contents of `summary.json`.
@@ -16,7 +16,7 @@ pub struct Summary {
     pub version: u32,
     /// The master seed.
     pub seed: u64,
-    /// By table, row and metric, in the experiment's order.
+    /// Values by table, row and metric, in the experiment's order.
     pub rows: Vec<SummaryRow>,
 }
 
@@ -29,10 +29,10 @@ pub struct SummaryRow {
     pub row: String,
     /// The name of the metric.
     pub metric: String,
-    /// The value: the mean unless the metric says otherwise. `null` if it is not a number.
+    /// The value: the mean unless the metric says otherwise; `null` if it is not a number.
     pub value: f64,
-    /// There and false where the metric waits for something that did not come about: `value` is
-    /// what was not enough.
+    /// `false` if the metric waits for an event that did not happen: `value` is then a lower bound.
+    /// Missing otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reached: Option<bool>,
     /// The standard deviation, for means and medians of two runs or more.
@@ -44,15 +44,16 @@ pub struct SummaryRow {
     /// Verdict, if the paper has a value: `matches`, `better`, `differs` or `cannot tell`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<&'static str>,
-    /// Reason why nobody can tell.
+    /// Reason why the value cannot be judged.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<String>,
-    /// Half the width of the 95 % interval of the difference: what could have been seen.
+    /// Half the width of the 95 % interval of the difference: the smallest difference that could
+    /// have been detected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resolution: Option<f64>,
 }
 
-/// The word, the reason and the resolution of a verdict.
+/// Word, reason and resolution of a verdict.
 type Told = (Option<&'static str>, Option<String>, Option<f64>);
 
 fn told(verdict: Option<&Verdict>) -> Told {

@@ -10,20 +10,20 @@ pub struct Table {
     pub name: String,
     /// Title in words.
     pub title: String,
-    /// The rows, in the order they are shown.
+    /// Rows, in the order in which they are shown.
     pub rows: Vec<Row>,
-    /// Record of its runs. A run with other fields is not a run of this table.
+    /// Type of its runs' records. A run with other fields is not a run of this table.
     pub record: RecordType,
-    /// Metrics of every row, in the order they are shown.
+    /// Metrics of every row, in the order in which they are shown.
     pub metrics: Vec<Metric>,
-    /// Number of runs of each of the paper's rows, if it says so.
+    /// Number of runs of each of the paper's rows; `None` if the paper does not say.
     pub paper_runs: Option<u32>,
-    /// Comparison of the rows with each other; `None` compares none.
+    /// Comparison of the rows with a reference row; `None` for no comparison.
     pub comparison: Option<Comparison>,
-    /// Rows that are compared pairwise; `None` compares none.
+    /// Rows that are compared pairwise; `None` for no comparison.
     pub pairwise: Option<Pairwise>,
-    /// Note that a reader needs to read the values, such as how runs without success count; empty
-    /// for none.
+    /// Note that a reader needs to understand the values, such as how runs without success count;
+    /// empty for none.
     pub note: String,
 }
 
@@ -57,13 +57,13 @@ impl Table {
         self
     }
 
-    /// Returns whether it is shown: a row has runs, or would have if its files were here.
+    /// Returns whether it is shown: a row has runs, or would have if its data files were here.
     #[must_use]
     pub fn is_shown(&self) -> bool {
         self.is_filled() || self.rows.iter().any(|row| row.missing.is_some())
     }
 
-    /// Returns which files are not here that its rows need, each once.
+    /// Returns the missing files that its rows need, each once.
     #[must_use]
     pub fn missing(&self) -> Vec<&str> {
         let mut told: Vec<&str> = Vec::new();
@@ -75,7 +75,7 @@ impl Table {
         told
     }
 
-    /// Returns whether every row with runs has a number of its own.
+    /// Returns whether every row with runs has a fixed number of them.
     pub(super) fn is_fixed(&self) -> bool {
         let mut rows = self.rows.iter().filter(|row| row.runs != Some(0));
         self.is_filled() && rows.all(|row| row.is_fixed)
@@ -87,7 +87,7 @@ impl Table {
         self.rows.iter().any(|row| row.runs != Some(0))
     }
 
-    /// Refuses runs of this table with more than `high` of a field.
+    /// Refuses runs of this table with a value of a field above `high`.
     #[must_use]
     pub fn at_most(mut self, field: &str, high: impl Into<f64>) -> Self {
         if let Some(column) = self.record.column_mut(field) {
@@ -96,11 +96,11 @@ impl Table {
         self
     }
 
-    /// Adds a metric, which summarizes fields of the table. What it does not say of itself it takes
+    /// Adds a metric, which summarizes fields of the table. What the metric leaves open is taken
     /// from the column of its field.
     #[must_use]
     pub fn metric(mut self, mut metric: Metric) -> Self {
-        // Of several fields no column says what is measured.
+        // For several fields, no single column defines the metric.
         if let [(field, _)] = metric.statistic.fields()[..]
             && let Some(column) = self.record.column(field)
         {
@@ -113,8 +113,9 @@ impl Table {
         self
     }
 
-    /// Adds a metric for each field from this one on, in the order of the record: of a flag the
-    /// percentage of runs, named `FIELD_percent`, of a number the mean. Words and curves have none.
+    /// Adds a metric for each field from this one on, in the order of the record. A flag gives the
+    /// percentage of runs, named `FIELD_percent`; a number gives the mean. Words and curves give
+    /// none.
     ///
     /// ```
     /// use tolman_experiment::{Table, record};
@@ -147,28 +148,28 @@ impl Table {
         metrics.fold(self, Self::metric)
     }
 
-    /// Says how many runs each of the paper's rows has.
+    /// Sets the number of runs of each of the paper's rows.
     #[must_use]
     pub fn paper_runs(mut self, runs: u32) -> Self {
         self.paper_runs = Some(runs);
         self
     }
 
-    /// Says what a reader must know to read the values.
+    /// Sets the note that explains the values.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.note = note.into();
         self
     }
 
-    /// Compares rows each with each by Mann–Whitney's U.
+    /// Compares rows pairwise by the Mann–Whitney U test.
     #[must_use]
     pub fn pairwise(mut self, pairwise: Pairwise) -> Self {
         self.pairwise = Some(pairwise);
         self
     }
 
-    /// Compares every other row with the row named `reference` by Mann–Whitney's U.
+    /// Compares every other row with the row named `reference` by the Mann–Whitney U test.
     #[must_use]
     pub fn compared_with(mut self, reference: impl Into<String>, correction: Correction) -> Self {
         self.comparison = Some(Comparison {
@@ -182,9 +183,9 @@ impl Table {
 /// Comparison of the rows of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Comparison {
-    /// The row all others are compared with.
+    /// Row that all others are compared with.
     pub reference: String,
-    /// Correction of p-values for the number of comparisons in one metric.
+    /// Correction of p-values for the number of comparisons of one metric.
     pub correction: Correction,
 }
 
@@ -193,12 +194,12 @@ pub struct Comparison {
 pub enum Correction {
     /// Every p-value times the number of comparisons.
     Bonferroni,
-    /// Holm's step-down procedure: never weaker than Bonferroni's.
+    /// Holm's step-down procedure, which is never weaker than Bonferroni's correction.
     Holm,
 }
 
 impl Correction {
-    /// Returns the name of its author.
+    /// Returns the author's name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Bonferroni => "Bonferroni",
@@ -225,26 +226,26 @@ impl Correction {
 pub struct Row {
     /// The name it has in `summary.json`.
     pub name: String,
-    /// The paper's values, at most one for each metric.
+    /// Values from the paper, at most one for each metric.
     pub paper: Vec<PaperValue>,
-    /// Number of its runs, whatever the caller asks for, for deterministic rows: one for each case.
-    /// `None` leaves it to the caller.
+    /// Fixed number of its runs, for deterministic rows: one for each case. `None` leaves it to the
+    /// caller.
     pub runs: Option<u32>,
-    /// Whether no caller changes the number of its runs.
+    /// Whether the caller cannot change the number of its runs.
     pub(super) is_fixed: bool,
-    /// Number of runs of the paper's row, if it differs from the table's.
+    /// Number of runs of the paper's row; `None` if it is the table's.
     pub paper_runs: Option<u32>,
-    /// Whether it is a system of our own, which may be better than what the paper has; others
-    /// reproduce the paper.
+    /// Whether it is our own system, which may be better than the paper's. Other rows reproduce the
+    /// paper.
     pub own: bool,
-    /// Missing files that its runs need, and where they come from; `None` if all is here.
+    /// Missing files that its runs need, and where to get them; `None` if all are here.
     pub missing: Option<String>,
-    /// Whether it has no runs of its own, but those of all other rows.
+    /// Whether it has no runs of its own, but uses those of all other rows.
     pub(super) is_pooled: bool,
 }
 
 impl Row {
-    /// Returns a row of which the paper says nothing.
+    /// Returns a row without values from the paper.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -258,7 +259,8 @@ impl Row {
         }
     }
 
-    /// Returns a row of the runs of all other rows. A run without a metric's field is left out.
+    /// Returns a row that uses the runs of all other rows. A run without a metric's field is left
+    /// out.
     pub fn of_all(name: impl Into<String>) -> Self {
         Self {
             is_pooled: true,
@@ -266,26 +268,26 @@ impl Row {
         }
     }
 
-    /// Leaves it without runs.
+    /// Removes its runs.
     pub(super) fn leave_out(&mut self) {
         self.runs = Some(0);
         self.missing = None;
     }
 
-    /// Adds a value of the paper that stands without a spread: a percentage, a median, a count.
+    /// Adds a value of the paper without a spread: a percentage, a median or a count.
     #[must_use]
     pub fn paper(self, metric: impl Into<String>, value: f64) -> Self {
         self.said(metric.into(), value, None)
     }
 
-    /// Adds a value of the paper given as mean ± standard deviation.
+    /// Adds a value that the paper gives as mean ± standard deviation.
     #[must_use]
     pub fn paper_mean(self, metric: impl Into<String>, mean: f64, sd: f64) -> Self {
         self.said(metric.into(), mean, Some(sd))
     }
 
-    /// Adds a number of the paper that ours is not judged by, with the reason: a bound, a range, a
-    /// world of another size.
+    /// Adds a value of the paper that ours is not compared with, and the reason: a bound, a range,
+    /// or a world of another size.
     #[must_use]
     pub fn paper_aside(
         mut self,
@@ -312,45 +314,44 @@ impl Row {
         self
     }
 
-    /// Says of how many runs the paper's values are, if of another number than the table's.
+    /// Sets the number of runs of the paper's row, if it differs from the table's.
     #[must_use]
     pub fn paper_runs(mut self, runs: u32) -> Self {
         self.paper_runs = Some(runs);
         self
     }
 
-    /// Says which files its runs need that are not here, and where they come from. It stands with
-    /// the paper's values alone.
+    /// Sets which files are missing for its runs, and where to get them. Only the paper's values
+    /// are then shown.
     #[must_use]
     pub fn missing(mut self, what: impl Into<String>) -> Self {
         self.missing = Some(what.into());
         self.runs(0)
     }
 
-    /// Says that it is a system of our own, which may be better than what the paper has.
+    /// Marks it as our own system, which may be better than the paper's.
     #[must_use]
     pub fn own(mut self) -> Self {
         self.own = true;
         self
     }
 
-    /// Sets how many runs it has, where that is not what the caller asks of every row but follows
-    /// from it.
+    /// Sets the number of its runs, if it is not the caller's number itself but follows from it.
     #[must_use]
     pub fn runs(mut self, runs: u32) -> Self {
         self.runs = Some(runs);
         self
     }
 
-    /// Gives it a number of runs that no caller changes: one for each of `things` that it is tried
-    /// on, or as many as its paper has.
+    /// Sets a fixed number of runs: one for each of `things` that it is tried on, or as many as the
+    /// paper has.
     #[must_use]
     pub fn run_each(mut self, things: u32) -> Self {
         self.is_fixed = true;
         self.runs(things)
     }
 
-    /// Returns how many runs it has where the caller asks for `runs` of each row.
+    /// Returns the number of its runs if the caller asks for `runs` of each row.
     #[must_use]
     pub fn runs_of(&self, runs: u32) -> u32 {
         self.runs.unwrap_or(runs)
@@ -369,28 +370,28 @@ pub struct PaperValue {
     pub metric: String,
     /// The value, in the metric's unit.
     pub value: f64,
-    /// The standard deviation, where it is given.
+    /// The standard deviation; `None` if the paper gives none.
     pub sd: Option<f64>,
-    /// Reason why ours is not judged by it; `None` if it is.
+    /// Reason why ours is not compared with it; `None` if it is.
     pub aside: Option<String>,
 }
 
-/// One measured quantity: how the runs of a row become one value.
+/// One measured quantity: how the runs of a row give one value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Metric {
     /// The name it has in `summary.json`, such as `success_percent`.
     pub name: String,
-    /// The name it has on a page, such as `success`; empty until the table's column says it.
+    /// Title on a page, such as `success`; empty to take the column's.
     pub title: String,
-    /// The unit, shown behind the title; empty if there is none.
+    /// Unit, shown after the title; empty if there is none.
     pub unit: String,
     /// Statistic by which the runs are summarized.
     pub statistic: Statistic,
-    /// Direction in which its values are better; `None` until the table's column says it.
+    /// Direction in which its values are better; `None` to take the column's.
     pub better: Option<Better>,
     /// Definition, in a sentence.
     pub definition: String,
-    /// Number of decimals shown; `None`: two, unless the column says it.
+    /// Number of decimals shown; `None` for the column's, or else two.
     pub decimals: Option<u8>,
     /// Tolerance between our value and the paper's.
     pub tolerance: Option<Tolerance>,
@@ -410,13 +411,13 @@ impl Metric {
         }
     }
 
-    /// Takes over what the column of its field says, where it says nothing itself.
+    /// Takes from the column what the metric leaves open.
     fn complete(&mut self, column: &Column) {
         self.better = self.better.or(Some(column.better));
         if self.definition.is_empty() {
             self.definition.clone_from(&column.definition);
         }
-        // How many times a row's value is neither titled nor measured as the value is.
+        // A multiple of another row's value has its own title and unit.
         if matches!(self.statistic, Statistic::Multiple { .. }) {
             return;
         }
@@ -430,7 +431,7 @@ impl Metric {
         self.tolerance = self.tolerance.or(column.tolerance);
     }
 
-    /// Returns the definition and which way is better, as a reader is told them.
+    /// Returns the definition and the better direction in words.
     pub fn explanation(&self) -> String {
         let better = self.better.unwrap_or_default().sentence();
         let sentences = [self.definition.as_str(), better];
@@ -443,36 +444,36 @@ impl Metric {
         usize::from(self.decimals.unwrap_or(2))
     }
 
-    /// Returns the mean of the numeric field that bears the metric's name.
+    /// Returns the mean of the numeric field that has the metric's name.
     pub fn mean(name: impl Into<String>) -> Self {
         let field = name.into();
         Self::new(field.clone(), Statistic::Mean(field))
     }
 
-    /// Returns the median of a numeric field, by definition R-7; its interval is that of order
+    /// Returns the median of a numeric field by definition R-7. Its interval is that of order
     /// statistics.
     pub fn median(name: impl Into<String>, field: impl Into<String>) -> Self {
         Self::new(name, Statistic::Median(field.into()))
     }
 
-    /// Returns the number of a numeric field below which a share of the runs lies, 0 … 1, by
+    /// Returns the quantile of a numeric field below which `share` of the runs are, 0 … 1, by
     /// definition R-7.
     pub fn quantile(name: impl Into<String>, field: impl Into<String>, share: f64) -> Self {
         let field = field.into();
         Self::new(name, Statistic::Quantile { field, share })
     }
 
-    /// Returns the least of a numeric field.
+    /// Returns the minimum of a numeric field.
     pub fn least(name: impl Into<String>, field: impl Into<String>) -> Self {
         Self::new(name, Statistic::Least(field.into()))
     }
 
-    /// Returns the greatest of a numeric field.
+    /// Returns the maximum of a numeric field.
     pub fn greatest(name: impl Into<String>, field: impl Into<String>) -> Self {
         Self::new(name, Statistic::Greatest(field.into()))
     }
 
-    /// Returns the sum over all runs of the numeric field that bears the metric's name.
+    /// Returns the sum over all runs of the numeric field that has the metric's name.
     pub fn total(name: impl Into<String>) -> Self {
         let field = name.into();
         Self::new(field.clone(), Statistic::Total(field)).decimals(0)
@@ -484,8 +485,8 @@ impl Metric {
         metric.unit("%").decimals(1)
     }
 
-    /// In how many of `whole` runs the flag named `field` is set, as a paper that made that many
-    /// counts them: `whole` × the share of our runs.
+    /// Returns the number of runs out of `whole` in which the flag named `field` is set, for a
+    /// paper that made `whole` runs. It is `whole` × the share of our runs.
     ///
     /// ```
     /// use tolman_experiment::{Metric, Statistic};
@@ -522,8 +523,8 @@ impl Metric {
         Self::new(name, Statistic::RatioOfSpreads { over, under })
     }
 
-    /// Returns the sum of a numeric field over all runs divided by its sum over the runs of the row
-    /// named `of` that bear the same index: how many times that row's value.
+    /// Returns the sum of a numeric field over all runs, divided by its sum over the runs with the
+    /// same indices in the row named `of`.
     pub fn multiple(
         name: impl Into<String>,
         field: impl Into<String>,
@@ -533,10 +534,12 @@ impl Metric {
         Self::new(name, Statistic::Multiple { field, of })
     }
 
-    /// Returns how much better forecasts are than always telling how often the flag named `outcome`
-    /// is set (Brier 1950): 1 − the mean of the field named `error`, which is the squared error of
-    /// each forecast, over the variance of the flag. 1 is never wrong, 0 as good as that, below it
-    /// worse. No value of a row in which the flag is always the same.
+    /// Returns the Brier skill of forecasts (Brier 1950): 1 − the mean of `error` over the variance
+    /// of the flag `outcome`.
+    ///
+    /// The field `error` is the squared error of each forecast. A skill of 1 means always right, 0
+    /// as good as always forecasting the share of set flags, and below 0 worse. A row in which the
+    /// flag is always the same has no value.
     pub fn skill(
         name: impl Into<String>,
         error: impl Into<String>,
@@ -546,13 +549,13 @@ impl Metric {
         Self::new(name, Statistic::Skill { error, outcome }).better(Better::Higher)
     }
 
-    /// Returns when the mean of the runs' curves settles.
+    /// Returns the time at which the mean of the runs' curves settles.
     pub fn settling(name: impl Into<String>, settling: Settling) -> Self {
         let metric = Self::new(name, Statistic::Settling(settling));
         metric.decimals(0).better(Better::Lower)
     }
 
-    /// Sets the name in `summary.json`, where several metrics are of one field.
+    /// Sets the name in `summary.json`, for several metrics of one field.
     #[must_use]
     pub fn named(mut self, name: impl Into<String>) -> Self {
         self.name = name.into();
@@ -573,28 +576,28 @@ impl Metric {
         self
     }
 
-    /// Sets which way values are better.
+    /// Sets the better direction.
     #[must_use]
     pub const fn better(mut self, better: Better) -> Self {
         self.better = Some(better);
         self
     }
 
-    /// Sets what is measured, in a sentence.
+    /// Sets the definition, a sentence.
     #[must_use]
     pub fn defined(mut self, definition: impl Into<String>) -> Self {
         self.definition = definition.into();
         self
     }
 
-    /// Sets how many decimals values are shown with.
+    /// Sets the number of decimals.
     #[must_use]
     pub const fn decimals(mut self, decimals: u8) -> Self {
         self.decimals = Some(decimals);
         self
     }
 
-    /// Sets how far our value may lie from the paper's.
+    /// Sets the maximum difference between our value and the paper's.
     #[must_use]
     pub fn tolerance(mut self, tolerance: Tolerance) -> Self {
         self.tolerance = Some(tolerance);
@@ -602,7 +605,7 @@ impl Metric {
     }
 }
 
-/// Statistic by which the runs of a row become one value. A run without the field is left out.
+/// Statistic that turns the runs of a row into one value. Runs without the field are left out.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Statistic {
@@ -612,24 +615,24 @@ pub enum Statistic {
     Mean(String),
     /// The median of a numeric field.
     Median(String),
-    /// A quantile of a numeric field, of which no interval is told.
+    /// A quantile of a numeric field, without interval.
     Quantile {
         /// A numeric field.
         field: String,
-        /// The share of the runs that lie below, 0 … 1.
+        /// Share of the runs that are below, 0 … 1.
         share: f64,
     },
-    /// The least of a numeric field, of which no interval is told.
+    /// The minimum of a numeric field, without interval.
     Least(String),
-    /// The greatest of a numeric field, of which no interval is told.
+    /// The maximum of a numeric field, without interval.
     Greatest(String),
-    /// The sum of a numeric field, of which no interval is told.
+    /// The sum of a numeric field, without interval.
     Total(String),
     /// `whole` × the share of runs whose flag is set.
     Count {
         /// A field of [`Kind::Flag`](crate::Kind::Flag).
         field: String,
-        /// Number of runs in which the paper counts.
+        /// Number of runs that the paper made.
         whole: u32,
     },
     /// The ratio of two sums.
@@ -639,33 +642,33 @@ pub enum Statistic {
         /// The numeric field of the denominator.
         under: String,
     },
-    /// The ratio of two standard deviations, of which no interval is told.
+    /// The ratio of two standard deviations, without interval.
     RatioOfSpreads {
         /// The numeric field of the numerator.
         over: String,
         /// The numeric field of the denominator.
         under: String,
     },
-    /// The ratio of a sum to that of another row, over the runs that both have.
+    /// The ratio of a sum to that of another row, over the run indices that both have.
     Multiple {
         /// A numeric field.
         field: String,
         /// The name of the other row.
         of: String,
     },
-    /// Skill of forecasts over the base rate; see [`Metric::skill`]. It has no interval.
+    /// Skill of forecasts over the base rate, without interval; see [`Metric::skill`].
     Skill {
         /// The numeric field of the squared errors.
         error: String,
         /// The flag that was forecast.
         outcome: String,
     },
-    /// When the mean of curves settles; see [`Settling`].
+    /// Time at which the mean of curves settles; see [`Settling`].
     Settling(Settling),
 }
 
 impl Statistic {
-    /// Returns the fields that it is of, each with the kinds that it may have.
+    /// Returns its fields, each with the types that it may have.
     pub(super) fn fields(&self) -> Vec<(&str, &'static [Kind])> {
         const FLAG: &[Kind] = &[Kind::Flag];
         const NUMERIC: &[Kind] = &[Kind::Count, Kind::Number];
@@ -691,7 +694,7 @@ impl Statistic {
         }
     }
 
-    /// Returns the row whose runs it needs beside a row's own.
+    /// Returns the other row whose runs it needs, if any.
     pub(super) fn other_row(&self) -> Option<&String> {
         match self {
             Self::Multiple { of, .. } | Self::Settling(Settling { of, .. }) => Some(of),
@@ -704,26 +707,26 @@ impl Statistic {
 /// tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// The distance allowed.
+    /// Maximum difference.
     pub within: Within,
-    /// Reason it is so much, as a sentence without its full stop.
+    /// Reason for its size, a sentence without full stop.
     pub reason: &'static str,
 }
 
-/// The size of a tolerance.
+/// Size of a tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Within {
-    /// By this much, in the metric's unit.
+    /// This difference, in the metric's unit.
     Absolute(f64),
     /// By this share of the paper's value: 0.35 is ± 35 %.
     Relative(f64),
-    /// By this factor, at least 1: 1.5 is from two thirds of the paper's value to one and a half of
-    /// it.
+    /// This factor, at least 1: 1.5 is from two thirds of the paper's value to one and a half times
+    /// that value.
     Factor(f64),
 }
 
 impl Tolerance {
-    /// Returns a tolerance of so much, in the metric's unit.
+    /// Returns a tolerance of `by`, in the metric's unit.
     #[must_use]
     pub const fn absolute(by: f64, reason: &'static str) -> Self {
         let within = Within::Absolute(by);
@@ -737,7 +740,7 @@ impl Tolerance {
         Self { within, reason }
     }
 
-    /// Returns a tolerance by this factor, at least 1.
+    /// Returns a tolerance of this factor, at least 1.
     #[must_use]
     pub const fn factor(factor: f64, reason: &'static str) -> Self {
         let within = Within::Factor(factor);

@@ -2,33 +2,33 @@ use core::fmt;
 
 use super::{Finding, Verdict};
 
-/// Number of the paper's values that ours match, of all that it has.
+/// Number of the paper's values by verdict.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct VerdictTally {
-    /// Values that match.
+    /// Number of values that match.
     pub matches: usize,
-    /// Values of our own systems that are better.
+    /// Number of values of our own systems that are better.
     pub better: usize,
-    /// Values that differ.
+    /// Number of values that differ.
     pub differs: usize,
-    /// Values of which nobody can tell.
+    /// Number of values that cannot be judged.
     pub cannot_tell: usize,
 }
 
 impl VerdictTally {
-    /// Returns how many values the paper has.
+    /// Returns the number of the paper's values.
     #[must_use]
     pub const fn all(&self) -> usize {
         self.judged() + self.cannot_tell
     }
 
-    /// Returns how many could be judged.
+    /// Returns the number of values that could be judged.
     #[must_use]
     pub const fn judged(&self) -> usize {
         self.matches + self.better + self.differs
     }
 
-    /// Counts one more.
+    /// Counts one more verdict.
     fn add(&mut self, finding: &Finding) {
         *match finding {
             Finding::Matches => &mut self.matches,

@@ -11,8 +11,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use super::{Progress, ProgressEvent, Remedy};
 
-/// Progress on standard error: a bar with rate and time left on a terminal, nothing elsewhere.
-/// Folders set aside and broken lines are told in both cases.
+/// Progress on standard error: on a terminal a bar with rate and time left, elsewhere nothing.
+/// Folders set aside and broken lines are reported in both cases.
 #[derive(Debug, Default)]
 pub struct Terminal {
     stop: Arc<AtomicBool>,
@@ -20,7 +20,8 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    /// Progress that asks the runner to stop once `stop` is set, as by a handler of Ctrl-C.
+    /// Returns a progress display that asks the runner to stop once `stop` is set, for example by
+    /// Ctrl-C.
     pub fn new(stop: Arc<AtomicBool>) -> Self {
         Self {
             stop,
@@ -28,7 +29,7 @@ impl Terminal {
         }
     }
 
-    /// Writes a line above the bar. A closed standard error is nobody's loss.
+    /// Writes a line above the bar. Nothing happens if standard error is closed.
     fn line(&self, text: &str) {
         let write = || {
             let _ = writeln!(std::io::stderr(), "{text}");
@@ -72,7 +73,7 @@ impl Progress for Terminal {
                     self.line(&format!("{reused} of {total} runs are there from before"));
                 }
                 let bar = ProgressBar::with_draw_target(Some(*total), target()).with_style(style());
-                // Reused runs are done, and no part of the rate.
+                // Reused runs are done, but do not count for the rate.
                 bar.set_position(*reused);
                 bar.reset_eta();
                 bar.reset_elapsed();
@@ -113,7 +114,7 @@ fn style() -> ProgressStyle {
     ProgressStyle::with_template("{bar:30} {pos}/{len} runs  {rate}  {eta} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar())
         .with_key("rate", |state: &ProgressState, out: &mut dyn fmt::Write| {
-            // A bar that cannot be written is only not shown.
+            // A bar that cannot be written is simply not shown.
             let _ = write!(out, "{:.0} a second", state.per_sec());
         })
 }

@@ -15,15 +15,16 @@ pub enum Ink {
     Coloured,
 }
 
-/// Columns of a terminal that no line of a table passes.
+/// Maximum width of a line, columns.
 const WIDTH: usize = 80;
 
-/// Columns that the names of rows take at most; a longer one stands on a line of its own.
+/// Maximum width for the names of rows; a longer name has a line of its own.
 const NAMES: usize = 28;
 
-/// Returns all tables of an analysis, each with a line end, in lines of 80 columns. Behind a value
-/// of ours stands the verdict in words, with how much of a difference could have been seen. The
-/// last line counts the verdicts.
+/// Returns all tables of an analysis as lines of at most 80 columns.
+///
+/// After each of our values comes the verdict in words, with the smallest difference that could
+/// have been detected. The last line counts the verdicts.
 pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
     let mut text = String::new();
     for table in &analysis.tables {
@@ -47,7 +48,8 @@ pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
 const SEEN: &str =
     "\nBehind a verdict: a smaller difference from the paper could not have been seen.\n";
 
-/// Returns the words of a text in lines of at most `width` columns; a longer word stands alone.
+/// Returns the words of a text in lines of at most `width` columns; a longer word has a line of its
+/// own.
 #[must_use]
 pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
@@ -72,8 +74,7 @@ pub(crate) fn value_with_spread(metric: &Metric, value: f64, sd: Option<f64>) ->
     }
 }
 
-/// Returns our value: a mean with its spread, anything else alone; what was not reached as
-/// `> 2000`.
+/// Returns our value: a mean with its spread, any other value alone, and a lower bound as `> 2000`.
 pub(crate) fn ours(metric: &Metric, measured: &Measured) -> String {
     let sd = match metric.statistic {
         Statistic::Mean(_) => measured.sd,
@@ -136,7 +137,7 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
 /// Gap between two columns.
 const GAP: &str = "   ";
 
-/// Writes the rows of a table below as many metrics as fit beside each other.
+/// Writes the rows of a table below as many metrics as fit side by side.
 fn block_as_text(
     analysis: &TableAnalysis,
     names: usize,
@@ -149,7 +150,7 @@ fn block_as_text(
     for at in 0..heads {
         let mut line = " ".repeat(names);
         for column in columns {
-            // The last line of every heading stands above its values.
+            // The last line of every heading is directly above its values.
             let place = (at + column.heading.len()).checked_sub(heads);
             let head = place.map_or("", |place| &column.heading[place]);
             line += &format!("{GAP}{head:<0$}", column.width());
@@ -187,10 +188,10 @@ struct Column<'a> {
     metric: &'a MetricAnalysis,
     /// The metric's title in lines.
     heading: Vec<String>,
-    /// The width of the paper's values, if there are any.
+    /// Width of the paper's values; `None` if there are none.
     paper: Option<usize>,
     ours: usize,
-    /// The width of the verdicts; 0 where there are none.
+    /// Width of the verdicts; 0 if there are none.
     verdict: usize,
 }
 
@@ -222,8 +223,8 @@ impl<'a> Column<'a> {
         self.paper.map_or(0, |paper| paper + 2) + self.ours + apart(self.verdict)
     }
 
-    /// Returns a line of it, with the gap before it. The verdict is as wide as `verdict` and has
-    /// the style of `painted`.
+    /// Returns a line of it, with the gap before it. `verdict` gives the width, `painted` the
+    /// coloured text of the verdict.
     fn line(&self, paper: &str, ours: &str, verdict: &str, painted: &str) -> String {
         let paper = match self.paper {
             Some(width) => format!("{paper:>width$}  "),
@@ -238,11 +239,10 @@ impl<'a> Column<'a> {
     }
 }
 
-/// Columns that a heading may take before it goes on in the next line.
+/// Maximum width of a heading's line, columns.
 const HEADING: usize = 14;
 
-/// Returns the verdict in words and how small a difference could have been detected; empty without
-/// one.
+/// Returns the verdict in words with the smallest detectable difference; empty without a verdict.
 fn verdict(metric: &Metric, measured: Option<&Measured>) -> String {
     let judged = measured.and_then(|measured| Some((measured, measured.verdict.as_ref()?)));
     judged.map_or_else(String::new, |(measured, verdict)| {
@@ -263,8 +263,7 @@ fn told(text: &str, measured: Option<&Measured>, ink: Ink) -> String {
     painted(text, colour, ink)
 }
 
-/// Returns how much of a difference could have been seen, as ` ± 12.3`; `None` where nobody can
-/// say.
+/// Returns the smallest detectable difference, as ` ± 12.3`; `None` if it is unknown.
 pub(crate) fn seen(metric: &Metric, measured: &Measured) -> Option<String> {
     let resolution = measured.verdict.as_ref()?.resolution()?;
     let decimals = metric.places();

@@ -1,4 +1,4 @@
-//! Whether a value of ours matches the paper's.
+//! Whether our value matches the paper's.
 
 use core::fmt;
 
@@ -8,32 +8,33 @@ use tolman_stats::{
     ConfidenceInterval, SampleSummary, mean_difference_interval, rate_difference_interval,
 };
 
-/// The judgement of one value.
+/// The verdict on one value.
 ///
-/// It *differs* where the 95 % interval of the difference, with the spread of both samples,
-/// excludes 0 and the difference exceeds the tolerance; it *matches* where the difference is within
-/// the tolerance and the interval includes 0. Of all else the runs cannot tell.
+/// - It *differs* if the difference exceeds the tolerance, and its 95 % interval, with the spread
+///   of both samples, excludes 0.
+/// - It *matches* if the difference is within the tolerance, and the interval includes 0.
+/// - Otherwise the runs *cannot tell*.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// The finding.
     pub finding: Finding,
-    /// Interval of ours minus the paper's, in the metric's unit; `None` where nobody can say. Half
-    /// its width is what could have been seen.
+    /// Interval of ours minus the paper's, in the metric's unit; `None` if it is unknown. Half its
+    /// width is the smallest difference that could have been detected.
     pub difference: Option<ConfidenceInterval>,
-    /// The values of ours within the tolerance, ends included; `None` where none is stated.
+    /// Range of our values within the tolerance, ends included; `None` without a tolerance.
     pub accepted: Option<ConfidenceInterval>,
 }
 
-/// Finding about a value beside the paper's.
+/// Result of comparing a value with the paper's.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
-    /// It is the paper's.
+    /// It matches the paper's.
     Matches,
-    /// It is better than the paper's, as a row of our own system may be.
+    /// It is better than the paper's. Only rows of our own systems can be.
     Better,
-    /// It is another.
+    /// It differs from the paper's.
     Differs,
-    /// Nobody can tell, and why.
+    /// The runs cannot tell, for this reason.
     CannotTell(Doubt),
 }
 
@@ -41,26 +42,25 @@ pub enum Finding {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Doubt {
-    /// The interval includes 0 and reaches beyond the tolerance, in which the difference does not
-    /// lie.
+    /// The difference exceeds the tolerance, but its interval includes 0.
     TooWide,
-    /// The difference is certain, and within the tolerance.
+    /// The difference is certain, but within the tolerance.
     Slight,
-    /// The paper's number of runs is not known.
+    /// The paper's number of runs is unknown.
     UnknownRuns,
     /// No tolerance is stated.
     NoTolerance,
-    /// One run of ours shows no spread.
+    /// One run shows no spread.
     OneRun,
     /// The event that the metric waits for did not happen.
     NotReached,
-    /// The files that its runs need are not here: which, and where they come from.
+    /// Files that its runs need are missing: which, and where to get them.
     NoData(String),
     /// No run was made.
     NoRuns,
     /// Reason why no value can be compared with the paper's.
     Aside(String),
-    /// There is no interval for such runs.
+    /// This statistic has no interval for such runs.
     NoInterval,
 }
 
@@ -81,7 +81,7 @@ impl fmt::Display for Doubt {
 }
 
 impl Finding {
-    /// Returns the word for it.
+    /// Returns the verdict as a word.
     #[must_use]
     pub const fn word(&self) -> &'static str {
         match self {
@@ -92,7 +92,7 @@ impl Finding {
         }
     }
 
-    /// Returns why nobody can tell; `None` where somebody can.
+    /// Returns the reason why the value cannot be judged; `None` if it can.
     #[must_use]
     pub const fn doubt(&self) -> Option<&Doubt> {
         match self {
@@ -103,7 +103,7 @@ impl Finding {
 }
 
 impl Verdict {
-    /// Returns a verdict on a value that nobody can judge.
+    /// Returns the verdict on a value that cannot be judged.
     pub(super) const fn unknown(doubt: Doubt) -> Self {
         Self {
             finding: Finding::CannotTell(doubt),
@@ -112,8 +112,8 @@ impl Verdict {
         }
     }
 
-    /// Returns half the width of the interval of the difference: what could have been seen, in the
-    /// metric's unit.
+    /// Returns half the width of the interval of the difference, in the metric's unit: the smallest
+    /// difference that could have been detected.
     #[must_use]
     pub fn resolution(&self) -> Option<f64> {
         self.difference
@@ -121,7 +121,7 @@ impl Verdict {
     }
 }
 
-/// A value of ours that is held against the paper's.
+/// One of our values and the paper's value that it is compared with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Case<'a> {
     pub(super) table: &'a Table,
@@ -134,7 +134,7 @@ pub(super) struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// Judges the value.
+    /// Returns the verdict.
     pub(super) fn judge(&self) -> Verdict {
         let Self { metric, paper, .. } = *self;
         if let Some(why) = &paper.aside {
@@ -178,7 +178,7 @@ impl Case<'_> {
         }
     }
 
-    /// Returns the values within the tolerance that a run can have.
+    /// Returns the range of values that are within the tolerance and possible for a run.
     fn accepted(&self, tolerance: Tolerance) -> ConfidenceInterval {
         let paper = self.paper.value;
         let (low, high) = match tolerance.within {
@@ -190,7 +190,7 @@ impl Case<'_> {
         ConfidenceInterval::new(low.min(high).max(least), high.max(low).min(most))
     }
 
-    /// Returns the least and the greatest value that the metric can have.
+    /// Returns the minimum and the maximum value of the metric.
     fn range(&self) -> (f64, f64) {
         let fields = self.metric.statistic.fields();
         let column = match fields[..] {
@@ -205,7 +205,7 @@ impl Case<'_> {
         }
     }
 
-    /// Returns the interval of ours minus the paper's, as far as both can be.
+    /// Returns the interval of ours minus the paper's, limited to possible values.
     fn difference(&self) -> Result<ConfidenceInterval, Doubt> {
         let paper = self.paper.value;
         let interval = self.unbounded_difference()?;
@@ -219,7 +219,7 @@ impl Case<'_> {
         let Self { paper, sample, .. } = *self;
         let observed = sample.value().0 - paper.value;
         let rounding = half_a_digit(paper.value);
-        // What leaves nothing to chance has the same value in every run, of the paper too.
+        // A deterministic row has the same value in every run, including the paper's.
         if sample.len() == 1 && self.row.runs == Some(1) {
             return Ok(around(observed, rounding));
         }
@@ -247,7 +247,7 @@ impl Case<'_> {
                 };
                 mean_difference_interval(ours, theirs, LEVEL).ok()
             }
-            // Of a paper that tells no spread, ours stands for it.
+            // If the paper gives no spread, ours is used for it.
             _ => sample.stand_in(observed, paper_runs, self.seed),
         };
         let interval = interval.ok_or(Doubt::NoInterval)?;
@@ -278,7 +278,7 @@ fn rates(
         .map_err(|_| Doubt::NoInterval)
 }
 
-/// Returns the rounding error of `printed`: half a unit of its last printed digit.
+/// Returns the rounding error of `printed`: half a unit of its last digit.
 fn half_a_digit(printed: f64) -> f64 {
     let text = printed.to_string();
     let decimals = text.split_once('.').map_or("", |(_, decimals)| decimals);
@@ -340,7 +340,7 @@ mod tests {
         Metric::mean(Throw::steps).tolerance(THIRD)
     }
 
-    /// 17 of the paper's 25.
+    /// Returns a row with 17 successes in the paper's 25 runs.
     fn of_25() -> Row {
         Row::new("Novice").paper("hits", 68.0).paper_runs(25)
     }
@@ -357,7 +357,7 @@ mod tests {
         check(hits(950, 1000), Finding::Differs);
         check(hits(24, 25), Finding::Differs);
         check(hits(22, 25), Finding::CannotTell(Doubt::TooWide));
-        // Five runs tell less.
+        // Five runs detect less.
         let resolution = |sample| judge(success(), of_25(), &sample).resolution().unwrap();
         assert!(resolution(hits(3, 5)) > resolution(hits(600, 1000)) + 10.0);
         // No share is above 100 %.
@@ -380,11 +380,11 @@ mod tests {
         check(steps(132.0, 60.0, 1000), Finding::Matches);
         check(steps(140.0, 60.0, 1000), Finding::Differs);
         check(steps(140.0, 60.0, 4), Finding::CannotTell(Doubt::TooWide));
-        // Certain, but within the tolerance.
+        // The difference is certain, but within the tolerance.
         let row = Row::new("Novice").paper_mean("steps", 100.0, 5.0);
         let verdict = judge(time(), row.paper_runs(25), &steps(120.0, 6.0, 1000));
         assert_eq!(verdict.finding, Finding::CannotTell(Doubt::Slight));
-        // No run has fewer than no steps.
+        // No run has fewer than zero steps.
         let verdict = judge(time(), paper(), &steps(10.0, 9.0, 3));
         assert!(verdict.difference.unwrap().low >= -100.0);
     }
@@ -426,7 +426,7 @@ mod tests {
             why(time(), aside, &sample),
             Doubt::Aside("a bound".to_owned()),
         );
-        // What leaves nothing to chance needs one run.
+        // A deterministic row needs only one run.
         let finding = why(time(), row().runs(1), &steps(100.0, 0.0, 1));
         assert_eq!(finding, Finding::Matches);
         let finding = why(time(), row().runs(1), &steps(200.0, 0.0, 1));

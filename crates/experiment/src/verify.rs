@@ -1,4 +1,4 @@
-//! Whether a folder of results says what its experiment does: a sample of the runs is played again.
+//! Checks a folder of results: a sample of its runs is played again.
 
 use alloc::collections::BTreeMap;
 use core::fmt;
@@ -17,16 +17,15 @@ use super::{
     compare, folder, runner,
 };
 
-/// What the verification of a folder of results found; [`Display`](fmt::Display) tells it, a line
-/// for each fault.
+/// Result of verifying a folder of results. [`Display`](fmt::Display) writes a line for each fault.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Verification {
     /// The folder.
     pub folder: PathBuf,
-    /// Runs that the folder holds.
+    /// Number of runs in the folder.
     pub runs: usize,
-    /// Runs that were played again.
+    /// Number of runs that were played again.
     pub played: usize,
     /// Faults, one thing each; empty if there are none.
     pub faults: Vec<String>,
@@ -51,14 +50,17 @@ impl fmt::Display for Verification {
     }
 }
 
-/// Verifies a folder of results without writing to it. Every line of `runs.jsonl` has to be sound
-/// and to have its checksum. Of each row, `Options::runs` runs (1 if left out), chosen by a hash
-/// of their seeds, are played again and have to agree to the bit. `summary.json`, if it is there,
-/// has to follow from the runs.
+/// Verifies a folder of results without writing to it.
+///
+/// - Every line of `runs.jsonl` has to be valid and to have its checksum.
+/// - Of each row, `Options::runs` runs (by default 1) are played again, and have to agree to the
+///   bit. A hash of their seeds chooses them.
+/// - `summary.json`, if present, has to follow from the runs.
 ///
 /// # Errors
-/// [`Error::NotVerifiable`] if the folder was made with other options or by another program,
-/// [`Error::Run`] if a run cannot be played, [`Error::File`] if the folder cannot be read.
+/// - [`Error::NotVerifiable`] if the folder was made with other options or by another program.
+/// - [`Error::Run`] if a run cannot be played.
+/// - [`Error::File`] if the folder cannot be read.
 pub fn verify(
     experiment: &Experiment,
     options: &Options,
@@ -127,7 +129,7 @@ pub fn verify(
     })
 }
 
-/// Returns `of_each_row` runs of each row, those whose seeds have the least hashes.
+/// Returns `of_each_row` runs of each row, those whose seeds have the smallest hashes.
 fn sample(runs: &runs_file::Runs, of_each_row: u32) -> Vec<&Run> {
     let mut rows: BTreeMap<(usize, usize), Vec<(u64, &Run)>> = BTreeMap::new();
     for ((table, row, _), run) in runs {
@@ -143,7 +145,7 @@ fn sample(runs: &runs_file::Runs, of_each_row: u32) -> Vec<&Run> {
     chosen
 }
 
-/// Remembers the lines that cannot be used.
+/// Collects the lines that cannot be used.
 #[derive(Debug, Default)]
 struct BrokenLines(Mutex<Vec<String>>);
 

@@ -1,11 +1,11 @@
-//! The main loop of a micromouse: sensors and motors are those of a drawing.
+//! The main loop of a micromouse, with sensors and motors simulated on a drawing.
 
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use tolman_firmware::{Command, Mouse, Sides};
 use tolman_maze::{Braided, Cell, Direction, Maze};
 use tolman_planners::speed_run::{RunStep, SpeedRunConfig, SpeedRunTimes};
 
-/// A mouse of paper, where it stands and looks.
+/// A simulated mouse: its maze, its cell and its direction.
 struct Body<'a> {
     maze: &'a Maze,
     cell: Cell,

@@ -3,23 +3,23 @@ use tolman_maze::{Cell, Direction, Grid, Walls};
 use tolman_planners::speed_run::{Decision, RunStep, SpeedRunExplorer, SpeedRunTimes};
 use tolman_planners::{Passages, PoseKnowledge, PoseSet, Unknown};
 
-/// Columns and rows of the maze: those of the classic competition.
+/// Number of columns and of rows of the maze, as in the classic competition.
 pub const MAZE: usize = 16;
 
-/// How many walls can be forgotten after a crash.
+/// Maximum number of walls that can be forgotten after a crash.
 const LOG: usize = 32;
 
-/// How many observations are forgotten after a crash.
+/// Number of observations that are forgotten after a crash.
 const DOUBTFUL: usize = 4;
 
-/// How many cells a lost mouse drives before it asks for help.
+/// Number of cells that a lost mouse drives before it asks for help.
 const PATIENCE: u8 = 60;
 
-/// Where the mouse is put at the start, and where it looks then.
+/// Cell and direction in which the mouse starts.
 const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
 
-/// The mouse: what it knows and what it is doing. Directions to and from it are its own: north is
-/// ahead.
+/// The mouse: what it knows and what it is doing. Directions are in its own frame, in which north
+/// is ahead at the start.
 #[derive(Clone, Debug)]
 pub struct Mouse<'a> {
     times: &'a SpeedRunTimes<MAZE>,
@@ -28,7 +28,7 @@ pub struct Mouse<'a> {
     task: Task<'a>,
 }
 
-/// One thing at a time, so that both can have the same memory.
+/// The present task. There is one at a time, so that all tasks can share the same memory.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there is no heap to put it on")]
 enum Task<'a> {
@@ -39,44 +39,44 @@ enum Task<'a> {
     },
     Localize {
         poses: PoseSet<MAZE>,
-        /// How many cells it may still drive for that.
+        /// Number of cells that it may still drive to find out where it is.
         patience: u8,
     },
 }
 
-/// What the wall sensors say: which sides of the cell are open.
+/// Reading of the wall sensors: which sides of the cell are open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sides {
-    /// On the left.
+    /// Whether the left side is open.
     pub left: bool,
-    /// In front.
+    /// Whether the side in front is open.
     pub ahead: bool,
-    /// On the right.
+    /// Whether the right side is open.
     pub right: bool,
 }
 
-/// What the motors shall do.
+/// A command to the motors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command {
-    /// Turn to this side, north being ahead, drive to the next cell and look.
+    /// Turn to this side, drive to the next cell and look.
     Drive(Direction),
-    /// Stay: the mouse is back at the start and knows the fastest run, which takes so long.
+    /// Stay: the mouse is back at the start and knows the fastest run.
     Ready {
-        /// Milliseconds.
+        /// Duration of the fastest run, ms.
         run_ms: u16,
     },
-    /// Stay: the walls known do not say where the mouse is, or contradict what it sees. It has to
-    /// be carried back to the start.
+    /// Stay: the known walls do not say where the mouse is, or contradict what it sees. Carry it
+    /// back to the start.
     CarryBack,
-    /// Stay: no way leads to the goal as far as the walls are known.
+    /// Stay: by the known walls, no way leads to the goal.
     GiveUp,
 }
 
 impl<'a> Mouse<'a> {
-    /// Returns a mouse in the start of a maze that it has never seen.
+    /// Returns a mouse at the start of a maze that it has never seen.
     ///
     /// # Errors
-    /// Never, as the maze is as large as the map.
+    /// Never, because the map has room for the maze.
     pub fn new(times: &'a SpeedRunTimes<MAZE>, goals: &'a [Cell]) -> Result<Self, TooLarge> {
         let grid = Grid::new(MAZE as u16, MAZE as u16);
         Ok(Self {
@@ -87,10 +87,10 @@ impl<'a> Mouse<'a> {
         })
     }
 
-    /// Returns what to do after what is seen on arrival in a cell.
+    /// Returns the next command, given what the mouse sees on arrival in a cell.
     ///
     /// # Errors
-    /// Never, as the maze is as large as the map.
+    /// Never, because the map has room for the maze.
     pub fn arrive(&mut self, seen: Sides) -> Result<Command, TooLarge> {
         if let Task::Localize { poses, patience } = &mut self.task {
             for (side, is_open) in seen.all() {
@@ -133,11 +133,11 @@ impl<'a> Mouse<'a> {
         })
     }
 
-    /// Says that the mouse has crashed and lost its way. What it saw last may be wrong and is
-    /// forgotten. It has to stand in some cell, with an open side behind it.
+    /// Tells the mouse that it has crashed and lost its way. Its last observations may be wrong and
+    /// are forgotten. It must stand in a cell, with an open side behind it.
     ///
     /// # Errors
-    /// Never, as the maze is as large as the map.
+    /// Never, because the map has room for the maze.
     pub fn crash(&mut self) -> Result<(), TooLarge> {
         self.walls.undo(DOUBTFUL);
         self.task = Task::Localize {
@@ -147,18 +147,18 @@ impl<'a> Mouse<'a> {
         Ok(())
     }
 
-    /// Says that the mouse was carried back to the start. What it saw last is forgotten, in case it
-    /// was wrong.
+    /// Tells the mouse that it was carried back to the start. Its last observations are forgotten,
+    /// because they may be wrong.
     pub fn carried_back(&mut self) {
         self.walls.undo(DOUBTFUL);
         self.task = explore(self.times, self.goals, START);
     }
 
-    /// Hands out the moves of the fastest run on the walls known to be open, once the mouse is
-    /// ready.
+    /// Calls `each` with the moves of the fastest run through walls that are known to be open. Call
+    /// it when the mouse is ready.
     ///
     /// # Errors
-    /// Never, as the maze is as large as the map.
+    /// Never, because the map has room for the maze.
     pub fn run(&self, each: impl FnMut(RunStep)) -> Result<(), TooLarge> {
         if let Task::Explore { explorer, .. } = &self.task {
             let known = Passages::new(&self.walls, Unknown::Closed)?;
@@ -180,7 +180,7 @@ fn explore<'a>(
     }
 }
 
-/// Drives to where poses that are left look different.
+/// Returns the command that leads to where the poses that are still possible look different.
 fn look_around(poses: &mut PoseSet<MAZE>, patience: &mut u8, walls: &impl Walls) -> Command {
     let next = patience.checked_sub(1).zip(poses.next_drive(walls));
     next.map_or(Command::CarryBack, |(left, side)| {

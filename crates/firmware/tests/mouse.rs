@@ -1,4 +1,4 @@
-//! The mouse on mazes, with and without crashes.
+//! Tests of the mouse on mazes, with and without crashes.
 #![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use proptest::prelude::*;
@@ -25,9 +25,9 @@ fn seen_as(heading: Direction, side: Direction) -> Direction {
     Direction::ALL[(heading.index() + side.index()) % 4]
 }
 
-/// Drives until the mouse stays, and crashes before the cells that `crashes` counts, to be put down
-/// in one of the cells it has been to. Says how long the fast run takes that it has found, or none
-/// if it gives up or never comes back.
+/// Drives until the mouse stays. It crashes before the cells that `crashes` counts, and is then put
+/// down in a cell where it has been. Returns the duration of its fastest run, ms, or `None` if it
+/// gives up or never comes back.
 fn drive(maze: &Maze, crashes: &[usize]) -> Option<u16> {
     let config = SpeedRunConfig::classic();
     let times = SpeedRunTimes::new(&config).unwrap();
@@ -66,7 +66,7 @@ fn drive(maze: &Maze, crashes: &[usize]) -> Option<u16> {
         }
         if crashes.contains(&cells) {
             mouse.crash().unwrap();
-            // Where it came in: the side behind it is open.
+            // The mouse stands as it came in: the side behind it is open.
             (at, heading) = trail[1 + cells * 7 % (trail.len() - 1)];
         }
     }

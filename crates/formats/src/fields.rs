@@ -41,7 +41,7 @@ impl<'a> Fields<'a> {
     /// Returns the next three fields as a pose.
     pub(crate) fn pose(&mut self, name: &str) -> Result<Pose, Wrong> {
         let [x, y, heading] = [self.number(name)?, self.number(name)?, self.number(name)?];
-        // Farther off, metres are no longer told apart, and neither are turns.
+        // Farther away, numbers no longer resolve metres or turns.
         if [x, y, heading].iter().any(|part| part.abs() > FARTHEST) {
             return Err((
                 LogTrouble::NoNumber,
@@ -51,8 +51,8 @@ impl<'a> Fields<'a> {
         Ok(Pose::new(Point::new(x, y), Heading::from_radians(heading)))
     }
 
-    /// Returns the next `count` fields as ranges, m: `None` for one that is no range, such as
-    /// `nan`.
+    /// Returns the next `count` fields as ranges, m: `None` for a field that is not a range, such
+    /// as `nan`.
     pub(crate) fn ranges(&mut self, count: u32) -> Result<Vec<Option<f64>>, Wrong> {
         let mut ranges = Vec::new();
         for index in 0..count {

@@ -74,7 +74,7 @@ pub struct G2oEdge {
     pub line: usize,
 }
 
-/// Reason why a file is no pose graph at all.
+/// Reason why a file is not a pose graph at all.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum G2oError {
@@ -305,7 +305,7 @@ EDGE_SE2 2 0 -2.5 0 0 10 0 0 10 0 40
             ),
             (
                 "VERTEX_SE2 1 0 0 0",
-                "pose 1 stands for the second time, first in line 3",
+                "pose 1 is given a second time, first in line 3",
             ),
             ("FIX 12", "needs pose 12"),
             ("EDGE_SE3:QUAT 0 1 0 0 0", "`EDGE_SE3:QUAT` is not read"),

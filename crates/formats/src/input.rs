@@ -54,7 +54,7 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, SourceError> {
 /// Returns the text of a file.
 ///
 /// # Errors
-/// [`SourceError`] if it cannot be read or is no text.
+/// [`SourceError`] if it cannot be read or is not text.
 pub fn text(path: &Path) -> Result<String, SourceError> {
     text_of(File::open(path)?)
 }
@@ -75,7 +75,7 @@ pub fn bytes_of(source: impl Read) -> Result<Vec<u8>, SourceError> {
 /// Returns the text that `source` gives.
 ///
 /// # Errors
-/// [`SourceError`] if it cannot be read or is no text.
+/// [`SourceError`] if it cannot be read or is not text.
 pub fn text_of(source: impl Read) -> Result<String, SourceError> {
     let bytes = bytes_of(source)?;
     let marks: [(&[u8], _); 3] = [

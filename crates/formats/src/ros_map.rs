@@ -37,7 +37,7 @@ pub enum MapCell {
     Free,
     /// A wall, or a thing.
     Occupied,
-    /// Nobody has looked.
+    /// It is unknown.
     Unknown,
 }
 

@@ -249,7 +249,7 @@ impl Reader {
         } = placeless;
         let time = scan.header.stamp.seconds();
         let Some(odometry) = way.at(time) else {
-            let what = format!("{topic} at {time:.3} s, when no odometry was told");
+            let what = format!("{topic} at {time:.3} s, for which there is no odometry");
             self.report
                 .met_trouble(LogTrouble::NoOdometry, number, what);
             return None;

@@ -21,7 +21,7 @@ pub struct SonarTable {
 }
 
 impl SonarTable {
-    /// Reads a file, plain or packed by gzip.
+    /// Reads a file, plain or gzipped.
     ///
     /// # Errors
     /// If there is no such file, or no line of it can be used.

@@ -47,7 +47,7 @@ enum TucLine {
 }
 
 impl TucDrive {
-    /// Reads a file of what the robot sensed, plain or packed by gzip.
+    /// Reads a file of what the robot sensed, plain or gzipped.
     ///
     /// # Errors
     /// If there is no such file, or no line of it can be used.

@@ -8,7 +8,7 @@
 //! Barcodes.dat             subject barcode
 //! ```
 //!
-//! Each may be packed by gzip, as `….dat.gz`. Subjects 1 to 5 are robots, the others landmarks.
+//! Each may be gzipped, as `….dat.gz`. Subjects 1 to 5 are robots, the others landmarks.
 
 use alloc::collections::BTreeMap;
 use std::path::{Path, PathBuf};

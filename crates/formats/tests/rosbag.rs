@@ -148,7 +148,7 @@ fn a_bag_is_read_with_where_the_robot_was() {
     assert_eq!(odometry.position.x, 1.0);
     assert!((odometry.heading.radians() - core::f64::consts::FRAC_PI_2).abs() < 1e-12);
     assert_eq!(robot_from_laser.position.x, 0.25);
-    // Neither what is no number nor what is nearer than the laser sees was hit.
+    // Neither what is not a number nor what is nearer than the laser sees was hit.
     assert_eq!(scan.ranges, [1.0, 30.0, 30.0]);
     assert_eq!(bag.report.count(LogTrouble::NoRange), 1);
     let others: Vec<&String> = bag.report.other_kinds.keys().collect();

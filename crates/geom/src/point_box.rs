@@ -50,7 +50,7 @@ impl PointBox {
     /// Returns the square of all positions within `margin` of `middle` along each axis.
     ///
     /// # Errors
-    /// If `margin` is negative or something is no number.
+    /// If `margin` is negative or something is not a number.
     pub fn about(middle: Point, margin: f64) -> Result<Self, IntervalError> {
         Ok(Self::new(
             Interval::about(middle.x, margin)?,

@@ -61,7 +61,7 @@ impl PoseBox {
     /// heading.
     ///
     /// # Errors
-    /// If a margin is negative or something is no number.
+    /// If a margin is negative or something is not a number.
     pub fn about(middle: Pose, metres: f64, radians: f64) -> Result<Self, IntervalError> {
         Ok(Self::new(
             PointBox::about(middle.position, metres)?,

@@ -1,7 +1,8 @@
-//! A move taken in by the observer of a diktiometry, on open worlds of places that all look alike:
-//! while the world is being learned and once it is known; and of places of many looks.
+//! The observer of a diktiometry takes in moves, on open worlds of places that all look alike:
+//! while the world is being learned, and once it is known. Another world has places with many
+//! looks.
 //!
-//! Criterion measures moves on known maps; the table is of single moves, of which percentiles say
+//! Criterion measures moves on known maps. The table is of single moves, because percentiles say
 //! more on a busy machine.
 
 #![expect(

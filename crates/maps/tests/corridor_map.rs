@@ -89,7 +89,7 @@ fn a_room_is_one_place_with_its_gateways() {
 }
 
 #[test]
-fn whoever_passes_a_place_between_two_points_was_there() {
+fn a_robot_that_passes_a_place_between_two_points_was_there() {
     let map = map(&["######", "#.S.G#", "######"]);
     let [east, start] = [Point::new(3.3, 1.425), map.places()[0].position];
     let visits = map.visits(&[start, east]);

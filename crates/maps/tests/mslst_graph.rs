@@ -189,7 +189,8 @@ proptest! {
         }
     }
 
-    /// Whoever walks along the graph is found on it: its node fits everything that is remembered.
+    /// A robot that walks along the graph is found on it: its node fits everything that is
+    /// remembered.
     #[test]
     fn the_true_node_of_a_walk_along_the_graph_is_a_candidate(events in wandering(), length in 1..10_usize) {
         let mapper = mapped(&events);

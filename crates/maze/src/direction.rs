@@ -43,13 +43,13 @@ impl Direction {
         Self::ALL[(self.index() + 3) % 4]
     }
 
-    /// Returns the direction that is `side` for somebody who looks this way, north being ahead.
+    /// Returns the direction that is at `side` of a viewer who looks this way; north is ahead.
     #[must_use]
     pub const fn turned(self, side: Self) -> Self {
         Self::ALL[(self.index() + side.index()) % 4]
     }
 
-    /// Returns the side on which somebody who looks to `heading` has this direction: the inverse of
+    /// Returns the side at which a viewer who looks to `heading` has this direction: the inverse of
     /// [`turned`](Self::turned).
     #[must_use]
     pub const fn seen_from(self, heading: Self) -> Self {

@@ -149,7 +149,7 @@ impl Grid {
             (self.width as usize, vertical)
         };
         let place = id - first;
-        // Without columns there are no such walls.
+        // Without columns there are no walls.
         let (Some(x), Some(y)) = (place.checked_rem(columns), place.checked_div(columns)) else {
             return None;
         };

@@ -5,7 +5,7 @@ use crate::{Cell, Direction, Grid};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Knowledge {
-    /// Nobody has looked yet.
+    /// It has not been seen yet.
     #[default]
     Unknown,
     /// No wall stands here.
@@ -15,7 +15,7 @@ pub enum Knowledge {
 }
 
 impl Knowledge {
-    /// Returns what one knows who has looked.
+    /// Returns the knowledge after a look.
     #[must_use]
     pub const fn of_standing(stands: bool) -> Self {
         if stands { Self::Wall } else { Self::Open }

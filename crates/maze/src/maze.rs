@@ -173,8 +173,8 @@ impl Maze {
             .filter(move |cell| steps[self.grid.index(*cell)].is_some())
     }
 
-    /// Returns the cells that are open to some side but to no goal: drawn as if one could be there,
-    /// though nobody gets there. In the order of [`Grid::index`]. O(cells).
+    /// Returns the cells that are open to some side but have no way to a goal, in the order of
+    /// [`Grid::index`]. O(cells).
     pub fn sealed(&self) -> impl Iterator<Item = Cell> + '_ {
         let steps = self.steps_to_goal();
         self.grid

@@ -155,7 +155,8 @@ fn closures(truth: &[Pose], rng: &mut ChaCha8Rng) -> Vec<G2oEdge> {
     closures
 }
 
-/// Places that look alike, taken for each other: one pair alone, the others in runs of three.
+/// Returns false closures between places that look alike: one pair alone, the others in runs of
+/// three.
 fn false_closures(truth: &[Pose], rng: &mut ChaCha8Rng) -> Vec<G2oEdge> {
     let nearest = |(x, y): (f64, f64)| {
         let off = |pose: &Pose| (pose.position - Point::new(x, y)).norm();
@@ -205,7 +206,7 @@ fn rounded(pose: Pose) -> Pose {
     )
 }
 
-/// Returns a small motion by chance (twelve even numbers add up to nearly a normal one).
+/// Returns a small random motion (twelve uniform numbers add up to nearly a normal one).
 fn error((metres, radians): (f64, f64), rng: &mut ChaCha8Rng) -> Pose {
     let mut normal = || {
         let sum: f64 = (0..12)

@@ -1,4 +1,4 @@
-//! Mazes and logs of others, which are not part of this project.
+//! External mazes and logs, which are not part of this project.
 //!
 //! They are read from the folder that the variable `TOLMAN_DATA` names, or else from
 //! `../shared/data` beside the current folder. If neither exists, experiments that need them are
@@ -9,11 +9,11 @@ use std::path::PathBuf;
 
 const DEFAULT: &str = "../shared/data";
 
-/// Origin of the mazes of others, as a sentence without its beginning.
+/// Origin of the external mazes: a sentence without its beginning.
 pub(crate) const MAZES: &str = "it is one of the mazes that Udacity gives with its project \"Plot and Navigate a Virtual Maze\", or of \
                                 the collections of micromouse contests; put it into `mazes` of the folder that TOLMAN_DATA names";
 
-/// Returns the folder, if it is there.
+/// Returns the folder, or `None` if it does not exist.
 #[must_use]
 pub fn folder() -> Option<PathBuf> {
     let named = env::var_os("TOLMAN_DATA").map_or_else(|| PathBuf::from(DEFAULT), PathBuf::from);

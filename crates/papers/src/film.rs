@@ -1,4 +1,4 @@
-//! A replay of any outing.
+//! Replays of any outing.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 
@@ -10,14 +10,13 @@ use tolman_replay::{
 };
 use tolman_robot::{Landmark, Position};
 
-/// Nodes that moved less than this are left where they are, m.
+/// Distance within which a node that moved is not redrawn, m.
 const STILL: f64 = 0.05;
 
-/// Number of actions after each of which the map is recorded; later it is recorded more rarely.
+/// Number of actions during which the map is recorded each time. Later it is recorded less often.
 const DENSE: u32 = 200;
 
-/// Record of an outing: after every action the system's thoughts, its believed position, and its
-/// map.
+/// Records an outing: the system's notes, its belief and its map after every action.
 #[derive(Debug)]
 pub struct Film {
     actions: u32,
@@ -26,29 +25,29 @@ pub struct Film {
     nodes: BTreeMap<u32, MapNode>,
     edges: BTreeMap<(u32, u32), MapEdge>,
     places: TimeSeries,
-    /// True position of the robot when the system first believed to be at a place.
+    /// True position of the robot when the system first believed it was at a place, m.
     met: BTreeMap<u32, Point>,
-    /// The place that is labelled as the goal.
+    /// Place that is labelled as the goal.
     goal: Option<u32>,
     /// Steps before which the robot was lifted and put down elsewhere.
     lifts: Vec<u32>,
-    /// Pose of the frame in which the map has its places.
+    /// Pose, in the world, of the frame of the map's places.
     world_from_map: Pose,
 }
 
-/// Knowledge of a system at a moment, in the world's frame.
+/// What a system knows at one moment, in the world's frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Glimpse {
     /// Positions of the places of its map.
     pub places: Vec<Point>,
-    /// The ways between them, each once.
+    /// The ways between them, each listed once.
     pub ways: Vec<[Point; 2]>,
-    /// Its believed positions, the likeliest first.
+    /// Believed positions, the most likely first.
     pub belief: Vec<Point>,
 }
 
 impl Film {
-    /// Returns what is noted before the first action.
+    /// Returns a film that begins before the first action.
     #[must_use]
     pub fn new(outing: &dyn Outing) -> Self {
         let world_from_map = Pose::new(Point::origin(), Heading::EAST);
@@ -74,12 +73,12 @@ impl Film {
         film
     }
 
-    /// Sees that the robot was lifted and put down elsewhere: its next step is the first there.
+    /// Records that the robot was lifted and put down elsewhere. Its next step is the first there.
     pub fn lifted(&mut self, outing: &dyn Outing) {
         self.lifts.push(outing.path().len() as u32);
     }
 
-    /// Sees what an action came to.
+    /// Records the result of an action.
     pub fn see(&mut self, outing: &dyn Outing) {
         let step = outing.path().len().saturating_sub(1) as u32;
         self.actions += 1;
@@ -113,7 +112,7 @@ impl Film {
         shown.note(step, &belief, site);
     }
 
-    /// Notes where the robot is, if the system believes that it is at a place.
+    /// Records where the robot truly is, if the system believes it is at a place.
     fn meet(&mut self, outing: &dyn Outing) {
         let likeliest = outing.belief().into_iter().next();
         if let (Some(guess), Some(pose)) = (likeliest, outing.path().last())
@@ -124,7 +123,7 @@ impl Film {
         }
     }
 
-    /// Notes what has changed on the map.
+    /// Records the changes of the map.
     fn map(&mut self, outing: &dyn Outing, step: u32) {
         let map = outing.map();
         self.places.sample(step, map.places.len() as f64);
@@ -137,8 +136,8 @@ impl Film {
         let sites = outing.sites();
         for place in &map.places {
             let site = sites.get(&place.id).copied();
-            // Of a map that does not say where its places lie, they are where the robot believed to
-            // be there.
+            // If the map has no positions, a place is where the robot was when it believed it was
+            // there.
             let met = self.met.get(&place.id).copied();
             let told = place.position;
             let told = told.map(|at| self.world_from_map.transform(at));
@@ -148,7 +147,7 @@ impl Film {
             let node = self.nodes.entry(place.id);
             let node = node.or_insert_with(|| MapNode::new(place.id, at, step));
             node.move_to(step, at, STILL);
-            // Many nodes may be at the goal: one of them says so.
+            // Many nodes may be at the goal; only one is labelled.
             if place.landmark == Some(Landmark::Goal)
                 && *self.goal.get_or_insert(place.id) == place.id
             {
@@ -172,7 +171,7 @@ impl Film {
         }
     }
 
-    /// Returns the system's knowledge at its last action. O(map).
+    /// Returns what the system knew after its last action. O(map).
     #[must_use]
     pub fn glimpse(&self) -> Glimpse {
         let places: BTreeMap<u32, Point> = self
@@ -198,7 +197,7 @@ impl Film {
         }
     }
 
-    /// Returns the replay of the outing that was seen.
+    /// Returns the replay of the recorded outing.
     #[must_use]
     pub fn replay(mut self, outing: &dyn Outing, title: String) -> Replay {
         let path = outing.path();
@@ -228,7 +227,7 @@ impl Film {
         }
         let bumped = outing.bumped().iter().copied();
         track.marks = vec![Marks::new(Mark::Bump, "bump", bumped)];
-        // Who knew without a step where it was put down is lifted once.
+        // A system that localizes without a step is lifted only once.
         self.lifts.dedup();
         self.lifts
             .retain(|lift| (*lift as usize) < track.poses.len());

@@ -1,9 +1,9 @@
-//! The tables of the papers: one folder per set of tables, filled by the project's systems.
+//! The tables of the papers, filled by the project's systems. Each paper has a folder.
 //!
 //! [`catalogue`] lists them as the experiments of `tolman experiment`. The folder of each paper
 //! draws its maps and runs: [`mslst::drawing`], [`cpm::drawing`], [`diktiometry::drawing`].
 //! [`Recorder`] makes the replay of a run, [`Film`] that of any outing, and [`plan_of_course`] the
-//! plan below it. [`data`] finds other people's measurements; [`real`] reads their logs and graphs.
+//! plan below it. [`data`] finds external data, and [`real`] reads logs and pose graphs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
@@ -33,7 +33,7 @@ pub use film::{Film, Glimpse};
 pub use plan::plan_of_course;
 pub use recorder::Recorder;
 
-/// Returns all experiments, in the order they are listed.
+/// Returns all experiments, in the order in which they are listed.
 #[must_use]
 pub const fn catalogue() -> &'static [Entry] {
     &[

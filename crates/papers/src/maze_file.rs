@@ -7,13 +7,13 @@ use tolman_maze::MazeFile;
 
 use tolman_experiment::BoxError;
 
-/// Returns the sound maze of a file.
+/// Returns the maze in a file.
 pub(super) fn read(path: &Path) -> Result<MazeFile, BoxError> {
     let text = input::text(path).map_err(|error| in_file(path, error))?;
     tolman_maze::read(&text).map_err(|error| in_file(path, error))
 }
 
-/// Returns an error with the file it happened in.
+/// Returns an error with the file in which it occurred.
 pub(super) fn in_file(path: &Path, source: impl Into<BoxError>) -> BoxError {
     Box::new(InFile {
         path: path.to_owned(),
@@ -28,14 +28,14 @@ struct InFile {
     source: BoxError,
 }
 
-/// Returns the name without folder and extension. Control characters of it, which terminals obey,
-/// are made visible; a maze's own name has none.
+/// Returns the file's name without folder and extension. Control characters, which terminals would
+/// obey, are made visible; a maze's own name has none.
 pub(super) fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or(path.as_os_str());
     stem.to_string_lossy().replace(char::is_control, "\u{fffd}")
 }
 
-/// Returns the name, with a number if it is taken.
+/// Returns the name, with a number added if it is taken.
 pub(super) fn told_apart(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let mut candidate = name.to_owned();
     let mut count = 1;

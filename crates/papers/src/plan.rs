@@ -18,21 +18,21 @@ pub(crate) fn model_scan(model: impl Iterator<Item = f64>, size: f64, what: Stri
     plot.drawing(what)
 }
 
-/// Returns the mean of values on a line, with their quartiles; `None` of no values.
+/// Returns the mean of values as a point of a line, with their quartiles; `None` without values.
 pub(crate) fn mean_with_quartiles(x: f64, values: &[f64]) -> Option<LinePoint> {
     let at = |share| quantile(values, share).ok();
     let quartiles = ConfidenceInterval::new(at(0.25)?, at(0.75)?);
     Some(LinePoint::new(x, mean(values).ok()?).spread(quartiles))
 }
 
-/// Returns a plan of a course, `width` user units wide, with its walls and its destination;
-/// walled-off parts are solid.
+/// Returns a plan of a course, `width` user units wide, with its walls and its destination.
+/// Walled-off parts are solid.
 #[must_use]
 pub fn plan_of_course(course: &Course, width: f64) -> FloorPlan {
     let world = &course.world;
     let mut plan = FloorPlan::of_world(world, width);
     let cells = course.maze.grid().cells();
-    // Beside the walls of a free world no robot can be, and yet there is floor.
+    // In a free world no robot can be right beside a wall, and yet that is floor.
     for cell in cells.filter(|_| !course.is_free()) {
         let centre = world.cell_centre(cell);
         if !course.leads_on(centre) {

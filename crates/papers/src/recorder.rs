@@ -1,4 +1,4 @@
-//! A replay of a run that is being watched.
+//! Records runs for replays.
 
 use tolman_control::{CorridorDetector, Outcome, View};
 use tolman_geom::Point;
@@ -7,9 +7,11 @@ use tolman_robot::{Body, Guess, Robot};
 use tolman_arena::episode::{Episode, Step, Trial};
 use tolman_replay::{Belief, Floor, Mark, Marks, Notes, Replay, RobotTrack, Scenery};
 
-/// Watches an episode and makes its replay. It shows the robot's way, the action under way, how the
-/// last one ended, and whether the robot is in a corridor. It also shows the robot's thoughts and
-/// believed position, how much of the maze it has seen, and where it bumped and failed.
+/// Records an episode and makes its replay.
+///
+/// The replay shows the robot's way, the present action, how the last one ended, and whether the
+/// robot is in a corridor. It also shows the robot's notes and believed position, how much of the
+/// maze it has seen, and where it bumped and failed.
 ///
 /// ```
 /// use tolman_arena::cast::{Agent, Cast};
@@ -48,12 +50,12 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// Watches a run of this trial.
+    /// Returns a recorder for a run of this trial.
     #[must_use]
     pub fn new(trial: &'a Trial<'a>) -> Self {
         Self {
             trial,
-            // A ring it cannot read is one the episode refuses.
+            // The episode refuses a ring that the detector cannot read.
             detector: CorridorDetector::new(trial.robot.ring, trial.course.corridor_width).ok(),
             step: 0,
             between_actions: true,
@@ -68,15 +70,15 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Shows beliefs in nodes of the robot's map where these truly lie, by id. Without this they
-    /// are told in words alone.
+    /// Shows beliefs at the true positions of the map's nodes, by id. Without this they are shown
+    /// only in words.
     #[must_use]
     pub const fn knowing(mut self, nodes: &'a [Point]) -> Self {
         self.nodes = nodes;
         self
     }
 
-    /// Takes down what the brain thought when it chose the action that begins after `step`.
+    /// Records what the brain thought when it chose the action that begins after `step`.
     fn overhear(&mut self, step: u32, words: &str, belief: &[Guess]) {
         if !words.is_empty() {
             self.thoughts.say(step, words);
@@ -85,7 +87,7 @@ impl<'a> Recorder<'a> {
         self.belief.note(step, belief, site);
     }
 
-    /// Sees one step.
+    /// Records one step.
     pub fn see(&mut self, seen: &Step<'_>) {
         if self.between_actions {
             self.overhear(self.step, &seen.words(), &seen.belief());
@@ -120,7 +122,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Returns the replay of the run that was seen and ended so.
+    /// Returns the replay of the recorded run.
     #[must_use]
     pub fn finish(self, title: impl Into<String>, episode: &Episode) -> Replay {
         let Trial { course, robot, .. } = self.trial;

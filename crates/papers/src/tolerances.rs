@@ -1,43 +1,43 @@
-//! Maximum difference between a quantity and the paper's at which they match. Each kind of quantity
+//! Tolerances: the maximum difference at which a value matches the paper's. Each kind of quantity
 //! has one tolerance in all tables, with its reason.
 
 use tolman_experiment::Tolerance;
 
-/// Runs that arrive, or are solved.
+/// Share of runs that arrive, or are solved.
 pub(crate) const SUCCESS: Tolerance = Tolerance::absolute(
     15.0,
     "from drawing to drawing of one maze it moves by as much, and the papers' mazes are drawn again",
 );
 
-/// Time steps and actions to the goal.
+/// Number of time steps and of actions to the goal.
 pub(crate) const TIME: Tolerance = Tolerance::relative(
     0.35,
     "mazes and motors are made again from pictures, and lengths known to a third",
 );
 
-/// Time steps of an action.
+/// Number of time steps per action.
 pub(crate) const STEPS_PER_ACTION: Tolerance = Tolerance::relative(
     0.2,
     "it is the pace of the motors, to which the robot is calibrated",
 );
 
-/// Savings of the second episode.
+/// Share that the second episode saves.
 pub(crate) const SAVED: Tolerance = Tolerance::absolute(
     15.0,
     "the ways of a maze that is drawn again have other lengths",
 );
 
-/// States, units and clusters that a quantizer makes.
+/// Number of states, units and clusters of a quantizer.
 pub(crate) const PROTOTYPES: Tolerance = Tolerance::factor(
     1.5,
     "they vary by a quarter from walk to walk, and follow parameters that no source gives",
 );
 
-/// A count of which one more is another outcome.
+/// A count of which one more is a different result.
 pub(crate) const COUNTED: Tolerance =
     Tolerance::absolute(0.5, "the next number is another outcome");
 
-/// Steps of a micromouse's second run.
+/// Number of steps of a micromouse's second run.
 pub(crate) const MOVES: Tolerance = Tolerance::relative(
     0.15,
     "the paper does not say how ties between ways are broken",

@@ -57,7 +57,7 @@ impl Decisions {
         self.choices.len().checked_div(self.actions).unwrap_or(0)
     }
 
-    /// Returns whether there is no state.
+    /// Returns whether there are no states.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.choices.is_empty()

@@ -5,7 +5,7 @@ use pyo3::PyErr;
 use pyo3::exceptions::PyValueError;
 
 /// Returns a `ValueError` that names the parameter and says what is wrong with it, with all
-/// reasons.
+/// underlying reasons.
 pub(crate) fn refused(parameter: &str, error: &(dyn Error + 'static)) -> PyErr {
     PyValueError::new_err(format!("{parameter}: {}", reasons(error)))
 }
@@ -15,7 +15,7 @@ pub(crate) fn wrong(sentence: String) -> PyErr {
     PyValueError::new_err(sentence)
 }
 
-/// Returns the `OSError` that Python has for a file that cannot be read, with the file's name.
+/// Returns Python's `OSError` for a file that cannot be read, with the file's name.
 pub(crate) fn unread(name: &str, error: &io::Error) -> PyErr {
     PyErr::from(io::Error::new(
         error.kind(),
@@ -23,7 +23,7 @@ pub(crate) fn unread(name: &str, error: &io::Error) -> PyErr {
     ))
 }
 
-/// Returns an error and what lies behind it, as one sentence.
+/// Returns an error and its causes as one sentence.
 pub(crate) fn reasons(error: &(dyn Error + 'static)) -> String {
     let mut told = error.to_string();
     let mut behind = error.source();

@@ -1,4 +1,4 @@
-//! Any quantizer, of either type of numbers, as the estimators of `python/tolman` use it.
+//! Any quantizer, for 32-bit or 64-bit numbers, as the estimators of `python/tolman` use it.
 
 mod config;
 mod graph;
@@ -13,9 +13,9 @@ use crate::errors::{refused, wrong};
 use crate::params::Params;
 use crate::rows::{check, each, rows};
 
-/// A quantizer and how it is saved.
+/// A quantizer that can be saved.
 trait Learner<S: Scalar>: Quantizer<S> + Send + Sync {
-    /// Returns all there is to know of it.
+    /// Returns the whole state of the quantizer as JSON.
     fn saved(&self) -> serde_json::Result<String>;
 }
 
@@ -28,13 +28,13 @@ where
     }
 }
 
-/// A quantizer by the type of its numbers.
+/// A quantizer of either type of numbers.
 enum AnyLearner {
     Single(Box<dyn Learner<f32>>),
     Double(Box<dyn Learner<f64>>),
 }
 
-/// Does the same with a quantizer of either type of numbers.
+/// Evaluates the same expression for either type of numbers.
 macro_rules! either {
     ($any:expr, $learner:ident => $body:expr) => {
         match $any {
@@ -51,7 +51,7 @@ pub(crate) struct PyLearner {
     any: AnyLearner,
 }
 
-/// Which quantizers there are.
+/// The kinds of quantizers.
 #[derive(Clone, Copy)]
 enum Kind {
     Gng,
@@ -62,8 +62,8 @@ const KINDS: [(&str, Kind); 2] = [("gng", Kind::Gng), ("soinn", Kind::Soinn)];
 
 #[pymethods]
 impl PyLearner {
-    /// Makes an empty one for inputs of `dimension` features; `single` says that they are of 32
-    /// bits.
+    /// Returns an empty quantizer for inputs of `dimension` features; `single` chooses 32-bit
+    /// numbers.
     #[new]
     fn new(
         kind: &str,
@@ -100,7 +100,7 @@ impl PyLearner {
         Ok(Self { kind, any })
     }
 
-    /// Makes it of what [`Self::saved`] returned.
+    /// Returns the quantizer that [`Self::saved`] described.
     #[staticmethod]
     fn resumed(kind: &str, single: bool, saved: &str) -> PyResult<Self> {
         let kind = kind_of(kind)?;
@@ -113,13 +113,13 @@ impl PyLearner {
         Ok(Self { kind, any })
     }
 
-    /// Returns all there is to know of it, as JSON.
+    /// Returns the whole state of the quantizer as JSON.
     fn saved(&self) -> PyResult<String> {
         let saved = either!(&self.any, learner => learner.saved());
         saved.map_err(|error| refused("the quantizer cannot be saved", &error))
     }
 
-    /// Learns from each row in order, or refuses all of them.
+    /// Learns from each row in order. If one row is invalid, none is learned.
     fn observe(&mut self, py: Python<'_>, x: &Bound<'_, PyAny>) -> PyResult<()> {
         either!(&mut self.any, learner => {
             let x = rows(x)?;
@@ -131,7 +131,7 @@ impl PyLearner {
         })
     }
 
-    /// Returns for each row the number of the nearest unit, in the order of [`Self::units`], and
+    /// Returns, for each row, the number of the nearest unit in the order of [`Self::units`], and
     /// its squared distance.
     #[expect(clippy::type_complexity, reason = "a tuple is what Python takes apart")]
     fn nearest<'py>(
@@ -150,7 +150,7 @@ impl PyLearner {
         ))
     }
 
-    /// Returns the prototypes, a row a unit.
+    /// Returns the prototypes, one row per unit.
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         Ok(match &self.any {
             AnyLearner::Single(learner) => {
@@ -162,19 +162,19 @@ impl PyLearner {
         })
     }
 
-    /// Returns the name of each unit, which no other unit ever has.
+    /// Returns the id of each unit. An id is never used again.
     fn ids<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
         let ids = either!(&self.any, learner => graph::ids(learner.network()));
         PyArray1::from_vec(py, ids)
     }
 
-    /// Returns the two ends of each edge and its age, a row an edge.
+    /// Returns the two ends of each edge and its age, one row per edge.
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
         let edges = either!(&self.any, learner => graph::edges(learner.network()))?;
         Ok(PyArray2::from_owned_array(py, edges))
     }
 
-    /// Returns for each unit the number of the cluster that it belongs to.
+    /// Returns, for each unit, the number of its cluster.
     fn clusters<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
         let labels = either!(&self.any, learner => graph::clusters(learner.network()));
         PyArray1::from_vec(py, labels)
@@ -186,7 +186,7 @@ impl PyLearner {
         either!(&self.any, learner => learner.network().dimension())
     }
 
-    /// Returns whether numbers are of 32 bits.
+    /// Returns whether the numbers have 32 bits.
     #[getter]
     fn single(&self) -> bool {
         matches!(self.any, AnyLearner::Single(_))

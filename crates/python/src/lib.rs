@@ -1,7 +1,7 @@
-//! The Python module `tolman`, of which this is the part in Rust: `tolman._tolman`.
+//! The Rust part of the Python module `tolman`: `tolman._tolman`.
 //!
-//! `python/tolman` is the other part: the estimators, the environment and the types. What is slow
-//! or long happens here, with Python's lock released.
+//! `python/tolman` is the other part: the estimators, the environment and the types. Slow or long
+//! work happens here, with Python's lock released.
 
 mod errors;
 mod learner;

@@ -6,7 +6,7 @@ use tolman_papers::real::{LogSystem, MappedLog, RobotLog};
 use crate::errors::{reasons, unread, wrong};
 use crate::map::PyMap;
 
-/// Finds the way of a robot in its log, of CARMEN or Wean Hall, plain or packed by gzip.
+/// Finds the way of a robot from its log, in the format of CARMEN or Wean Hall, plain or gzipped.
 #[pyfunction]
 #[expect(
     clippy::needless_pass_by_value,

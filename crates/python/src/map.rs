@@ -12,29 +12,30 @@ use crate::robot::tuple;
 #[pyclass(name = "Map", module = "tolman", frozen)]
 pub(crate) struct PyMap {
     pub(crate) view: MapView,
-    /// The way of the robot.
+    /// The robot's way, m and rad.
     pub(crate) poses: Vec<Pose>,
-    /// The name of its system.
+    /// Name of its system.
     #[pyo3(get)]
     pub(crate) system: String,
     /// How learning ended, in words.
     #[pyo3(get)]
     pub(crate) outcome: String,
-    /// How likely the system takes it to be right, 0 … 1.
+    /// Probability that the map is right, by the system's own estimate, 0 … 1; `None` if it has
+    /// none.
     #[pyo3(get)]
     pub(crate) certainty: Option<f64>,
-    /// Whether it is right, where somebody knows the truth.
+    /// Whether the map is right; `None` if the truth is unknown.
     #[pyo3(get)]
     pub(crate) is_right: Option<bool>,
-    /// Places seen again, of a log.
+    /// Number of places that were recognized again; only for a log.
     #[pyo3(get)]
     pub(crate) closures: Option<usize>,
 }
 
 #[pymethods]
 impl PyMap {
-    /// Returns the places by id: `position` in the map's own frame, m, and `landmark`, each where
-    /// the map has one.
+    /// Returns the places by id: `position` in the map's own frame, m, and `landmark`. Either is
+    /// left out where the map has none.
     #[getter]
     fn places<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let places = PyDict::new(py);
@@ -44,16 +45,16 @@ impl PyMap {
         Ok(places)
     }
 
-    /// Returns the ways from place to place, as pairs of ids. One that can be gone both ways stands
-    /// here twice.
+    /// Returns the ways between places, as pairs of ids. A way that can be driven in both
+    /// directions is listed twice.
     #[getter]
     fn links(&self) -> Vec<(u32, u32)> {
         let links = self.view.links.iter();
         links.map(|link| (link.from, link.to)).collect()
     }
 
-    /// Returns the way of the robot, a row a step or a scan: x, y, m, and heading, rad. It is the
-    /// true one where a robot was simulated, and the one that was found of a log.
+    /// Returns the robot's way, one row per step or scan: x and y, m, and heading, rad. For a
+    /// simulated robot it is the true way, for a log the one that was found.
     #[getter]
     fn path<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let mut values = Vec::with_capacity(3 * self.poses.len());
@@ -66,7 +67,8 @@ impl PyMap {
         Ok(PyArray2::from_owned_array(py, rows))
     }
 
-    /// Returns it as a directed graph of networkx: nodes are ids, with what [`Self::places`] has.
+    /// Returns the map as a directed graph of networkx. Its nodes are ids with the attributes of
+    /// [`Self::places`].
     fn to_networkx<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let graph = py.import("networkx")?.call_method0("DiGraph")?;
         for place in &self.view.places {
@@ -91,7 +93,7 @@ impl PyMap {
     }
 }
 
-/// Returns what a map knows of a place.
+/// Returns what the map knows of a place.
 fn told<'py>(py: Python<'py>, place: &MapPlace) -> PyResult<Bound<'py, PyDict>> {
     let known = PyDict::new(py);
     if let Some(position) = place.position {

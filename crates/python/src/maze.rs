@@ -9,7 +9,7 @@ use tolman_planners::{Arcs, path_to};
 
 use crate::errors::{reasons, refused, unread, wrong};
 
-/// A cell as Python has it: column from the west, row from the south.
+/// A cell as Python writes it: column from the west, row from the south.
 pub(crate) type CellTuple = (u16, u16);
 
 /// A maze of square cells.
@@ -19,7 +19,7 @@ pub(crate) struct PyMaze {
     pub(crate) file: MazeFile,
 }
 
-/// What a maze is made of.
+/// The source of a maze.
 #[derive(FromPyObject)]
 enum Source {
     Text(String),
@@ -28,8 +28,8 @@ enum Source {
 
 #[pymethods]
 impl PyMaze {
-    /// Reads a maze in any format that `tolman maze check` knows: a text of several lines, or the
-    /// path of a file.
+    /// Reads a maze in any format that `tolman maze check` accepts. `source` is a text of several
+    /// lines or the path of a file.
     #[new]
     fn new(source: Source) -> PyResult<Self> {
         let (name, text) = match source {
@@ -42,7 +42,8 @@ impl PyMaze {
         Ok(Self { name, file })
     }
 
-    /// Draws a maze of a family, such as `perfect`, `braided` or `office`.
+    /// Generates a maze of a family, such as `perfect`, `braided` or `office`. The same `seed`
+    /// gives the same maze.
     #[staticmethod]
     #[pyo3(signature = (family = "perfect", width = 8, height = 8, *, seed = 1))]
     fn generate(family: &str, width: u16, height: u16, seed: u64) -> PyResult<Self> {
@@ -66,7 +67,7 @@ impl PyMaze {
         })
     }
 
-    /// Returns its name.
+    /// Returns the name of the maze.
     #[getter]
     fn name(&self) -> &str {
         &self.name
@@ -84,7 +85,7 @@ impl PyMaze {
         self.maze().grid().height()
     }
 
-    /// Returns the cell that is marked as the start.
+    /// Returns the cell that is marked as the start, or `None`.
     #[getter]
     fn start(&self) -> Option<CellTuple> {
         self.maze().start().map(|(cell, _)| tuple(cell))
@@ -96,7 +97,7 @@ impl PyMaze {
         self.maze().goals().iter().copied().map(tuple).collect()
     }
 
-    /// Returns whether nothing stands between a cell and the next in a direction: `"north"`,
+    /// Returns whether there is no wall between `cell` and its neighbour in a direction: `"north"`,
     /// `"east"`, `"south"` or `"west"`.
     fn is_open(&self, cell: CellTuple, direction: &str) -> PyResult<bool> {
         let cell = self.cell("cell", cell)?;
@@ -110,7 +111,7 @@ impl PyMaze {
         }
     }
 
-    /// Returns the cells that can be gone to from a cell.
+    /// Returns the neighbours of `cell` without a wall in between.
     fn neighbours(&self, cell: CellTuple) -> PyResult<Vec<CellTuple>> {
         let cell = self.cell("cell", cell)?;
         Ok(self
@@ -120,8 +121,8 @@ impl PyMaze {
             .collect())
     }
 
-    /// Returns the cells of a shortest path, both ends among them: from the marked start to a
-    /// marked goal, if nothing is said. `None` where no way leads there.
+    /// Returns the cells of a shortest path, including both ends, or `None` if no path exists. By
+    /// default it leads from the marked start to a marked goal.
     #[pyo3(signature = (start = None, goal = None))]
     fn shortest_path(
         &self,
@@ -168,7 +169,7 @@ impl PyMaze {
         }))
     }
 
-    /// Returns its openings as an undirected graph of networkx, whose nodes are cells.
+    /// Returns the openings as an undirected graph of networkx, whose nodes are cells.
     fn to_networkx<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let graph = py.import("networkx")?.call_method0("Graph")?;
         for cell in self.maze().grid().cells() {
@@ -193,7 +194,7 @@ impl PyMaze {
         )
     }
 
-    /// Returns what a copy is made of, for `pickle`.
+    /// Returns the arguments that make a copy, for `pickle`.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
         let text = tolman_maze::write(&slf.get().file, Format::Tolman);
         let text = text.map_err(|error| refused("maze", &error))?;
@@ -227,7 +228,7 @@ const fn tuple(cell: Cell) -> CellTuple {
     (cell.x, cell.y)
 }
 
-/// Returns the path of a file as its name, and its text.
+/// Returns the path of a file as its name, and the file's text.
 fn of_file(path: &PathBuf) -> PyResult<(String, String)> {
     let name = path.display().to_string();
     match std::fs::read_to_string(path) {

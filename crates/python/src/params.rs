@@ -3,11 +3,11 @@ use pyo3::types::PyDict;
 
 use crate::errors::wrong;
 
-/// The parameters of an estimator as Python has them, by name.
+/// The parameters of an estimator by name, as Python passes them.
 pub(crate) struct Params<'a, 'py>(pub(crate) &'a Bound<'py, PyDict>);
 
 impl Params<'_, '_> {
-    /// Returns a number; `None` where Python has `None` or nothing.
+    /// Returns a number, or `None` if Python passes `None` or nothing.
     pub(crate) fn optional(&self, name: &str) -> PyResult<Option<f64>> {
         let Some(value) = self.0.get_item(name)?.filter(|value| !value.is_none()) else {
             return Ok(None);
@@ -24,7 +24,7 @@ impl Params<'_, '_> {
         number.ok_or_else(|| self.refused(name, "a number"))
     }
 
-    /// Returns a whole number from 0 to 2³² − 1; `None` as [`Self::optional`].
+    /// Returns a whole number from 0 to 2³² − 1, or `None` as [`Self::optional`] does.
     pub(crate) fn optional_count(&self, name: &str) -> PyResult<Option<u32>> {
         let Some(number) = self.optional(name)? else {
             return Ok(None);
@@ -42,7 +42,7 @@ impl Params<'_, '_> {
         count.ok_or_else(|| self.refused(name, "a whole number"))
     }
 
-    /// Returns what the name that Python has stands for.
+    /// Returns the value of the name that Python passes.
     pub(crate) fn choice<T: Copy>(&self, name: &str, known: &[(&str, T)]) -> PyResult<T> {
         let value = self.0.get_item(name)?;
         let text = value.and_then(|value| value.extract::<String>().ok());
@@ -55,7 +55,7 @@ impl Params<'_, '_> {
         })
     }
 
-    /// Returns whether Python has something else than `None`.
+    /// Returns whether Python passes something else than `None`.
     pub(crate) fn is_given(&self, name: &str) -> PyResult<bool> {
         let value = self.0.get_item(name)?;
         Ok(value.is_some_and(|value| !value.is_none()))

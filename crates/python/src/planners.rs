@@ -3,8 +3,8 @@ use tolman_planners::{Arcs, a_star};
 
 use crate::errors::wrong;
 
-/// Returns the nodes of a cheapest path from `source` to `target` and its cost, or `None` where no
-/// way leads there. Nodes are numbers below `nodes`, arcs are (tail, head, cost).
+/// Returns the nodes of a cheapest path from `source` to `target` and its cost, or `None` if no
+/// path leads there. Nodes are numbers below `nodes`; `arcs` are tuples (tail, head, cost).
 #[pyfunction]
 #[expect(
     clippy::needless_pass_by_value,

@@ -10,7 +10,7 @@ use tolman_sim::robots::LaserPioneer;
 use crate::errors::{reasons, refused, wrong};
 use crate::maze::PyMaze;
 
-/// A pose as Python has it: x and y in metres, heading in radians counter-clockwise from east.
+/// A pose as Python writes it: x and y in metres, heading in radians counter-clockwise from east.
 pub(crate) type PoseTuple = (f64, f64, f64);
 
 /// A simulated Pioneer with a ring of laser beams, a compass and encoders, in a maze.
@@ -20,7 +20,7 @@ pub(crate) struct PyRobot {
     course: Course,
 }
 
-/// Where a robot is put.
+/// The start of a robot.
 #[derive(FromPyObject)]
 enum Start {
     Named(String),
@@ -29,9 +29,9 @@ enum Start {
 
 #[pymethods]
 impl PyRobot {
-    /// Puts the robot into a maze: where the maze says (`"marked"`), anywhere (`"random"`) or at
-    /// (x, y, heading). `seed` is that of all random numbers; without `noise` motors and sensors
-    /// are perfect.
+    /// Puts a robot into a maze: where the maze says (`"marked"`), anywhere (`"random"`) or at (x,
+    /// y, heading). `seed` seeds all random numbers; without `noise`, motors and sensors are
+    /// perfect.
     #[new]
     #[pyo3(
         signature = (maze, *, seed = 1, start = Start::Named("marked".to_owned()), noise = true),
@@ -65,8 +65,8 @@ impl PyRobot {
         Ok(Self { robot, course })
     }
 
-    /// Turns by `turn` of the full turn of a step, counter-clockwise, and drives by `translate` of
-    /// its full length, ahead; both from −1 to 1.
+    /// Makes a time step. `turn` is the share of a full turn per step, counter-clockwise;
+    /// `translate` is the share of a full step ahead. Both are from −1 to 1.
     fn step(&mut self, py: Python<'_>, turn: f64, translate: f64) -> PyResult<()> {
         for (name, value) in [("turn", turn), ("translate", translate)] {
             if !value.is_finite() {
@@ -81,21 +81,22 @@ impl PyRobot {
             .map_err(|error| wrong(reasons(&error)))
     }
 
-    /// Returns the ranges of the laser's beams, m, counter-clockwise, the first one ahead; `None`
-    /// if the laser gave nothing.
+    /// Returns the ranges of the laser's beams, m, counter-clockwise from the one that looks ahead;
+    /// `None` if the laser gave no reading.
     #[getter]
     fn ranges<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
         let scan = self.robot.sensing().scan.as_ref();
         scan.map(|scan| PyArray1::from_slice(py, &scan.ranges))
     }
 
-    /// Returns the heading by the compass, rad, counter-clockwise from east.
+    /// Returns the heading from the compass, rad, counter-clockwise from east; `None` if it gave
+    /// none.
     #[getter]
     fn compass(&self) -> Option<f64> {
         self.robot.sensing().compass.map(Heading::radians)
     }
 
-    /// Returns what the wheels rolled in the last step: distance, m, and turn, rad.
+    /// Returns the odometry of the last step: distance, m, and turn, rad, counter-clockwise.
     #[getter]
     fn odometry(&self) -> Option<(f64, f64)> {
         let odometry = self.robot.sensing().odometry;
@@ -108,13 +109,13 @@ impl PyRobot {
         self.robot.sensing().bump.unwrap_or(false)
     }
 
-    /// Returns whether it stands in the goal.
+    /// Returns whether it is in the goal.
     #[getter]
     fn at_goal(&self) -> bool {
         self.robot.landmark() == Some(Landmark::Goal)
     }
 
-    /// Returns where it truly is, which it does not sense.
+    /// Returns the true pose, which the robot does not sense.
     #[getter]
     fn pose(&self) -> PoseTuple {
         tuple(self.robot.truth().pose)
@@ -132,14 +133,14 @@ impl PyRobot {
         self.robot.model().config().ring.beams
     }
 
-    /// Returns how far its laser reaches, m.
+    /// Returns the maximum range of its laser, m.
     #[getter]
     fn reach(&self) -> f64 {
         self.robot.model().config().ring.max_range
     }
 
-    /// Returns the steps after which a run has failed in the tables of MSLST's paper, in proportion
-    /// to the length of all corridors.
+    /// Returns the number of steps after which a run has failed, as in the tables of MSLST's paper.
+    /// It is proportional to the length of all corridors.
     #[getter]
     fn step_limit(&self) -> u32 {
         self.course.step_limit()

@@ -5,10 +5,10 @@ use tolman_quantizers::{InputError, Network, Scalar};
 
 use crate::errors::{refused, wrong};
 
-/// Returns the rows of an array where it lies.
+/// Returns the rows of an array without a copy.
 ///
 /// # Errors
-/// A `ValueError` that says how `X` has to be, if it is no array of two dimensions of this type.
+/// A `ValueError` that says how `X` has to be, if it is not a two-dimensional array of this type.
 pub(crate) fn rows<'py, S: Element>(x: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray2<'py, S>> {
     x.extract::<PyReadonlyArray2<'py, S>>().map_err(|_| {
         let dimensions = x.cast::<PyUntypedArray>().map(PyUntypedArrayMethods::ndim);
@@ -21,10 +21,10 @@ pub(crate) fn rows<'py, S: Element>(x: &Bound<'py, PyAny>) -> PyResult<PyReadonl
     })
 }
 
-/// Refuses rows that a network would refuse, so that either all of them are learnt or none.
+/// Checks all rows before any is learned, so that either all of them are learned or none.
 ///
 /// # Errors
-/// A `ValueError` that names the row.
+/// A `ValueError` that names the first invalid row.
 pub(crate) fn check<S: Scalar>(network: &Network<S>, x: &ArrayView2<'_, S>) -> PyResult<()> {
     each(x, |input| network.check(input))
 }
@@ -37,7 +37,7 @@ pub(crate) fn each<S: Scalar>(
     x: &ArrayView2<'_, S>,
     mut visit: impl FnMut(&[S]) -> Result<(), InputError>,
 ) -> PyResult<()> {
-    // Rows that do not lie in one piece are copied, one at a time.
+    // Rows that are not contiguous in memory are copied one at a time.
     let mut pieces = Vec::new();
     for (number, row) in x.outer_iter().enumerate() {
         let visited = match row.as_slice() {

@@ -19,8 +19,8 @@ pub(crate) fn systems() -> Vec<String> {
         .collect()
 }
 
-/// Lets a system learn a map of a maze with a simulated robot: that of its paper (`"own"`) or the
-/// laser Pioneer (`"pioneer"`). The same `seed` gives the same map.
+/// Lets a system learn a map of a maze with a simulated robot: the one of its paper (`"own"`) or
+/// the laser Pioneer (`"pioneer"`). The same `seed` gives the same map.
 #[pyfunction]
 #[pyo3(signature = (maze, system = "mslst-better", seed = 1, *, robot = "own"))]
 pub(crate) fn learn(
@@ -59,7 +59,7 @@ pub(crate) fn learn(
     py.detach(|| learned(&contest))
 }
 
-/// What systems have learned before, once for all.
+/// What systems learn before they are sent out; learned once.
 static SCHOOLING: OnceLock<Schooling> = OnceLock::new();
 
 fn learned(contest: &Contest<'_>) -> PyResult<PyMap> {

@@ -97,7 +97,7 @@ pub enum QuantizerConfigError {
     /// With no weight above zero all units are equally near.
     #[error("all weights are zero: at least one feature has to count")]
     NoWeight,
-    /// A unit the network shall begin with is no valid input.
+    /// A unit that the network is to begin with is not a valid input.
     #[error("initial unit {unit}: {source}")]
     BadUnit {
         /// Its number, from 0.
@@ -177,7 +177,7 @@ pub enum SnapshotError {
     /// algorithm keeps.
     #[error(transparent)]
     Config(#[from] QuantizerConfigError),
-    /// A prototype is no valid input.
+    /// A prototype is not a valid input.
     #[error("the prototype of unit {id}: {source}")]
     BadPrototype {
         /// The unit.

@@ -28,13 +28,13 @@ pub enum Event {
         /// The unit that stands for both.
         into: UnitId,
     },
-    /// An edge came. (To be renewed is no event.)
+    /// An edge was added. (Renewing one is not an event.)
     Linked(UnitId, UnitId),
     /// An edge went.
     Unlinked(UnitId, UnitId),
 }
 
-/// The events of a network, kept from the moment somebody listens.
+/// The events of a network, recorded from the moment that they are asked for.
 #[derive(Clone, Debug, Default)]
 pub struct Events {
     listening: bool,

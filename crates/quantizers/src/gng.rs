@@ -65,7 +65,7 @@ impl<S: Scalar> Gng<S> {
         Self::around(Network::new(dimension)?, config)
     }
 
-    /// Returns an empty network whose squared distance is Σ w (x − p)², with one weight w a
+    /// Returns an empty network whose squared distance is Σ w (x − p)², with one weight w per
     /// feature.
     ///
     /// # Errors
@@ -86,11 +86,11 @@ impl<S: Scalar> Gng<S> {
         })
     }
 
-    /// Puts units where the caller wants them before the first input, each joined to the one before
-    /// it.
+    /// Puts units where the caller wants them before the first input, each joined to the one
+    /// before.
     ///
     /// # Errors
-    /// If there are fewer than two units, one is no valid input, or the network is not empty.
+    /// If there are fewer than two units, one is not a valid input, or the network is not empty.
     pub fn begin_with<P: AsRef<[S]>>(
         &mut self,
         prototypes: &[P],

@@ -101,7 +101,7 @@ impl<S: Scalar> Network<S> {
         self.len
     }
 
-    /// Returns whether there are no units, which is so until the first input.
+    /// Returns whether there are no units, as before the first input.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -149,7 +149,7 @@ impl<S: Scalar> Network<S> {
         })
     }
 
-    /// Returns the unit nearest to `input`, the one with the smaller id of equally near ones.
+    /// Returns the unit nearest to `input`; of equally near ones, the one with the smaller id.
     ///
     /// # Errors
     /// If the input is invalid or there are no units.
@@ -349,7 +349,7 @@ impl<S: Scalar> Network<S> {
         self.prototypes.values(slot)
     }
 
-    /// Returns whether another unit can be named. After 2³² − 1 there are no more ids.
+    /// Returns whether there is an id for another unit. After 2³² − 1 there are no more ids.
     pub(crate) fn has_ids_left(&self) -> bool {
         self.next_id < u32::MAX
     }

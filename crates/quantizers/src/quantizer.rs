@@ -7,14 +7,15 @@ use crate::{Events, InputError, Nearest, NearestTwo, Network, NetworkSnapshot, S
 /// Maps that are built on states need no more than this: feed it, ask which unit is nearest, look
 /// at its [`Network`].
 pub trait Quantizer<S: Scalar> {
-    /// Learns from one input, and returns what it met: first the unit that stands for the input
-    /// now, and its distance when the input came (the nearest unit, or the one that was made of the
-    /// input, at distance 0), then the nearest unit but that one when the input came, if there was
-    /// one.
+    /// Learns from one input, and returns the two units nearest to it.
+    ///
+    /// The first is the unit that now stands for the input, with its distance when the input came.
+    /// It is the nearest unit, or the one that was made of the input, at distance 0. The second is
+    /// the nearest other unit when the input came, if there was one.
     ///
     /// # Errors
     /// If the input has another number of features than the network, or one that is NaN, infinite
-    /// or so large that squares overflow. Nothing is learnt then.
+    /// or so large that squares overflow. Nothing is learned then.
     fn observe(&mut self, input: &[S]) -> Result<NearestTwo<S>, InputError>;
 
     /// Returns the units and their edges.

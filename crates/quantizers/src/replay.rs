@@ -80,8 +80,8 @@ pub struct ReplayConfig {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ReplayMemory {
-    /// Each of all inputs so far with the same probability (reservoir sampling, algorithm R of
-    /// Vitter 1985): for worlds that stay as they are.
+    /// Each input so far with the same probability (reservoir sampling, algorithm R of Vitter
+    /// 1985): for worlds that do not change.
     #[default]
     Reservoir,
     /// The last ones: for worlds that change.

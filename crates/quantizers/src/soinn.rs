@@ -19,10 +19,10 @@ use crate::{
 /// One layer of a SOINN: "An incremental network for on-line unsupervised classification and
 /// topology learning" (Shen and Hasegawa 2006), algorithm 3.1.
 ///
-/// An input far from what is known becomes a unit of its own; any other one joins its two nearest
-/// units and moves them, the less the more they have won. There is no number of units to choose.
-/// Clusters are what hangs together; a [second layer](Self::second_layer) tells them apart where
-/// noise has joined them.
+/// An input far from what is known becomes a unit of its own. Any other input joins its two nearest
+/// units and moves them, less the more they have won. The number of units need not be chosen.
+/// Clusters are connected units. A [second layer](Self::second_layer) separates clusters that noise
+/// has joined.
 ///
 /// ```
 /// use tolman_quantizers::{Quantizer, Soinn, SoinnConfig};
@@ -131,7 +131,7 @@ impl<S: Scalar> Soinn<S> {
         Self::around(Network::new(dimension)?, config)
     }
 
-    /// Returns an empty network whose squared distance is Σ w (x − p)², with one weight w a
+    /// Returns an empty network whose squared distance is Σ w (x − p)², with one weight w per
     /// feature.
     ///
     /// # Errors
@@ -167,8 +167,8 @@ impl<S: Scalar> Soinn<S> {
         self.steps
     }
 
-    /// Returns M, the number of inputs that a unit has won, less what it has left to units put
-    /// beside it.
+    /// Returns M, the number of inputs that a unit has won, minus what it has passed to units
+    /// inserted beside it.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -176,8 +176,8 @@ impl<S: Scalar> Soinn<S> {
         Ok(self.tallies[self.network.slot(id)?].wins)
     }
 
-    /// Returns E, the sum of the distances, not squared, of the inputs that a unit has won, less
-    /// what it has left to units put beside it.
+    /// Returns E, the sum of the distances, not squared, of the inputs that a unit has won, minus
+    /// what it has passed to units inserted beside it.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -205,7 +205,7 @@ impl<S: Scalar> Soinn<S> {
             self.insert_where_error_is_large();
             self.remove_noise();
             if !self.network.contains(met.first.id) {
-                // The unit that stood for the input was taken for noise at once.
+                // The unit that stood for the input was removed as noise at once.
                 met = self.network.nearest_two(input).unwrap_or(met);
             }
         }
@@ -302,9 +302,9 @@ impl<S: Scalar> Soinn<S> {
         self.tallies.push(r_tally);
     }
 
-    /// Takes away what [`Denoising`] takes for noise. It comes by itself at the end of every period
-    /// of λ inputs (step 10, its second half); to be called before clusters are counted in the
-    /// midst of one, when there are units too new to have a neighbour.
+    /// Removes what [`Denoising`] counts as noise. It is called by itself at the end of every
+    /// period of λ inputs (step 10, its second half); to be called before clusters are counted in
+    /// the midst of one, when there are units too new to have a neighbour.
     ///
     /// # Complexity
     /// Units.

@@ -8,7 +8,7 @@ pub(super) fn bytes(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
 
-/// Numbers in single precision, four bytes each.
+/// Returns numbers in single precision, four bytes each, as base64.
 pub(super) fn floats(numbers: impl IntoIterator<Item = f64>) -> String {
     let all: Vec<u8> = numbers
         .into_iter()
@@ -31,7 +31,7 @@ pub(super) fn numbers(numbers: impl IntoIterator<Item = u32>) -> String {
     bytes(&all)
 }
 
-/// Returns ascending steps as [`numbers`], each minus the one before.
+/// Returns ascending steps as [`numbers`], each minus the previous one.
 pub(super) fn steps(steps: impl IntoIterator<Item = u32>) -> String {
     let mut before = 0;
     numbers(steps.into_iter().map(move |step| {
@@ -41,8 +41,8 @@ pub(super) fn steps(steps: impl IntoIterator<Item = u32>) -> String {
     }))
 }
 
-/// Returns whole numbers as [`numbers`], each minus the one before, the sign in the lowest bit: a
-/// byte for each change by less than 64.
+/// Returns whole numbers as [`numbers`], each minus the previous one, with the sign in the lowest
+/// bit. A change by less than 64 takes one byte.
 pub(super) fn changes(all: impl IntoIterator<Item = i32>) -> String {
     let mut before = 0_i32;
     numbers(all.into_iter().map(move |number| {

@@ -1,4 +1,4 @@
-//! First difference of two runs.
+//! The first difference between two runs.
 
 use core::fmt;
 
@@ -9,15 +9,15 @@ use super::of_trace::{Portrait, RobotTrace, Trace};
 /// The first step at which two traces differ, and in what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// The step, the start being 0.
+    /// Step number; 0 is the start.
     pub step: u32,
-    /// The first robot that differs in it, from 0.
+    /// Index of the first robot that differs in this step.
     pub robot: u32,
-    /// The first of its numbers that does.
+    /// First of its numbers that differs.
     pub what: Differs,
 }
 
-/// First thing that differs.
+/// What differs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Differs {
@@ -25,13 +25,13 @@ pub enum Differs {
     Command,
     /// Pose of the robot.
     Pose,
-    /// Whether it touched something.
+    /// Whether the robot touched something.
     Bump,
-    /// Nothing but that the first trace ends here.
+    /// Only that the first trace ends here.
     FirstEnds,
-    /// Nothing but that the second trace ends here.
+    /// Only that the second trace ends here.
     SecondEnds,
-    /// The first trace has this robot, the second one has not, or the other way round.
+    /// One trace has this robot, the other does not.
     Robots,
 }
 
@@ -56,7 +56,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Returns where two traces part, or `None` if they are the same to the bit. O(steps).
+/// Returns the first difference of two traces, or `None` if they are the same to the bit. O(steps).
 pub(super) fn first_difference<M: Portrait>(
     first: &Trace<M>,
     second: &Trace<M>,
@@ -109,12 +109,12 @@ fn of_robot<M: Portrait>(
     }
 }
 
-/// Returns the shortest text that reads back as a number differs wherever its bits do, as in the
-/// trace itself.
+/// Returns whether two values are the same to the bit. The shortest text that reads back as a
+/// number differs wherever its bits do, as in the trace itself.
 fn same<T: Serialize>(one: &T, other: &T) -> bool {
     match (serde_json::to_string(one), serde_json::to_string(other)) {
         (Ok(one), Ok(other)) => one == other,
-        // What came out of a trace goes into one again.
+        // What was read from a trace can be written again, so this does not occur.
         _ => false,
     }
 }

@@ -19,10 +19,10 @@ const VERSION: u32 = 1;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EncodeError {
-    /// There is nothing to play.
+    /// The replay has no track with a pose.
     #[error("there is no track with a pose; give at least one")]
     Empty,
-    /// The step has no length.
+    /// The time step is not positive.
     #[error("the time step is {step_s} s; give one above 0")]
     Step {
         /// The time step, s.
@@ -33,7 +33,7 @@ pub enum EncodeError {
     NotFinite {
         /// Kind of thing.
         what: String,
-        /// Its number, from 0.
+        /// Its index.
         index: usize,
     },
     /// Steps that must ascend do not.
@@ -41,27 +41,27 @@ pub enum EncodeError {
     Order {
         /// Kind of thing.
         what: String,
-        /// Its number, from 0.
+        /// Its index.
         index: usize,
     },
-    /// A reading has not one range for each beam.
+    /// A reading does not have one range per beam.
     #[error("{what} {index} has {found} ranges for {expected} beams")]
     Ranges {
         /// Kind of thing.
         what: String,
-        /// Its number, from 0.
+        /// Its index.
         index: usize,
         /// Number of ranges it has.
         found: usize,
         /// Number of beams.
         expected: usize,
     },
-    /// An edge ends at a node that is not there.
+    /// An edge ends at a node that does not exist.
     #[error("edge {index} of the map `{map}` names node {id}, which the map does not have")]
     NoNode {
         /// The map's name.
         map: String,
-        /// Number of the edge, from 0.
+        /// Index of the edge.
         index: usize,
         /// The id it names.
         id: u32,
@@ -74,12 +74,12 @@ pub enum EncodeError {
         /// The id.
         id: u32,
     },
-    /// The grid of a field has no extent.
+    /// The grid of a field is empty.
     #[error("the field `{field}` has {columns} columns of cells {pitch} m wide")]
     Grid {
         /// The field's name.
         field: String,
-        /// Its columns.
+        /// Number of its columns.
         columns: u32,
         /// The side of a cell, m.
         pitch: f64,
@@ -87,14 +87,13 @@ pub enum EncodeError {
 }
 
 /// Returns the replay as JSON that may stand between `<script type="application/json">` and
-/// `</script>`: no `<` is in it. At most 9 characters a pose that lies near the one before it, and
-/// a few hundred for each robot.
+/// `</script>`, because it contains no `<`. A pose near the previous one takes at most 9
+/// characters, and each robot a few hundred more.
 ///
 /// Linear in the size of the replay.
 ///
 /// # Errors
-/// [`EncodeError`] if there is nothing to play, or a number, an order or a name in it makes no
-/// sense.
+/// [`EncodeError`] if there is nothing to play, or if a number, an order or a name is invalid.
 pub fn json(replay: &Replay) -> Result<String, EncodeError> {
     Ok(value(replay)?.to_string().replace('<', "\\u003c"))
 }
@@ -155,7 +154,7 @@ fn track(track: &RobotTrack, bounds: &Bounds) -> Result<Value, EncodeError> {
     ascend("lift", track.lifts.iter().copied())?;
     let poses = track.poses.iter().map(|pose| rounded(bounds, *pose));
     let along = |axis: usize| blob::changes(poses.clone().map(|pose| i32::from(pose[axis])));
-    // A turn past the seam is a small change too.
+    // A turn past the seam is also a small change.
     let headings = poses.clone().scan(0_i32, |before, [_, _, heading]| {
         *before += i32::from(heading.wrapping_sub(*before as u16) as i16);
         Some(*before)
@@ -193,12 +192,12 @@ fn ring(ring: &Ring) -> Value {
     })
 }
 
-/// The largest value of a range of two bytes, and of one.
+/// Largest value of a range in two bytes, and in one.
 const FINE: f64 = 65535.0;
 const COARSE: f64 = 255.0;
 
 /// Returns ranges as shares of the ring's reach, in whole parts of `most`. A beam that met nothing,
-/// or read NaN, has the reach.
+/// or read NaN, counts as the reach.
 fn shares<'a>(
     (what, index): (&str, usize),
     ring: &'a Ring,
@@ -261,7 +260,7 @@ fn map(map: &MapGrowth) -> Result<Value, EncodeError> {
     }))
 }
 
-/// Returns what is empty is left out: maps have many nodes, and most say little.
+/// Returns a node without its empty fields: maps have many nodes, and most have few facts.
 fn node(node: &MapNode) -> Result<Value, EncodeError> {
     ascend("move of a node", node.moves.iter().map(|moved| moved.step))?;
     let moves = node.moves.iter();
@@ -293,7 +292,7 @@ fn exemplar(Exemplar { heading, scan }: &Exemplar) -> Result<Value, EncodeError>
 }
 
 fn edge(edge: &MapEdge) -> Value {
-    // Positions instead of names: a large map has many edges.
+    // Arrays instead of objects, because a large map has many edges.
     json!([edge.a, edge.b, edge.kind, edge.born, edge.died, edge.label])
 }
 
@@ -306,7 +305,7 @@ fn belief(belief: &Belief) -> Result<Value, EncodeError> {
     Ok(json!({ "name": belief.name, "entries": entries.collect::<Vec<Value>>() }))
 }
 
-/// Returns what is not finite becomes null, which the player leaves out.
+/// Returns a shape. Non-finite numbers become null, which the player leaves out.
 fn shape(shape: &Shape) -> Value {
     match *shape {
         Shape::Point { position, weight } => {
@@ -373,7 +372,7 @@ fn series(series: &TimeSeries) -> Result<Value, EncodeError> {
     } else {
         object["values"] = blob::floats(values()).into();
     }
-    // A value at every step from the first on needs no steps.
+    // A value at every step from the first on needs no list of steps.
     if let Some(first) = steps().next()
         && steps()
             .zip(first..)
@@ -384,7 +383,7 @@ fn series(series: &TimeSeries) -> Result<Value, EncodeError> {
     Ok(object)
 }
 
-/// Returns the texts once each, in the order they first appear, and their numbers by step.
+/// Returns each text once, in the order in which they first appear, and their indices by step.
 fn notes(notes: &Notes) -> Result<Value, EncodeError> {
     let steps = steps("note", notes.notes.iter().map(|note| note.step))?;
     let mut texts: Vec<&str> = Vec::new();
@@ -418,12 +417,12 @@ fn facts(facts: &[Fact]) -> Value {
         .collect()
 }
 
-/// Returns a position to a tenth of a millimetre.
+/// Returns a position rounded to a tenth of a millimetre.
 fn place(point: Point) -> Value {
     json!([short(point.x), short(point.y)])
 }
 
-/// Returns a number to four digits behind the point.
+/// Returns a number rounded to four decimals.
 fn short(number: f64) -> f64 {
     libm::round(number * 1e4) / 1e4
 }
@@ -449,12 +448,12 @@ fn all_finite<T>(what: &str, all: &[T], holds: impl Fn(&T) -> bool) -> Result<()
     }
 }
 
-/// Returns the coordinates of points, one by one.
+/// Returns the coordinates of points, x and y in turn.
 fn coordinates<'a>(points: impl IntoIterator<Item = &'a Point>) -> impl Iterator<Item = f64> {
     points.into_iter().flat_map(|at| [at.x, at.y])
 }
 
-/// Steps that ascend.
+/// Returns steps, which must ascend.
 fn steps(what: &str, steps: impl Iterator<Item = u32> + Clone) -> Result<String, EncodeError> {
     ascend(what, steps.clone())?;
     Ok(blob::steps(steps))
@@ -482,7 +481,7 @@ mod tests {
     use super::*;
     use crate::{BeliefAt, FieldChange, NodeMove, Note, Sample, Scenery, ZoneKind};
 
-    /// Returns a replay with every layer there is.
+    /// Returns a replay with every kind of layer.
     fn full() -> Replay {
         let at = |x: f64| Point::new(x, 0.5);
         let pose = |x| Pose::new(at(x), Heading::from_radians(3.0 + x));

@@ -7,7 +7,7 @@ use tolman_sim::{Bounds, World};
 use super::scenery::rectangle;
 use super::{SceneryZone, TimeSeries, ZoneKind};
 
-/// The cells of a world made from a maze that a robot can get to from where it starts.
+/// The cells of a maze world that a robot can reach from its start.
 #[derive(Clone, Debug)]
 pub struct Floor<'a> {
     world: &'a World,
@@ -18,8 +18,8 @@ pub struct Floor<'a> {
 }
 
 impl<'a> Floor<'a> {
-    /// Returns what can be reached from `start`; nothing in a world that was not made from a maze,
-    /// or from outside of it. Doors do not count as walls. O(cells) rays.
+    /// Returns the cells that can be reached from `start`; `None` for a world that was not made
+    /// from a maze, or a start outside of it. Doors do not count as walls. O(cells) rays.
     pub fn from(world: &'a World, start: Point) -> Option<Self> {
         let (grid, first) = (world.grid()?, world.cell_at(start)?);
         let mut floor = Self {
@@ -44,7 +44,7 @@ impl<'a> Floor<'a> {
         Some(floor)
     }
 
-    /// Returns whether nothing stands between the middle of a cell and that of its neighbour.
+    /// Returns whether there is no wall between the middles of a cell and its neighbour.
     fn is_open(&self, cell: Cell, direction: Direction) -> bool {
         let (east, north) = direction.step();
         let direction = Vector::new(f64::from(east), f64::from(north));
@@ -52,9 +52,9 @@ impl<'a> Floor<'a> {
         caster.cast(self.world.cell_centre(cell), direction, self.pitch) > 0.9 * self.pitch
     }
 
-    /// Returns the cells that cannot be reached, as few solid rectangles.
+    /// Returns the cells that cannot be reached, as few rectangles as possible.
     pub fn solid(&self) -> Vec<SceneryZone> {
-        // Runs of each row from the south, which grow northwards while the next row has the same.
+        // Each run of a row grows northwards while the next row has the same run.
         let mut done: Vec<(Cell, Cell)> = Vec::new();
         let mut growing: Vec<(Cell, Cell)> = Vec::new();
         for y in 0..self.grid.height() {
@@ -103,8 +103,7 @@ impl<'a> Floor<'a> {
         }
     }
 
-    /// Returns the share of the reachable cells that lay under the robot's centre so far, step by
-    /// step.
+    /// Returns, step by step, the share of the reachable cells that the robot's centre has visited.
     pub fn coverage(&self, path: impl IntoIterator<Item = Point>) -> TimeSeries {
         let all = self.reachable.iter().filter(|cell| **cell).count();
         let mut seen = vec![false; self.reachable.len()];

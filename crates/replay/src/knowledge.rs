@@ -1,4 +1,4 @@
-//! Knowledge of a robot over time: layers that any system can hand over.
+//! What a robot knows over time, as layers that any system can provide.
 
 use serde::Serialize;
 use tolman_geom::{Heading, Point, Pose};
@@ -6,42 +6,42 @@ use tolman_robot::{Guess, Position, Scan};
 
 use super::Fact;
 
-/// A learned map as it grew: nodes and edges that come, may move, and may go again.
+/// A learned map as it grew: nodes and edges that appear, may move, and may disappear.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MapGrowth {
     /// Name of the layer: `state graph`.
     pub name: String,
-    /// The nodes, in any order; no two of the same id.
+    /// The nodes in any order, with unique ids.
     pub nodes: Vec<MapNode>,
     /// The edges.
     pub edges: Vec<MapEdge>,
 }
 
-/// A node of a [`MapGrowth`]: a state, a place, a unit of a rounding, a cell.
+/// A node of a [`MapGrowth`]: a state, a place, a unit of a quantizer or a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapNode {
     /// Id by which edges and beliefs name it.
     pub id: u32,
-    /// Position at its birth, in the world's frame.
+    /// First position, in the world's frame.
     pub position: Point,
-    /// The step at which it came to be.
+    /// Step at which it appears.
     pub born: u32,
-    /// The step from which on it is no more.
+    /// Step at which it disappears; `None` if it stays.
     pub died: Option<u32>,
     /// A word or two beside it; empty for none.
     pub label: String,
     /// Facts shown when it is clicked.
     pub facts: Vec<Fact>,
-    /// Steps at which the robot was there, ascending.
+    /// Steps at which the robot visited it, ascending.
     pub visits: Vec<u32>,
-    /// Its later positions, ascending by step.
+    /// Later positions, ascending by step.
     pub moves: Vec<NodeMove>,
-    /// The scan it stands for.
+    /// Scan that it stands for.
     pub exemplar: Option<Exemplar>,
 }
 
 impl MapNode {
-    /// Returns a node that lives forever, without label, facts, visits and exemplar.
+    /// Returns a node that stays, without label, facts, visits and exemplar.
     #[must_use]
     pub const fn new(id: u32, position: Point, born: u32) -> Self {
         Self {
@@ -57,15 +57,15 @@ impl MapNode {
         }
     }
 
-    /// Returns where it was drawn last.
+    /// Returns its last position.
     #[must_use]
     pub fn latest(&self) -> Point {
         let last = self.moves.last();
         last.map_or(self.position, |last| last.position)
     }
 
-    /// Draws it elsewhere from `step` on, if that is farther off than `still`, m. Of several places
-    /// at one step the last counts.
+    /// Moves it from `step` on, if `position` is more than `still` metres away. Of several
+    /// positions at one step the last counts.
     pub fn move_to(&mut self, step: u32, position: Point, still: f64) {
         if (self.latest() - position).norm() > still {
             self.moves.pop_if(|moved| moved.step >= step);
@@ -74,7 +74,7 @@ impl MapNode {
     }
 }
 
-/// A node's new place.
+/// A node's new position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeMove {
     /// The step from which it holds.
@@ -86,7 +86,7 @@ pub struct NodeMove {
 /// A scan that a node stands for, drawn as a polar plot when the node is clicked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exemplar {
-    /// The heading that bearing 0 of the scan looks to.
+    /// Heading of bearing 0 of the scan.
     pub heading: Heading,
     /// The scan. Its ranges are drawn to 1/255 of the largest.
     pub scan: Scan,
@@ -95,17 +95,17 @@ pub struct Exemplar {
 /// An edge of a [`MapGrowth`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MapEdge {
-    /// The id of the node it comes from.
+    /// Id of the node that it comes from.
     pub a: u32,
-    /// The id of the node it leads to.
+    /// Id of the node that it leads to.
     pub b: u32,
-    /// Meaning, which sets its look.
+    /// Meaning, which decides its style.
     pub kind: EdgeKind,
-    /// The step at which it came to be.
+    /// Step at which it appears.
     pub born: u32,
-    /// The step from which on it is no more.
+    /// Step at which it disappears; `None` if it stays.
     pub died: Option<u32>,
-    /// A word or two, told when one of its nodes is clicked; empty for none.
+    /// A word or two, shown when one of its nodes is clicked; empty for none.
     pub label: String,
 }
 
@@ -128,11 +128,11 @@ impl MapEdge {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum EdgeKind {
-    /// A way from one to the other.
+    /// A way between two nodes.
     Passage,
     /// A wall between two posts.
     Wall,
-    /// A relation that is no way: a loop closure, a match.
+    /// A relation other than a way, such as a loop closure or a match.
     Relation,
 }
 
@@ -154,8 +154,8 @@ impl Belief {
         }
     }
 
-    /// Notes what a system believes from `step` on, if it is something else than before: the
-    /// likeliest few of its guesses, with places where `site` says that they lie.
+    /// Records what a system believes from `step` on, if that differs from before. It keeps the
+    /// most likely guesses, at positions that `site` gives for places.
     pub fn note(&mut self, step: u32, guesses: &[Guess], site: impl Fn(u32) -> Option<Point>) {
         let likely = guesses.iter().filter(|guess| guess.weight >= LEAST_WEIGHT);
         let shapes = likely.take(SHOWN_GUESSES).filter_map(|guess| {
@@ -175,7 +175,8 @@ impl Belief {
     }
 }
 
-/// Maximum number of possible poses that are shown. More would be a blot, and make the file large.
+/// Maximum number of possible poses that are shown. More would be unreadable, and make the file
+/// large.
 const SHOWN_GUESSES: usize = 8;
 
 /// Weight below which a guess is not shown.
@@ -184,37 +185,37 @@ const LEAST_WEIGHT: f64 = 0.01;
 /// One state of a [`Belief`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeliefAt {
-    /// The step from which it holds.
+    /// First step at which it holds.
     pub step: u32,
-    /// All of it; empty for none.
+    /// The whole belief; empty for none.
     pub shapes: Vec<Shape>,
 }
 
-/// A part of a belief, in the world's frame. Weights run from 0 to 1 and show as opacity.
+/// A part of a belief, in the world's frame. Weights are from 0 to 1 and are shown as opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// It may be here.
+    /// It may be at this position.
     Point {
         /// Position.
         position: Point,
         /// Probability.
         weight: f64,
     },
-    /// It may stand here and look there.
+    /// It may have this pose.
     Pose {
         /// Pose.
         pose: Pose,
         /// Probability.
         weight: f64,
     },
-    /// It may be at this node of any map.
+    /// It may be at this node of a map.
     Node {
         /// The node's id.
         id: u32,
         /// Probability.
         weight: f64,
     },
-    /// It is inside this box along the axes.
+    /// It is inside this axis-aligned box.
     Box {
         /// South-west corner.
         min: Point,
@@ -223,33 +224,32 @@ pub enum Shape {
         /// Probability.
         weight: f64,
     },
-    /// It is about here: an ellipse of uncertainty.
+    /// It is near this position: an ellipse of uncertainty.
     Ellipse {
         /// Its middle.
         centre: Point,
         /// Its semi-axes, m.
         semi_axes: [f64; 2],
-        /// Direction of the first of them.
+        /// Direction of the first semi-axis.
         heading: Heading,
         /// Probability.
         weight: f64,
     },
 }
 
-/// Numbers over the cells of a grid that change now and then, drawn as colours and, where there is
-/// room, in digits.
+/// Numbers over the cells of a grid that change from time to time, drawn as colours and, if there
+/// is room, as digits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// Name of the layer: `distance to the goal`.
     pub name: String,
     /// The south-west corner of cell 0.
     pub origin: Point,
-    /// The side of a cell, m.
+    /// Side length of a cell, m.
     pub pitch: f64,
-    /// Cells from west to east; cell i lies in column i mod columns, row i / columns, from the
-    /// south-west.
+    /// Number of columns. Cell i is in column i mod columns, row i / columns, from the south-west.
     pub columns: u32,
-    /// The values drawn in the palest and the strongest colour.
+    /// Values drawn in the palest and in the strongest colour.
     pub range: [f64; 2],
     /// Changes by step, ascending. A cell that never had a value is not drawn.
     pub changes: Vec<FieldChange>,
@@ -258,11 +258,11 @@ pub struct Field {
 /// One change of a [`Field`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldChange {
-    /// The step from which it holds.
+    /// First step at which it holds.
     pub step: u32,
     /// Number of the cell.
     pub cell: u32,
-    /// Its new value, or `None` if it has none any more.
+    /// Its new value, or `None` to remove it.
     pub value: Option<f64>,
 }
 
@@ -271,9 +271,9 @@ pub struct FieldChange {
 pub struct TimeSeries {
     /// Name: `coverage`.
     pub name: String,
-    /// Its unit, set behind it; `%` shows a share as per cent.
+    /// Its unit, shown after the number; `%` shows a share in per cent.
     pub unit: String,
-    /// Its values, by step, ascending; each holds until the next.
+    /// Its values, ascending by step; each holds until the next.
     pub samples: Vec<Sample>,
 }
 
@@ -287,7 +287,7 @@ impl TimeSeries {
         }
     }
 
-    /// Adds a value that holds from `step` on; of several at one step the last counts.
+    /// Adds a value that holds from `step` on. Of several at one step the last counts.
     pub fn sample(&mut self, step: u32, value: f64) {
         self.samples.pop_if(|sample| sample.step >= step);
         self.samples.push(Sample { step, value });
@@ -297,18 +297,18 @@ impl TimeSeries {
 /// One value of a [`TimeSeries`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// The step from which it holds.
+    /// First step at which it holds.
     pub step: u32,
     /// The value.
     pub value: f64,
 }
 
-/// Words over time: the action under way, the state it is in.
+/// Words over time, such as the action in progress or the present state.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Notes {
     /// Subject: `action`.
     pub name: String,
-    /// The words, by step, ascending; each holds until the next.
+    /// The words, ascending by step; each holds until the next.
     pub notes: Vec<Note>,
 }
 
@@ -321,7 +321,7 @@ impl Notes {
         }
     }
 
-    /// Says something from `step` on; what is said already is not said again.
+    /// Adds `text` from `step` on, unless it is the present text already.
     pub fn say(&mut self, step: u32, text: impl Into<String>) {
         let text = text.into();
         if self.notes.last().is_none_or(|last| last.text != text) {
@@ -333,7 +333,7 @@ impl Notes {
 /// One of [`Notes`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
-    /// The step from which it holds.
+    /// First step at which it holds.
     pub step: u32,
     /// Text.
     pub text: String,
@@ -346,12 +346,12 @@ pub struct Marks {
     pub kind: Mark,
     /// Name: `bump`.
     pub name: String,
-    /// When, ascending.
+    /// Steps of the events, ascending.
     pub steps: Vec<u32>,
 }
 
 impl Marks {
-    /// Marks at these steps.
+    /// Returns marks at these steps.
     pub fn new(kind: Mark, name: impl Into<String>, steps: impl IntoIterator<Item = u32>) -> Self {
         Self {
             kind,
@@ -371,7 +371,7 @@ pub enum Mark {
     Failure,
     /// The robot arrived.
     Arrival,
-    /// The robot was lifted and set down elsewhere.
+    /// The robot was lifted and put down elsewhere.
     Kidnapping,
     /// The first step at which two runs differ.
     Difference,

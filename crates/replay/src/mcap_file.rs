@@ -1,4 +1,4 @@
-//! Replays for Foxglove, and what else reads MCAP: messages by Foxglove's schemas, as JSON.
+//! Replays for Foxglove and other readers of MCAP: messages in Foxglove's schemas, as JSON.
 //!
 //! | topic | schema | holds |
 //! | --- | --- | --- |
@@ -6,8 +6,8 @@
 //! | `/scene` | `foxglove.SceneUpdate` | walls, zones and doors |
 //! | `/ROBOT/body` | `foxglove.SceneUpdate` | the outline |
 //! | `/ROBOT/scan` | `foxglove.LaserScan` | recorded scans |
-//! | `/ROBOT/map/NAME` | `foxglove.SceneUpdate` | a map as it grows: nodes and edges that come, move and go |
-//! | `/ROBOT/belief/NAME` | `foxglove.SceneUpdate` | where it believes to be |
+//! | `/ROBOT/map/NAME` | `foxglove.SceneUpdate` | a map as it grows: nodes and edges that appear, move and disappear |
+//! | `/ROBOT/belief/NAME` | `foxglove.SceneUpdate` | the believed poses |
 //! | `/ROBOT/NAME` | `tolman.Number` | a time series |
 //! | `/log` | `foxglove.Log` | notes and marks |
 
@@ -28,20 +28,20 @@ use super::{
     Scenery, Shape, json as checked,
 };
 
-/// Reason why a replay has no form as MCAP.
+/// Reason why a replay cannot be written as MCAP.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum McapExportError {
-    /// It is no replay that could be played.
+    /// The replay itself is invalid.
     #[error(transparent)]
     Replay(#[from] EncodeError),
-    /// The writer refuses it.
+    /// The MCAP writer refuses it.
     #[error("the replay does not fit into MCAP")]
     Write(#[from] McapError),
 }
 
-/// Returns a replay as the bytes of an MCAP file, which are the same for the same replay. The time
-/// is that of the run, from 0. Fields over the floor are left out.
+/// Returns a replay as the bytes of an MCAP file; the same replay gives the same bytes. Times are
+/// those of the run, from 0. Fields over the floor are left out.
 ///
 /// # Errors
 /// As [`json`](super::json), and if there are more than 65,535 topics.
@@ -56,7 +56,7 @@ pub fn mcap(replay: &Replay) -> Result<Vec<u8>, McapExportError> {
     Ok(events.written()?)
 }
 
-/// Messages that are still to be sorted by time.
+/// Messages that still have to be sorted by time.
 struct Events {
     /// Length of a step, s.
     step_s: f64,
@@ -83,7 +83,7 @@ impl Events {
         (f64::from(step) * self.step_s * 1e9).round() as u64
     }
 
-    /// Returns the same as messages have it.
+    /// Returns the time of a step in the form that messages use.
     fn timestamp(&self, step: u32) -> Value {
         let nanos = self.nanos(step);
         json!({ "sec": nanos / 1_000_000_000, "nsec": nanos % 1_000_000_000 })
@@ -98,7 +98,7 @@ impl Events {
         });
     }
 
-    /// Draws or draws again what is called `id`.
+    /// Draws the entity called `id`, or replaces it.
     fn draw(&mut self, step: u32, topic: &str, frame: &str, id: &str, mut entity: Value) {
         entity["timestamp"] = self.timestamp(step);
         entity["frame_id"] = frame.into();
@@ -107,7 +107,7 @@ impl Events {
         self.send(step, topic, SCENE, update);
     }
 
-    /// Takes away what is called `id`.
+    /// Removes the entity called `id`.
     fn erase(&mut self, step: u32, topic: &str, id: &str) {
         let gone = json!({ "timestamp": self.timestamp(step), "type": 0, "id": id });
         self.send(step, topic, SCENE, json!({ "deletions": [gone] }));
@@ -120,7 +120,7 @@ impl Events {
         self.send(step, "/log", "foxglove.Log", message);
     }
 
-    /// Writes all of them, the earlier first.
+    /// Returns the file with all messages, in order of time.
     fn written(mut self) -> Result<Vec<u8>, McapError> {
         self.messages.sort_by_key(|event| event.step);
         let options = WriteOptions::new().library("tolman-replay");
@@ -154,7 +154,7 @@ impl Events {
 
 const SCENE: &str = "foxglove.SceneUpdate";
 
-/// Returns what fields a message has, as far as is said here.
+/// Returns the schema of a message, as far as these messages use it.
 fn schema(name: &str) -> Value {
     let (object, array, number) = ("object", "array", "number");
     let fields: &[(&str, &str)] = match name {
@@ -208,16 +208,16 @@ fn colour([r, g, b]: [f64; 3], a: f64) -> Value {
     json!({ "r": r, "g": g, "b": b, "a": a })
 }
 
-/// A wall.
+/// Colour of walls.
 const DARK: [f64; 3] = [0.25, 0.27, 0.3];
-/// A zone of the floor.
+/// Colour of zones of the floor.
 const GREEN: [f64; 3] = [0.2, 0.6, 0.3];
-/// What a robot learned.
+/// Colour of what a robot learned.
 const BLUE: [f64; 3] = [0.15, 0.45, 0.8];
-/// What a robot believes, and itself.
+/// Colour of a robot and of its belief.
 const RED: [f64; 3] = [0.85, 0.3, 0.2];
 
-/// Line types of Foxglove: each point joined to the next and the last to the first; pairs.
+/// Line types of Foxglove: a closed loop, and pairs of points.
 const LOOP: u8 = 1;
 const PAIRS: u8 = 2;
 
@@ -310,7 +310,7 @@ fn follow(track: &RobotTrack, events: &mut Events) {
     marks(&track.marks, name, events);
 }
 
-/// Returns the corners of a body, those of a disc with a notch ahead.
+/// Returns the corners of a body. A disc has a notch ahead.
 fn outline(body: &Body) -> Vec<Point> {
     match body {
         Body::Polygon { corners } => corners.clone(),
@@ -340,7 +340,8 @@ fn scans(scans: &Scans, topic: &str, frame: &str, events: &mut Events) {
     }
 }
 
-/// Draws nodes and edges when they come, draws them again where they move, and takes them away.
+/// Draws nodes and edges when they appear, again when they move, and removes them when they
+/// disappear.
 fn grow(map: &MapGrowth, topic: &str, events: &mut Events) {
     let nodes: BTreeMap<u32, &MapNode> = map.nodes.iter().map(|node| (node.id, node)).collect();
     for node in &map.nodes {
@@ -375,7 +376,7 @@ fn grow(map: &MapGrowth, topic: &str, events: &mut Events) {
     }
 }
 
-/// Returns the steps at which an edge is drawn: when it comes, and when an end of it moves.
+/// Returns the steps at which an edge is drawn: when it appears, and when one of its ends moves.
 fn redrawn(edge: &MapEdge, ends: [&MapNode; 2]) -> Vec<u32> {
     let lives = |step: &u32| *step > edge.born && edge.died.is_none_or(|died| *step < died);
     let moves = ends.into_iter().flat_map(|node| &node.moves);
@@ -386,7 +387,7 @@ fn redrawn(edge: &MapEdge, ends: [&MapNode; 2]) -> Vec<u32> {
     steps
 }
 
-/// Returns where a node is drawn at a step.
+/// Returns the position of a node at a step.
 fn place(node: &MapNode, step: u32) -> Point {
     let moved = node.moves.iter().rev().find(|moved| moved.step <= step);
     moved.map_or(node.position, |moved| moved.position)
@@ -405,7 +406,7 @@ fn believe(belief: &Belief, track: &RobotTrack, topic: &str, events: &mut Events
 }
 
 /// Returns a disc for a part of a belief: its centre, radius (m) and weight. `None` for a node that
-/// no map has.
+/// is on no map.
 fn extent(shape: &Shape, track: &RobotTrack, step: u32) -> Option<(Point, f64, f64)> {
     Some(match *shape {
         Shape::Point { position, weight } => (position, 0.1, weight),
@@ -457,7 +458,7 @@ mod tests {
         Replay::new("Two steps", 0.1, scenery, vec![track])
     }
 
-    /// Topic, schema, time (ns) and content of each message.
+    /// Returns topic, schema, time (ns) and content of each message.
     fn read(bytes: &[u8]) -> Vec<(String, String, u64, Value)> {
         let message = |message: Result<mcap::Message<'_>, _>| {
             let message = message.unwrap();

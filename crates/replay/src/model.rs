@@ -3,20 +3,20 @@ use tolman_robot::{Body, Ring};
 
 use super::{Belief, Field, MapGrowth, Marks, Notes, Scenery, TimeSeries};
 
-/// A run, or several in the same world side by side, ready to be played.
+/// One or several runs in the same world, ready to be played side by side.
 ///
 /// Time is counted in steps: step 0 is before the first time step, step *k* after the *k*-th.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replay {
     /// Title, in a few words.
     pub title: String,
-    /// Facts about the whole run: maze, brain, seed, outcome, the command that makes it again.
+    /// Facts about the whole run: maze, brain, seed, outcome, and the command that repeats it.
     pub facts: Vec<Fact>,
-    /// The length of a time step, s; the speed 1× plays as many steps a second as there are in one.
+    /// Length of a time step, s. At speed 1×, a second of the run takes a second.
     pub step_s: f64,
-    /// The things that stand still.
+    /// Walls, zones and doors.
     pub scenery: Scenery,
-    /// The robots, one track each; they begin together.
+    /// The robots, one track each; all begin at step 0.
     pub tracks: Vec<RobotTrack>,
     /// Steps that concern all tracks, such as the first at which they differ.
     pub marks: Vec<Marks>,
@@ -41,14 +41,14 @@ impl Replay {
         }
     }
 
-    /// Returns this replay with a further fact.
+    /// Adds a fact and returns the replay.
     #[must_use]
     pub fn fact(mut self, name: impl Into<String>, value: impl Into<String>) -> Self {
         self.facts.push(Fact::new(name, value));
         self
     }
 
-    /// Returns the last step: that of the longest track.
+    /// Returns the last step of the longest track.
     #[must_use]
     pub fn steps(&self) -> usize {
         let steps = |track: &RobotTrack| track.poses.len().saturating_sub(1);
@@ -56,7 +56,7 @@ impl Replay {
     }
 }
 
-/// One thing to be known, in words.
+/// A fact about a run, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fact {
     /// Name: `seed`.
@@ -75,26 +75,27 @@ impl Fact {
     }
 }
 
-/// One robot: where it was at every step, and what it knew.
+/// A robot: its pose at every step, and what it knew.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotTrack {
     /// Name, if there are several: `Avoid`, `first.jsonl`.
     pub name: String,
     /// Its outline.
     pub body: Body,
-    /// Its range sensor, whose beams the player casts on the walls, or `None` for a robot without.
+    /// Its range sensor, whose beams the player casts on the walls; `None` for a robot without.
     pub ring: Option<Ring>,
-    /// Readings of the range sensor, for runs with unknown walls; then no beams are cast.
+    /// Readings of the range sensor, for runs with unknown walls. If given, no beams are cast.
     pub scans: Option<Scans>,
     /// Poses from step 0 on.
     pub poses: Vec<Pose>,
-    /// Steps that did not lead on from the step before: the robot was lifted. Ascending.
+    /// Steps at which the robot was lifted, so that they do not follow from the step before.
+    /// Ascending.
     pub lifts: Vec<u32>,
     /// Maps that it learned.
     pub maps: Vec<MapGrowth>,
     /// Believed positions.
     pub beliefs: Vec<Belief>,
-    /// Numbers over the cells of a grid: distances to the goal, chances of a wall.
+    /// Numbers over the cells of a grid, such as distances to the goal or probabilities of a wall.
     pub fields: Vec<Field>,
     /// Numbers over time.
     pub series: Vec<TimeSeries>,
@@ -105,7 +106,7 @@ pub struct RobotTrack {
 }
 
 impl RobotTrack {
-    /// Returns a track of poses alone.
+    /// Returns a track that has only poses.
     #[must_use]
     pub fn new(name: impl Into<String>, body: Body, poses: Vec<Pose>) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! A replay as a picture that moves by itself.
+//! A replay as an animated SVG.
 
 use maud::{Markup, html};
 use tolman_draw::{Figure, FloorPlan, Series, ZoneStyle};
@@ -6,7 +6,7 @@ use tolman_geom::Point;
 
 use super::{Replay, RobotTrack, Shape, ZoneKind};
 
-/// A stretch of a replay with the words that stand below it.
+/// A stretch of a replay with a caption.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chapter {
     /// Its first step.
@@ -17,28 +17,29 @@ pub struct Chapter {
     pub seconds: f64,
 }
 
-/// Pictures a second.
+/// Number of frames per second.
 const RATE: f64 = 25.0;
 
-/// After each chapter the picture stands still for so long, s.
+/// Pause after each chapter, s.
 const PAUSE: f64 = 1.2;
 
-/// A turn by a radian takes as long as this way, m.
+/// Way that takes as long as a turn by one radian, m.
 const METRES_PER_RADIAN: f64 = 0.05;
 
 /// Width of the picture, user units.
 const WIDTH: f64 = 800.0;
 
-/// Room for the words below, user units.
+/// Height for the caption below, user units.
 const FOOT: f64 = 34.0;
 
-/// Returns the first robot of a replay as an SVG that plays forever: its way, its map as it grew
-/// and, from the time on when it was first lifted, where it believed to be. Time passes as the
-/// robot gets on, so that a slow robot is not dull. Nodes of the map stand where they lay last.
+/// Returns the first robot of a replay as an SVG that plays in a loop: its way, its map as it grew
+/// and, after it was first lifted, its belief.
 ///
-/// `chapters` are played in turn, ascending by their first steps.
+/// `chapters` are played in turn and ascend by their first steps. Time passes with the driven
+/// distance, so that slow robots do not bore. Nodes of the map are drawn at their last positions.
 ///
-/// It has no script and needs no network. Who does not animate shows the end. O(poses + map).
+/// The SVG has no script and needs no network. A viewer that does not animate shows the end.
+/// O(poses + map).
 #[must_use]
 pub fn moving_picture(replay: &Replay, chapters: &[Chapter]) -> String {
     let walls = &replay.scenery.walls;
@@ -72,11 +73,11 @@ pub fn moving_picture(replay: &Replay, chapters: &[Chapter]) -> String {
     Figure::new("moving", &replay.title, drawing).standalone()
 }
 
-/// Step shown at each moment.
+/// The step that each frame shows.
 struct Clock {
-    /// The step of each picture.
+    /// Step of each frame.
     steps: Vec<u32>,
-    /// The first picture of each chapter.
+    /// First frame of each chapter.
     begins: Vec<usize>,
 }
 
@@ -99,7 +100,7 @@ impl Clock {
         clock
     }
 
-    /// Plays the steps from one to another.
+    /// Adds the frames for the steps `from` to `to`, which take `seconds` in all.
     fn play(&mut self, track: &RobotTrack, from: usize, to: usize, seconds: f64) {
         let mut way = vec![0.0];
         for pair in track.poses[from..=to].windows(2) {
@@ -122,8 +123,8 @@ impl Clock {
         }
     }
 
-    /// Returns the first picture that shows `step` or a later one; the number of pictures if none
-    /// does.
+    /// Returns the first frame that shows `step` or a later one; the number of frames if there is
+    /// none.
     fn picture(&self, step: u32) -> usize {
         self.steps.partition_point(|shown| *shown < step)
     }
@@ -132,12 +133,12 @@ impl Clock {
         format!("{:.2}s", self.steps.len() as f64 / RATE)
     }
 
-    /// Returns the number of a picture as a share of the whole.
+    /// Returns the number of a frame as a share of the whole.
     fn key(&self, picture: usize) -> String {
         short(picture as f64 / self.steps.len().max(1) as f64, 4)
     }
 
-    /// Shows an element between two pictures only.
+    /// Returns the animation that shows an element only between two frames.
     fn shown(&self, from: usize, to: usize) -> Markup {
         let (mut values, mut keys) = (
             vec![if from == 0 { "1" } else { "0" }],
@@ -158,7 +159,8 @@ impl Clock {
     }
 }
 
-/// Things of the same fate as path data, and the pictures between which they are shown.
+/// Path data of things that appear and disappear together, by the frames between which they are
+/// shown.
 #[derive(Default)]
 struct Fates(alloc::collections::BTreeMap<(usize, usize), String>);
 
@@ -232,7 +234,7 @@ fn ways(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
     }
 }
 
-/// Lets a line appear as far as it is driven.
+/// Returns a line that grows as it is driven.
 fn drawn(points: &[(f64, f64)], from: usize, clock: &Clock) -> Markup {
     let mut so_far = vec![0.0];
     for pair in points.windows(2) {
@@ -253,7 +255,7 @@ fn drawn(points: &[(f64, f64)], from: usize, clock: &Clock) -> Markup {
     }
 }
 
-/// Returns the believed positions since it was first lifted.
+/// Returns the believed positions since the robot was first lifted.
 fn beliefs(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
     let Some(lifted) = track.lifts.first() else {
         return html! {};
@@ -311,7 +313,8 @@ fn robot(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
         .iter()
         .map(|pose| place(plan, pose.position))
         .collect();
-    // Counter-clockwise in the world is clockwise where y grows downwards; no turn is the long one.
+    // Counter-clockwise in the world is clockwise where y grows downwards. Every turn takes the
+    // short way.
     let mut angle = -poses[0].heading.degrees();
     let mut angles = vec![short(angle, 0)];
     for pair in poses.windows(2) {
@@ -358,7 +361,7 @@ fn pair((x, y): (f64, f64)) -> String {
     format!("{} {}", short(x, 1), short(y, 1))
 }
 
-/// Writes a number with at most `decimals` decimals.
+/// Returns a number with at most `decimals` decimals.
 fn short(number: f64, decimals: usize) -> String {
     let text = format!("{number:.decimals$}");
     let text = match text.contains('.') {
@@ -379,7 +382,7 @@ mod tests {
     use super::*;
     use crate::{BeliefAt, MapGrowth, MapNode, Scenery};
 
-    /// A robot that drives 4 m east, is put back, and drives 1 m of it again.
+    /// Returns the replay of a robot that drives 4 m east, is put back, and drives 1 m of it again.
     fn replay() -> Replay {
         let steps = (0..=4).chain(0..=1);
         let poses = steps.map(|x| Pose::new(Point::new(f64::from(x), 0.5), Heading::EAST));
@@ -423,7 +426,7 @@ mod tests {
         let clock = Clock::of(track, &chapters());
         assert_eq!(clock.steps.len(), 2 * (50 + 30));
         assert!(clock.steps.is_sorted());
-        // Half the time of the first chapter for half its way.
+        // Half of the first chapter's time shows half of its way.
         assert_eq!(clock.steps[25], 2);
         assert_eq!((clock.steps[79], clock.begins[1]), (4, 80));
         assert_eq!((clock.steps[80], clock.steps[159]), (5, 6));
@@ -433,7 +436,7 @@ mod tests {
     fn maps_grow_and_beliefs_are_shown_once_the_robot_was_lifted() {
         let svg = moving_picture(&replay(), &chapters());
         assert!(svg.contains(">away<") && svg.contains(">again<"));
-        // Of the two beliefs that before the robot was lifted is not shown.
+        // Of the two beliefs, the one before the robot was lifted is not shown.
         assert_eq!(svg.matches("<circle").count(), 1);
         // The second node and the link appear together.
         let born = "keyTimes=\"0;0.2375\"";

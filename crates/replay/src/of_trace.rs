@@ -1,4 +1,4 @@
-//! Replays of traces.
+//! Makes replays of traces.
 
 use core::fmt;
 use std::io::BufRead;
@@ -18,12 +18,12 @@ use super::difference::{Difference, first_difference};
 use super::floor::Floor;
 use super::{DoorChange, Fact, Mark, Marks, Replay, RobotTrack, Scenery, SceneryDoor, TimeSeries};
 
-/// View of a kind of robot in a replay, beyond its body.
+/// A kind of robot that replays can show: its sensor and commands, beyond its body.
 pub trait Portrait: Recordable {
     /// Returns its range sensor, if it has one.
     fn ring(config: &Self::Config) -> Option<Ring>;
 
-    /// Returns the parts of a command by name, as shares of their full rates.
+    /// Returns the named parts of a command, as shares of their full rates.
     fn parts(command: &Self::Command) -> Vec<(&'static str, f64)>;
 }
 
@@ -71,7 +71,7 @@ impl Portrait for Epuck {
     }
 }
 
-/// A trace in memory: what there is to show of it and to compare it by.
+/// A trace in memory: what a replay shows of it, and what traces are compared by.
 #[derive(Debug)]
 pub struct Trace<M: Recordable> {
     /// Name of the trace.
@@ -79,33 +79,33 @@ pub struct Trace<M: Recordable> {
     world: World,
     seed: u64,
     step_us: u64,
-    /// The world as the trace has it, for comparison.
+    /// Text of the world in the trace, for comparison.
     world_text: String,
     robots: Vec<RobotTrace<M>>,
     doors: Vec<(u32, String, DoorState)>,
 }
 
-/// Track of one robot of a trace.
+/// One robot of a trace.
 #[derive(Debug)]
 pub(super) struct RobotTrace<M: Recordable> {
     config: M::Config,
-    /// One more than there are commands.
+    /// Poses; one more than there are commands.
     pub(super) poses: Vec<Pose>,
     pub(super) commands: Vec<M::Command>,
-    /// One for each command.
+    /// Whether each command ended in a bump.
     pub(super) bumps: Vec<bool>,
-    /// The steps after which it was lifted.
+    /// Numbers of the steps after which it was lifted.
     lifts: Vec<u32>,
 }
 
-/// Reason why traces cannot be shown on one slider.
+/// Reason why traces cannot be shown together.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CompareError {
-    /// There is none.
+    /// No trace was given.
     #[error("there is no trace to show; give at least one")]
     None,
-    /// They happened in different worlds.
+    /// The traces are from different worlds.
     #[error(
         "{second} was recorded in another world than {first}; give traces of the same world, or replay each by itself"
     )]
@@ -115,7 +115,7 @@ pub enum CompareError {
         /// The name of the one that differs from it.
         second: String,
     },
-    /// Their time steps differ in length.
+    /// The time steps have different lengths.
     #[error("the time steps of {second} last {second_us} µs, those of {first} {first_us} µs")]
     Steps {
         /// The first trace's name.
@@ -132,7 +132,7 @@ pub enum CompareError {
     Robot {
         /// The trace's name.
         trace: String,
-        /// Number of the robot, from 0.
+        /// Index of the robot.
         robot: usize,
         /// The underlying error.
         source: Box<dyn core::error::Error + Send + Sync>,
@@ -142,9 +142,9 @@ pub enum CompareError {
 /// Comparison of a trace with the first one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TraceComparison {
-    /// The first trace's name.
+    /// Name of the first trace.
     pub first: String,
-    /// The other's.
+    /// Name of the other trace.
     pub second: String,
     /// First difference, or `None` if they are the same bit for bit.
     pub difference: Option<Difference>,
@@ -161,7 +161,8 @@ impl fmt::Display for TraceComparison {
 }
 
 impl<M: Portrait> Trace<M> {
-    /// Reads a trace to its end. Memory: about 100 bytes a step; what was sensed is not kept.
+    /// Reads a whole trace. It takes about 100 bytes of memory per step; sensor readings are not
+    /// kept.
     ///
     /// # Errors
     /// If it cannot be read, with the line.
@@ -230,8 +231,8 @@ impl<M: Portrait> Trace<M> {
         scenery
     }
 
-    /// When a door changed by its schedule and from outside. That a door waits for a body in its
-    /// way is not in the trace, so it may be shown shut a little too soon.
+    /// Adds when a door changed by its schedule and from outside. A door waits for a body in its
+    /// way, which the trace does not show. So the replay may show it shut a little too early.
     fn open_and_shut(&self, door: &mut SceneryDoor, schedule: &[DoorEvent]) {
         let scheduled = schedule.iter().map(|event| DoorChange {
             step: (event.time_us / self.step_us.max(1)) as u32,
@@ -290,7 +291,7 @@ impl<M: Portrait> RobotTrace<M> {
                 if track.series.len() <= i {
                     track.series.push(TimeSeries::new(format!("{name}, %"), ""));
                 }
-                // Whole per cent: what a reader takes in, in few bytes.
+                // Whole per cent are precise enough for a reader, and take few bytes.
                 track.series[i].sample(step, libm::round(100.0 * share));
             }
         }
@@ -298,15 +299,15 @@ impl<M: Portrait> RobotTrace<M> {
     }
 }
 
-/// Returns the first step at which a robot is where it was to go.
+/// Returns a mark at the first step at which a robot is at its destination.
 fn arrival(poses: &[Pose], there: impl Fn(&Pose) -> bool) -> Marks {
     let first = poses.iter().position(there);
     Marks::new(Mark::Arrival, "arrived", first.map(|step| step as u32))
 }
 
 impl Replay {
-    /// Returns the replay of one trace, or of several in the same world on one slider, with how
-    /// each compares to the first. The first step at which one differs is marked.
+    /// Returns the replay of one trace, or of several in the same world side by side, and the
+    /// comparison of each with the first. The first step at which one differs is marked.
     ///
     /// Linear in the length of the traces; nothing is simulated.
     ///

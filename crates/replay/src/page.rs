@@ -1,26 +1,26 @@
-//! The file.
+//! The HTML file of a replay.
 
 use maud::{DOCTYPE, PreEscaped, html};
 
 use super::{EncodeError, Replay, json};
 
-/// Generator named in the page, by which a command recognizes its own files.
+/// Generator named in the page, by which the command recognizes its own files.
 const GENERATOR: &str = "tolman replay";
 
-/// Returns the player, for a page that opens replays itself: it defines `TolmanReplay`. What is
-/// there for readers of the source is left out.
+/// Returns the player, for a page that opens replays itself. It defines `TolmanReplay`. Comments
+/// are removed.
 #[must_use]
 pub fn script() -> String {
     compact(include_str!("player.js"))
 }
 
-/// Returns the rules the player is drawn by. All lie below `.tolman-replay`.
+/// Returns the player's style rules. All of them apply below `.tolman-replay`.
 #[must_use]
 pub const fn style() -> &'static str {
     include_str!("player.css")
 }
 
-/// Returns the whole file: it opens in any browser and needs no network.
+/// Returns the whole HTML file, which opens in any browser and needs no network.
 ///
 /// # Errors
 /// As [`json`].
@@ -53,7 +53,7 @@ pub fn page(replay: &Replay) -> Result<String, EncodeError> {
     Ok(page.into_string())
 }
 
-/// Returns whether a file that begins with these bytes was made by [`page`]. The first thousand are
+/// Returns whether [`page`] made a file that begins with these bytes. The first thousand are
 /// enough.
 #[must_use]
 pub fn is_replay(beginning: &[u8]) -> bool {
@@ -63,8 +63,8 @@ pub fn is_replay(beginning: &[u8]) -> bool {
         .any(|window| window == mark.as_bytes())
 }
 
-/// Leaves out comments on lines of their own, indentation, and spaces and line ends that separate
-/// nothing. Texts must be in double quotes and on one line.
+/// Removes comments on lines of their own, indentation, and spaces and line ends that separate
+/// nothing. Strings must be in double quotes and on one line.
 fn compact(source: &str) -> String {
     let lines = source.lines().map(str::trim);
     let code: Vec<&str> = lines
@@ -97,8 +97,8 @@ fn compact(source: &str) -> String {
     out
 }
 
-/// Returns whether no space is needed beside this. Plus and minus are not among them: two of them
-/// are something else.
+/// Returns whether no space is needed beside this character. Plus and minus always need one: two of
+/// them are another operator.
 fn separates(c: char) -> bool {
     ",;:{}()[]?=<>*&|!".contains(c)
 }
@@ -111,7 +111,7 @@ mod tests {
     use super::*;
     use crate::{RobotTrack, Scenery};
 
-    /// Returns a replay whose every text tries to end the script it stands in.
+    /// Returns a replay in which every text tries to end the script that contains it.
     fn hostile() -> Replay {
         let text = "</script><script>alert(1)</script><!--";
         let poses = vec![Pose::new(Point::origin(), Heading::EAST)];

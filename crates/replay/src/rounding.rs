@@ -1,14 +1,14 @@
-//! Poses in whole numbers.
+//! Poses rounded to whole numbers.
 
 use core::f64::consts::{PI, TAU};
 
 use tolman_geom::{Point, Pose};
 use tolman_sim::Bounds;
 
-/// The largest value of a coordinate: the far edge of the rectangle.
+/// Largest value of a coordinate: the far edge of the rectangle.
 const FAR: f64 = 65535.0;
 
-/// A full turn; it is the same as none.
+/// A full turn, which equals none.
 const TURN: f64 = 65536.0;
 
 /// Returns a pose inside a rectangle as x, y and heading, rounded to 16 bits each.
@@ -32,8 +32,8 @@ pub(super) fn rounded(&Bounds { min, max }: &Bounds, pose: Pose) -> [u16; 3] {
     ]
 }
 
-/// Returns the smallest rectangle that holds all of these, one metre wide and high if it is a point
-/// or nothing.
+/// Returns the smallest rectangle that holds all points. For a single point or none, it is one
+/// metre wide and high.
 pub(super) fn bounds_of(points: impl IntoIterator<Item = Point>) -> Bounds {
     let bounds = Bounds::of(points);
     if bounds.width() > 0.0 || bounds.height() > 0.0 {
@@ -57,7 +57,7 @@ mod tests {
 
     use super::*;
 
-    /// Returns what the player makes of it.
+    /// Returns the pose that the player decodes.
     fn decode(bounds: Bounds, numbers: [u16; 3]) -> Pose {
         let [x, y, h] = numbers.map(f64::from);
         let position = Point::new(

@@ -4,22 +4,22 @@ use serde::Serialize;
 use tolman_geom::{Point, Vector};
 use tolman_sim::{Area, Bounds, World};
 
-/// Things that stand still: walls, zones of the floor, and doors in their frames. Metres, x to the
-/// right and y upwards.
+/// Fixed things: walls, zones of the floor, and doors. Coordinates are in metres, x to the right
+/// and y upwards.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scenery {
     /// The ends of each wall.
     pub walls: Vec<[Point; 2]>,
     /// Parts of the floor.
     pub zones: Vec<SceneryZone>,
-    /// Walls that come and go.
+    /// Doors.
     pub doors: Vec<SceneryDoor>,
 }
 
 /// A part of the floor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneryZone {
-    /// Meaning, which sets the colour.
+    /// Meaning, which decides the colour.
     pub kind: ZoneKind,
     /// Name.
     pub name: String,
@@ -35,29 +35,29 @@ pub enum ZoneKind {
     Destination,
     /// Start of the robot.
     Start,
-    /// A part of the floor that is told apart.
+    /// A part of the floor that is marked.
     Region,
-    /// No floor at all: walled off.
+    /// Walled off: no floor.
     Solid,
 }
 
-/// A wall that comes and goes.
+/// A wall that opens and shuts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneryDoor {
     /// Name.
     pub name: String,
     /// Its ends.
     pub ends: [Point; 2],
-    /// States with their first steps, ascending; before the first change it is open.
+    /// Changes, ascending by step; before the first one it is open.
     pub changes: Vec<DoorChange>,
 }
 
 /// One change of a [`SceneryDoor`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DoorChange {
-    /// The step from which it holds.
+    /// First step at which it holds.
     pub step: u32,
-    /// Whether the door lets through.
+    /// Whether the door is open.
     pub state: tolman_sim::DoorState,
 }
 
@@ -65,8 +65,7 @@ pub struct DoorChange {
 const DISC_CORNERS: u32 = 48;
 
 impl Scenery {
-    /// Returns the walls and zones of a simulated world, and its doors as they stand at the
-    /// beginning.
+    /// Returns the walls and zones of a simulated world, and its doors in their first states.
     #[must_use]
     pub fn of_world(world: &World) -> Self {
         let zones = world.zones().iter().flat_map(|zone| {

@@ -1,4 +1,4 @@
-//! The e-puck: its measures, what it senses, what it is told.
+//! The e-puck: its measures, its sensing and its commands.
 
 use core::f64::consts::{PI, TAU};
 

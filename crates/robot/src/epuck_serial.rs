@@ -57,8 +57,8 @@ use crate::epuck::{
 /// No answer is longer, with the empty lines before it, bytes.
 const LONGEST: usize = 256;
 
-/// Number of lines that are no answer and may come while a connection is opened: the firmware's
-/// greeting, or answers to what was asked before.
+/// Maximum number of lines that are not an answer while a connection is opened: the firmware's
+/// greeting, or answers to earlier questions.
 const FOREIGN_LINES: usize = 8;
 
 /// A real e-puck behind a port.
@@ -235,7 +235,7 @@ impl<P: Read + Write, W: FnMut(Duration)> Robot for SerialEpuck<P, W> {
     }
 }
 
-/// Reason why the e-puck does not do what it is told.
+/// Reason why the e-puck does not obey.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SerialError {
@@ -285,7 +285,7 @@ pub enum SerialError {
         /// Speed that it reports, left and right, encoder steps a second.
         set: [i32; 2],
     },
-    /// A speed is no number.
+    /// A speed is not a number.
     #[error("the speed of a wheel is not finite; give finite numbers")]
     NotFinite,
 }

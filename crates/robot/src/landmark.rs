@@ -20,7 +20,7 @@ pub trait SensesLandmarks: Robot {
 }
 
 /// Any robot, and who tells whether it stands at a landmark. A robot without a sensor for that
-/// needs a camera above the maze, a mark on the floor, or whoever watches.
+/// needs a camera above the maze, a mark on the floor, or a person who watches.
 ///
 /// ```
 /// use tolman_robot::{Landmark, Landmarked, Robot, SensesLandmarks};

@@ -9,7 +9,7 @@ use crate::Landmark;
 ///
 /// Each mapper says in [`Observation`](Self::Observation) what it takes in at a time: MSLST a time
 /// step with its scan and the action under way, CPM a fragment walked from place to place, the
-/// diktiometry a move with bounds on its odometry. Whoever has a log makes these of it; what a
+/// diktiometry a move with bounds on its odometry. Make these from your log; what a
 /// mapper needs and a log does not have is a field that cannot be filled.
 pub trait Mapper {
     /// One observation of the mapper.
@@ -20,8 +20,8 @@ pub trait Mapper {
     /// Takes in one observation.
     ///
     /// # Errors
-    /// If the observation is no number, or cannot follow what was seen before. The map is then as
-    /// before.
+    /// If the observation is not a number, or cannot follow what was seen before. The map is then
+    /// unchanged.
     fn observe(&mut self, seen: &Self::Observation) -> Result<(), Self::Error>;
 
     /// Returns what it has learned, as places and links that any scorer and any drawing can read;
@@ -47,8 +47,8 @@ pub trait Mapper {
         self.visits().len()
     }
 
-    /// Returns how likely it takes its map to be that of what it has seen, 0 … 1; `None` if it does
-    /// not weigh that.
+    /// Returns the probability that its map is right of what it has seen, 0 … 1; `None` if it does
+    /// not estimate that.
     fn certainty(&self) -> Option<f64> {
         None
     }

@@ -14,7 +14,7 @@ pub struct Snapshot {
 
 /// Can take a snapshot: senses ranges, a picture, or both.
 pub trait TakesSnapshots: Soundings {
-    /// Returns what is perceived in this time step; `None` while there is nothing whole to be had,
+    /// Returns what is perceived in this time step; `None` while nothing complete is available,
     /// such as a picture while the robot moves.
     fn snapshot(&self) -> Option<Snapshot>;
 }

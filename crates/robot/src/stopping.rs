@@ -80,7 +80,7 @@ impl<R: SensesLandmarks> SensesLandmarks for Stopping<R> {
 
 impl<R: Robot> Drop for Stopping<R> {
     fn drop(&mut self) {
-        // Nobody is left to be told that the robot no longer listens.
+        // If the robot no longer obeys, there is no one to report it to.
         let _ = self.0.stop();
     }
 }

@@ -25,8 +25,8 @@ pub trait System<R: Robot>: Mapper {
         Standing::gave_up("it follows its robot, and cannot find out where it is put down")
     }
 
-    /// Returns in a few words what it makes of its situation, such as `lost`; empty if there is
-    /// nothing to say. For whoever watches.
+    /// Returns its situation in a few words for a viewer, such as `lost`; empty if there is nothing
+    /// to say.
     fn words(&self) -> String {
         String::new()
     }

@@ -7,7 +7,7 @@
 //! | `ParryPolyline` (feature `parry2d`) | any | parry2d's bounding volume hierarchy, ray by ray: the reference |
 //!
 //! A world chooses one of the first two itself. `ParryPolyline` is there to judge them: it shares
-//! no line with them, so whoever writes a caster, or doubts a range in a world of their own, can
+//! no line with them. If you write a caster, or doubt a range in a world of your own, you can
 //! hold one to the other. That is why the feature `parry2d` is on by default. Without it the
 //! simulator computes the same bits, builds 14 crates fewer, and `ParryPolyline` is no name the
 //! compiler knows.

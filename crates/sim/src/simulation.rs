@@ -194,8 +194,8 @@ impl<M: Model> Simulation<M> {
         );
     }
 
-    /// Lifts a robot and sets it down at `pose`, which it notices at its next step at the earliest:
-    /// a kidnapping.
+    /// Lifts a robot and puts it down at `pose`: a kidnapping. It notices at its next step at the
+    /// earliest.
     ///
     /// # Errors
     /// If it cannot stand there, in which case it stays where it is, or there is no such robot.
@@ -294,7 +294,7 @@ impl<M: Model> Simulation<M> {
         self.tick * self.step_us
     }
 
-    /// Returns how a door stands.
+    /// Returns the state of a door.
     ///
     /// # Errors
     /// If there is no such door.
@@ -457,7 +457,7 @@ pub enum PlaceError {
     Step {
         /// The robot's, µs.
         step_us: u64,
-        /// That of the robots before it, µs; 0 if it is the first.
+        /// Time step of the robots before it, µs; 0 if it is the first.
         expected_us: u64,
     },
     /// There is no such robot.

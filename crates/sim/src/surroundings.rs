@@ -32,7 +32,7 @@ pub struct Echo {
 }
 
 impl Echo {
-    /// Takes in something at `range`, which counts if it is nearer than what was met so far.
+    /// Takes in something at `range`, which counts if it is nearer than all before.
     fn shorten(&mut self, range: f64, material: Material) {
         if range < self.range {
             *self = Self { range, material };
@@ -79,7 +79,7 @@ impl<'a> Surroundings<'a> {
             }
             echo
         });
-        // Who is near is asked once for all rays, which begin somewhere on the body.
+        // All rays begin somewhere on the body, so the robots near by are determined once.
         let here = self.truth.pose.position;
         let spread = rays.iter().map(|ray| (ray.origin - here).norm());
         let reach = max_range + spread.fold(0.0, f64::max);

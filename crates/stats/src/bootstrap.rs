@@ -161,7 +161,7 @@ pub fn bootstrap_means(
 /// in Efron's percentile method. O(n log n).
 ///
 /// # Errors
-/// If there are no replicates, one is not finite, or the level is no probability.
+/// If there are no replicates, one is not finite, or the level is not a probability.
 pub fn percentile_interval(
     replicates: &[f64],
     level: f64,

@@ -32,7 +32,7 @@ pub struct SampleSummary {
 /// ```
 ///
 /// # Errors
-/// If there are no trials, more successes than trials, or the level is no probability.
+/// If there are no trials, more successes than trials, or the level is not a probability.
 pub fn rate_difference_interval(
     a: (u64, u64),
     b: (u64, u64),
@@ -68,7 +68,7 @@ pub fn rate_difference_interval(
 /// ```
 ///
 /// # Errors
-/// If a sample has fewer than two values or a spread that is no number ≥ 0, or the level is no
+/// If a sample has fewer than two values or a spread that is not a number ≥ 0, or the level is no
 /// probability.
 pub fn mean_difference_interval(
     a: SampleSummary,

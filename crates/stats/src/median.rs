@@ -26,8 +26,9 @@ use super::{ConfidenceInterval, SampleError};
 /// ```
 ///
 /// # Errors
-/// If the sample is not finite or `level` is no probability, and if the sample is too small: even
-/// its least and greatest value hold the median less often than `level`. 0.95 needs 6 values.
+/// If the sample is not finite or `level` is not a probability, or if the sample is too small:
+/// even its least and greatest value then hold the median less often than `level`. 0.95 needs 6
+/// values.
 pub fn median_interval(sample: &[f64], level: f64) -> Result<ConfidenceInterval, SampleError> {
     check(sample, 1)?;
     check_probability(level)?;

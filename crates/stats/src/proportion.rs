@@ -8,7 +8,7 @@ use super::{ConfidenceInterval, SampleError, normal};
 /// statistical inference", 1927), between 0 and 1.
 ///
 /// # Errors
-/// If there are no trials, more successes than trials, or the level is no probability.
+/// If there are no trials, more successes than trials, or the level is not a probability.
 pub fn wilson_interval(
     successes: u64,
     trials: u64,
@@ -39,7 +39,7 @@ pub fn wilson_interval(
 /// ```
 ///
 /// # Errors
-/// If there are no trials, more successes than trials, or the level is no probability.
+/// If there are no trials, more successes than trials, or the level is not a probability.
 pub fn exact_binomial_interval(
     successes: u64,
     trials: u64,

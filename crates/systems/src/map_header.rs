@@ -23,7 +23,7 @@ const FORMER: [(&str, &str); 3] = [
 /// The map files of one system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MapFiles {
-    /// Name of the system, as `tolman learn --system` has it.
+    /// Name of the system, as in `tolman learn --system`.
     pub system: &'static str,
 }
 
@@ -57,7 +57,7 @@ pub enum FileError {
         /// Format that the file names.
         found: String,
     },
-    /// The format is one that is no longer read.
+    /// This format is no longer read.
     #[error(
         "its format, {found:?}, is no longer read: make a new map with `tolman learn --system {system}`"
     )]
@@ -75,7 +75,7 @@ pub enum FileError {
         /// Version that the file names.
         found: u32,
     },
-    /// The version is one that is no longer read, or that never was.
+    /// This version is no longer read, or never existed.
     #[error(
         "its version is {found}, but this program reads only {VERSION}: make a new map with `tolman learn`"
     )]
@@ -194,7 +194,7 @@ impl MapFiles {
     ///
     /// # Errors
     /// [`FileError`] if the text has no header, or one of another format or version, or if the map
-    /// is another system's or not sound.
+    /// is another system's or invalid.
     pub fn read<B: DeserializeOwned>(self, text: &str) -> Result<(Origin, B), FileError> {
         let Header { system, origin } = header(text)?;
         if system != self.system {

@@ -276,9 +276,9 @@ fn patterns() -> CommonPatterns {
 }
 
 /// The same walk to the bit, whether the robot is owned or lent for a fragment at a time; and the
-/// same map, of whoever only watches.
+/// same map as an observer that only watches.
 #[test]
-fn it_walks_as_with_a_body_of_its_own_and_whoever_watches_learns_the_same() {
+fn it_walks_as_with_a_body_of_its_own_and_a_watcher_learns_the_same() {
     let patterns = patterns();
     let mut lent = ScriptedEpuck::in_maze(MAZE);
     let mut cpm = Cpm::new(config(), patterns.clone(), CpmConfig::online(), 7);

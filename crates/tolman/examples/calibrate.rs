@@ -69,7 +69,7 @@ fn main() -> Result<(), BoxError> {
     let runs: u64 = match std::env::args().nth(1) {
         Some(text) => text
             .parse()
-            .map_err(|_| format!("{text:?} is no number of runs"))?,
+            .map_err(|_| format!("{text:?} is not a number of runs"))?,
         None => 200,
     };
     let mut courses = Vec::new();

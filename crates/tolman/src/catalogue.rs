@@ -36,27 +36,27 @@ impl Catalogue {
         }
     }
 
-    /// Returns the catalogue with another name of the program.
+    /// Returns the catalogue with `program` as the program's name.
     #[must_use]
     pub fn program(self, program: &'static str) -> Self {
         Self { program, ..self }
     }
 
-    /// Returns it with one more system.
+    /// Returns the catalogue with one more system.
     #[must_use]
     pub fn system(mut self, system: &'static dyn SystemEntry) -> Self {
         self.systems.push(system);
         self
     }
 
-    /// Returns it with one more family of worlds.
+    /// Returns the catalogue with one more family of worlds.
     #[must_use]
     pub fn family(mut self, family: Family) -> Self {
         self.families.push(family);
         self
     }
 
-    /// Returns it with one more experiment.
+    /// Returns the catalogue with one more experiment.
     #[must_use]
     pub fn experiment(mut self, experiment: Entry) -> Self {
         self.experiments.push(experiment);

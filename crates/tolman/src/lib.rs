@@ -1,8 +1,8 @@
-//! The application: it composes robots, systems, worlds and tables, and is the `tolman` command.
+//! The application: it combines robots, systems, worlds and tables, and is the `tolman` command.
 //!
-//! A [`Catalogue`] is what the command knows by name; [`run`] is the command. Whoever has a
-//! [system](system::SystemEntry) or an experiment of their own adds it to the catalogue in a
-//! program of their own:
+//! A [`Catalogue`] lists what the command knows by name, and [`run`] is the command. To add a
+//! [system](system::SystemEntry) or an experiment of your own, write a program that adds it to the
+//! catalogue:
 //!
 //! ```no_run
 //! use std::process::ExitCode;

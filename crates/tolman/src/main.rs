@@ -1,4 +1,4 @@
-//! The `tolman` command: `tolman --help`.
+//! The `tolman` command; `tolman --help` describes it.
 
 use std::process::ExitCode;
 

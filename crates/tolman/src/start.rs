@@ -7,19 +7,19 @@ use anyhow::{Error, anyhow};
 use tolman_arena::course::Course;
 use tolman_geom::{Heading, Point, Pose};
 
-/// What `--start` can say.
+/// A start as `--start` gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Start {
-    /// Anywhere, as in the experiments.
+    /// A random pose, as in the experiments.
     Random,
-    /// In the middle of the cell that the maze marks.
+    /// The middle of the cell that the maze marks.
     Marked,
-    /// Exactly here.
+    /// This pose, in metres and radians.
     At(Pose),
 }
 
 impl Start {
-    /// Returns the pose on a course that this says; a random one is what `random` makes.
+    /// Returns the start pose on `course`. `random` is called for a random one.
     ///
     /// # Errors
     /// If the maze marks no start, or no way leads on from there.

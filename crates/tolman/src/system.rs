@@ -1,4 +1,4 @@
-//! Systems by name: what `tolman learn`, `tolman drive` and `tolman map` know of one.
+//! Systems by name, for `tolman learn`, `tolman drive` and `tolman map`.
 
 use alloc::fmt;
 
@@ -22,15 +22,15 @@ use crate::start::Start;
 
 /// A system by its name, with the robots that it can drive.
 ///
-/// An implementation makes the system and its robot ready; the command lets it act, watches it, and
-/// keeps its map. To add one, put it into the [`Catalogue`](crate::Catalogue).
+/// An implementation prepares the system and its robot. The command lets it act, watches it, and
+/// stores its map. To add one, put it into the [`Catalogue`](crate::Catalogue).
 pub trait SystemEntry: Sync {
-    /// Returns its name, as in `--system NAME` and in the files of its maps.
+    /// Returns the name, as in `--system NAME` and in the files of its maps.
     fn name(&self) -> &'static str;
 
     /// Returns a description in one line.
     fn about(&self) -> &'static str {
-        "A system of one's own"
+        "A system from another crate"
     }
 
     /// Returns the names of its presets with their descriptions; the first is the default.
@@ -43,14 +43,14 @@ pub trait SystemEntry: Sync {
         &[]
     }
 
-    /// Makes it ready to learn a maze.
+    /// Returns the system ready to learn a maze.
     ///
     /// # Errors
-    /// If maze, start or settings do not serve.
+    /// If maze, start or settings do not fit.
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error>;
 
-    /// Returns the system ready to go to the goal by a map, or by the one of several maps that is
-    /// of the maze. By default it cannot.
+    /// Returns the system ready to drive to the goal by a map. Given several maps, it finds out
+    /// which is that of the maze. The default implementation refuses.
     ///
     /// # Errors
     /// If maps, maze, start or settings do not fit.
@@ -58,10 +58,10 @@ pub trait SystemEntry: Sync {
         Err(anyhow!("{} does not drive by a map", self.name()))
     }
 
-    /// Reads a map and returns it. By default only its origin is known.
+    /// Returns the learned map in a file. The default implementation knows only its origin.
     ///
     /// # Errors
-    /// If it is invalid.
+    /// If the file is invalid.
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
         Ok(Box::new(map.clone()))
     }
@@ -72,35 +72,36 @@ pub trait SystemEntry: Sync {
 pub struct MapText {
     /// Name in messages.
     pub name: String,
-    /// The name of its system.
+    /// Name of its system.
     pub system: String,
     /// Maze, robot and seed of the map's origin.
     pub origin: Origin,
-    /// All of it.
+    /// Text of the whole file.
     pub text: String,
 }
 
 /// A map as the command shows it.
 pub trait LearnedMap {
-    /// Returns what it holds, line by line.
+    /// Returns a description of the map, line by line.
     fn lines(&self) -> Vec<String>;
 
-    /// Returns the same as JSON.
+    /// Returns the same description as JSON.
     fn json(&self) -> Value;
 
-    /// Returns a drawing over the maze or the world in which it was learned, for a robot like the
+    /// Returns a drawing over the maze or world in which the map was learned, for a robot like the
     /// one that learned it.
     ///
     /// # Errors
-    /// If that does not fit, or such maps cannot be drawn.
+    /// If `terrain` does not fit, or such maps cannot be drawn.
     fn drawing(&self, _terrain: &Terrain) -> Result<Drawing, Error> {
         Err(anyhow!(
             "there is no picture of such a map: leave --svg out"
         ))
     }
 
-    /// Returns the way from one place to another, one line per step. The defaults are the believed
-    /// place, or the maze's start, and the goal. `None` if no way is known.
+    /// Returns the way between two places, one line per step, or `None` if no way is known.
+    ///
+    /// `from` defaults to the believed place, or else the maze's start; `to` defaults to the goal.
     ///
     /// # Errors
     /// If there is no such place.
@@ -108,10 +109,10 @@ pub trait LearnedMap {
         Err(anyhow!("no way can be planned on such a map"))
     }
 
-    /// Returns why it is wrong or unfinished as a map of this maze or world; `None` if it is right.
+    /// Returns why the map is wrong or unfinished as a map of `terrain`; `None` if it is right.
     ///
     /// # Errors
-    /// If that does not fit, or it cannot be told.
+    /// If `terrain` does not fit, or such maps cannot be checked.
     fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, Error> {
         Err(anyhow!("such a map cannot be checked"))
     }
@@ -133,10 +134,10 @@ impl LearnedMap for MapText {
     }
 }
 
-/// Everything with which a robot is sent out.
+/// Everything that a robot is sent out with.
 #[derive(Clone, Debug)]
 pub struct Setup<'a> {
-    /// The name of the maze or world.
+    /// Name of the maze or world.
     pub world: &'a str,
     /// The maze or world.
     pub terrain: &'a Terrain,
@@ -144,18 +145,18 @@ pub struct Setup<'a> {
     pub seed: u64,
     /// Where the robot starts; `None` for the system's default.
     pub start: Option<Start>,
-    /// Time steps after which it has failed; `None` for the system's default.
+    /// Number of time steps after which it has failed; `None` for the system's default.
     pub steps: Option<u32>,
     /// Name of one of the system's robots; `None` for the first.
     pub robot: Option<&'a str>,
-    /// The map that it goes on with when it learns.
+    /// Map to continue learning from; `None` to begin with an empty one.
     pub from: Option<&'a MapText>,
     /// Settings of the system.
     pub settings: Settings<'a>,
 }
 
 impl Setup<'_> {
-    /// Returns where a map that is learned now comes from.
+    /// Returns the origin of a map that is learned now.
     #[must_use]
     pub fn origin(&self, course: &Course, robot: &str) -> Origin {
         Origin {
@@ -166,10 +167,10 @@ impl Setup<'_> {
         }
     }
 
-    /// Returns the one of `robots` that is meant.
+    /// Returns the one of `robots` that the setup names, or the first.
     ///
     /// # Errors
-    /// If it is not one of them.
+    /// If the setup names another one.
     pub fn robot(&self, robots: &[&'static str]) -> Result<&'static str, Error> {
         choose(
             self.robot,
@@ -178,8 +179,8 @@ impl Setup<'_> {
         )
     }
 
-    /// Returns where the robot starts on `course`: what was said, else `usual`. A random start is
-    /// what `random` makes.
+    /// Returns where the robot starts on `course`: the start that was given, or else `usual`.
+    /// `random` is called for a random one.
     ///
     /// # Errors
     /// If the maze marks no start, or no way leads on from there.
@@ -192,10 +193,10 @@ impl Setup<'_> {
         self.start.unwrap_or(usual).on(course, random)
     }
 
-    /// Refuses to go on with a map.
+    /// Refuses to continue from a map.
     ///
     /// # Errors
-    /// If there is one.
+    /// If the setup has one.
     pub fn anew(&self, system: &str) -> Result<(), Error> {
         match self.from {
             Some(map) => Err(anyhow!(
@@ -207,20 +208,20 @@ impl Setup<'_> {
     }
 }
 
-/// Settings of a system: a preset, and changes to it.
+/// Settings of a system: a preset and changes to it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settings<'a> {
     /// The preset; `None` for the first.
     pub preset: Option<&'a str>,
-    /// Fields by their path with their values, as TOML.
+    /// Fields by their path, each with its value as TOML.
     pub set: &'a [(String, String)],
 }
 
 impl Settings<'_> {
-    /// Returns the one of `presets` that is meant.
+    /// Returns the one of `presets` that is chosen, or the first.
     ///
     /// # Errors
-    /// If it is not one of them.
+    /// If another one is chosen.
     pub fn preset<T>(
         &self,
         presets: impl IntoIterator<Item = (&'static str, T)>,
@@ -228,7 +229,7 @@ impl Settings<'_> {
         choose(self.preset, presets, "preset")
     }
 
-    /// Returns `preset` with the fields that are set changed.
+    /// Returns `preset` with the changes made.
     ///
     /// # Errors
     /// If there is no such field, or it cannot have that value.
@@ -247,7 +248,7 @@ impl Settings<'_> {
     }
 }
 
-/// Changes one field of a table.
+/// Sets the field at `path` of a table to `value`.
 fn set(table: &mut toml::Table, path: &str, value: &str) -> Result<(), Error> {
     let (name, rest) = path.split_once('.').unwrap_or((path, ""));
     let Some(field) = table.get_mut(name) else {
@@ -262,7 +263,7 @@ fn set(table: &mut toml::Table, path: &str, value: &str) -> Result<(), Error> {
     let whole: Result<toml::Table, _> = toml::from_str(&format!("value = {value}"));
     let read = whole.ok().and_then(|mut whole| whole.remove("value"));
     let read = read.unwrap_or_else(|| toml::Value::String(value.to_owned()));
-    // A whole number is a real one too.
+    // A whole number may stand for a real one.
     *field = match (&field, &read) {
         (toml::Value::Float(_), toml::Value::Integer(number)) => toml::Value::Float(*number as f64),
         _ => read,
@@ -270,7 +271,7 @@ fn set(table: &mut toml::Table, path: &str, value: &str) -> Result<(), Error> {
     Ok(())
 }
 
-/// Returns what `name` stands for, or the first.
+/// Returns the known entry called `name`, or the first without a name.
 fn choose<T>(
     name: Option<&str>,
     known: impl IntoIterator<Item = (&'static str, T)>,
@@ -278,7 +279,7 @@ fn choose<T>(
 ) -> Result<T, Error> {
     let mut names = Vec::new();
     for (known, thing) in known {
-        // "laser-pioneer" is the laser Pioneer.
+        // Names compare as they are typed: "laser-pioneer" is the laser Pioneer.
         if name.is_none_or(|name| slug(name) == slug(known)) {
             return Ok(thing);
         }
@@ -291,11 +292,11 @@ fn choose<T>(
     ))
 }
 
-/// Puts the calibrated laser Pioneer on the course of the maze, by chance if nothing is said, and
-/// returns the layers that drive it there.
+/// Puts the calibrated laser Pioneer on the course of the maze, and returns both with the layers
+/// that drive it. Without a given start, its pose is random.
 ///
 /// # Errors
-/// If maze, robot or start do not serve.
+/// If maze, robot or start do not fit.
 pub fn laser_pioneer(setup: &Setup<'_>) -> Result<(Course, CoursePioneer, Stack), Error> {
     setup.robot(&[LASER_PIONEER])?;
     let course = setup.terrain.course(setup.world, &body())?;
@@ -305,7 +306,7 @@ pub fn laser_pioneer(setup: &Setup<'_>) -> Result<(Course, CoursePioneer, Stack)
     Ok((course, robot, layers))
 }
 
-/// Puts the calibrated laser Pioneer at `start`. `seed` is that of all noise.
+/// Returns the calibrated laser Pioneer at `start`; `seed` seeds all of its noise.
 ///
 /// # Errors
 /// If it cannot stand there.
@@ -313,7 +314,7 @@ pub(crate) fn pioneer_at(course: &Course, start: Pose, seed: u64) -> Result<Cour
     Ok(course.robot_at(start, LaserPioneer::new(calibrated())?, seed)?)
 }
 
-/// Returns where a robot of this body starts on `course`: the given start, or else a random one.
+/// Returns where a robot with this body starts on `course`: at the given start, or at random.
 ///
 /// # Errors
 /// As [`Setup::start`].
@@ -322,7 +323,7 @@ pub fn start_anywhere(setup: &Setup<'_>, course: &Course, body: &Body) -> Result
     setup.start(course, Start::Random, random)
 }
 
-/// Returns a name as it is typed.
+/// Returns a name as it is typed on the command line.
 pub(crate) fn slug(name: &str) -> String {
     name.to_lowercase().replace(' ', "-")
 }

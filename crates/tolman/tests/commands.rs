@@ -6,6 +6,7 @@
 //! `cargo build --release -p tolman`, then
 //! `TOLMAN=target/debug/tolman cargo test -p tolman --test commands -- --ignored`.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![expect(clippy::print_stderr, reason = "it says what takes long")]
 #![cfg(unix)]
 
 use std::fs;

@@ -1,5 +1,5 @@
 //! `cargo xtask fuzz`: mutated files for all readers, or for one, as many as there is time for.
-#![expect(clippy::print_stderr, reason = "it reports to whoever started it")]
+#![expect(clippy::print_stderr, reason = "it reports on stderr")]
 
 use core::error::Error;
 use core::time::Duration;

@@ -13,7 +13,7 @@ const LONGEST: usize = 1 << 16;
 /// Most changes of one file.
 const MOST_CHANGES: u32 = 6;
 
-/// Numbers at the edges of what types hold, and what is no number.
+/// Numbers at the limits of their types, and texts that are not numbers.
 const NUMBERS: [&str; 24] = [
     "0",
     "-0",

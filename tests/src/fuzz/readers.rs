@@ -29,7 +29,7 @@ use tolman_systems::{cpm, gngslam, mslst};
 
 use super::Answer;
 
-/// Returns what `take` makes of a text; what is no text is refused before.
+/// Returns what `take` makes of a text; bytes that are not text are refused before.
 fn of_text(bytes: &[u8], take: impl FnOnce(&str) -> Answer) -> Answer {
     str::from_utf8(bytes).map_or(Answer::Refused, take)
 }

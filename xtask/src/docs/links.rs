@@ -1,19 +1,19 @@
 //! Links in Markdown, as far as the project's pages use it: inline links and images, reference
-//! definitions, headings; code is skipped.
+//! definitions, headings. Code is skipped.
 
 use std::fs;
 use std::path::Path;
 
-/// One link of a page.
+/// A link on a page.
 #[derive(Debug, PartialEq)]
 pub(super) struct Link<'a> {
-    /// Counted from 1.
+    /// Line, counted from 1.
     pub(super) line: usize,
     /// Path, address or `#heading`.
     pub(super) target: &'a str,
 }
 
-/// All links of a page, in order.
+/// Returns all links of a page, in order.
 pub(super) fn of(text: &str) -> Vec<Link<'_>> {
     let mut links = Vec::new();
     for (line, content) in prose(text) {
@@ -21,7 +21,7 @@ pub(super) fn of(text: &str) -> Vec<Link<'_>> {
             links.push(Link { line, target });
             continue;
         }
-        // Every second part lies between backticks. A link whose text is code still shows its `](`.
+        // Every second part is between backticks. A link whose text is code still shows its `](`.
         let mut outside_code = true;
         for part in content.split('`') {
             if outside_code {
@@ -33,7 +33,7 @@ pub(super) fn of(text: &str) -> Vec<Link<'_>> {
     links
 }
 
-/// Reason why `target`, found on `page`, leads nowhere; none if it leads somewhere or off the
+/// Returns why `target` on `page` leads nowhere; `None` if it leads somewhere or out of the
 /// project.
 pub(super) fn fault(page: &Path, text: &str, target: &str) -> Option<String> {
     if target.contains("://") || target.starts_with("mailto:") {
@@ -61,7 +61,7 @@ pub(super) fn fault(page: &Path, text: &str, target: &str) -> Option<String> {
     (!found).then(|| format!("`{target}`: there is no such heading"))
 }
 
-/// The lines outside fenced code, numbered from 1.
+/// Returns the lines outside fenced code, numbered from 1.
 fn prose(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut fenced = false;
     (1..).zip(text.lines()).filter(move |(_, line)| {
@@ -71,13 +71,13 @@ fn prose(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// The target of a line `[name]: target`.
+/// Returns the target of a line `[name]: target`.
 fn definition(line: &str) -> Option<&str> {
     let (name, rest) = line.strip_prefix('[')?.split_once("]:")?;
     (!name.starts_with('^')).then(|| rest.split_whitespace().next())?
 }
 
-/// The targets of all `](target)`.
+/// Returns the targets of all `](target)`.
 fn inline(text: &str) -> impl Iterator<Item = &str> {
     text.split("](").skip(1).filter_map(|rest| {
         let (target, _) = rest.split_once(')')?;
@@ -85,7 +85,7 @@ fn inline(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The anchors of a page's headings, as GitHub makes them.
+/// Returns the anchors of a page's headings, as GitHub makes them.
 fn headings(text: &str) -> impl Iterator<Item = String> {
     prose(text).filter_map(|(_, line)| {
         let title = line.trim_start_matches('#');

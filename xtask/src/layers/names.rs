@@ -1,5 +1,5 @@
-//! One public name means one thing: no type of a crate is called like another, but for those of the
-//! glossary's table.
+//! Checks that every public name means one thing: no two types have the same name, except for those
+//! in the glossary's table.
 
 use alloc::collections::BTreeMap;
 use std::path::Path;
@@ -9,18 +9,18 @@ use anyhow::{Context, Result};
 use super::page::{bare, names, rows};
 use crate::workspace::{entries, read};
 
-/// A name that several types may bear, as the table `name | where | why it is one thing` has it.
+/// A name that several types may have, as the table `name | where | why it is one thing` says.
 #[derive(Debug)]
 struct Allowed {
     name: String,
-    /// The modules that define it, such as `maps::cpm`; one each.
+    /// The modules that define it, such as `maps::cpm`; once each.
     places: Vec<String>,
 }
 
 /// The modules that define each name, such as `maps::cpm::map_file`.
 type Definitions = BTreeMap<String, Vec<String>>;
 
-/// The breaches, each with the name and where it is defined.
+/// Returns the breaches, each with the name and where it is defined.
 ///
 /// # Errors
 /// If a folder or a file cannot be read, or a row of the glossary's table is not understood.
@@ -37,7 +37,7 @@ pub(super) fn faults(crates: &Path, glossary: &Path) -> Result<Vec<String>> {
     Ok(compare(&definitions, &allowed))
 }
 
-/// Adds what is defined in a folder, which is the module `module`.
+/// Adds the names defined in a folder, which is the module `module`.
 fn collect(folder: &Path, module: &str, definitions: &mut Definitions) -> Result<()> {
     for path in entries(folder)? {
         let Some(stem) = path.file_stem().and_then(|stem| stem.to_str()) else {
@@ -60,7 +60,7 @@ fn collect(folder: &Path, module: &str, definitions: &mut Definitions) -> Result
     Ok(())
 }
 
-/// The name of the public type that a line of code begins to define.
+/// Returns the name of the public type that a line of code begins to define.
 fn defined(line: &str) -> Option<&str> {
     let (kind, rest) = line.trim_start().strip_prefix("pub ")?.split_once(' ')?;
     let name = rest
@@ -107,7 +107,7 @@ fn compare(definitions: &Definitions, allowed: &[Allowed]) -> Vec<String> {
 }
 
 impl Allowed {
-    /// Whether the row's modules define the name once each, and no other does.
+    /// Returns whether exactly the row's modules define the name, once each.
     fn is_of(&self, definitions: &[String]) -> bool {
         let lies_in = |definition: &str, place: &str| {
             let below = definition.strip_prefix(place);
@@ -133,7 +133,7 @@ mod tests {
 | `MapFile` | `maps::cpm`, `maps::grid` | each map has one |
 ";
 
-    /// The faults where these names are defined in these modules.
+    /// Returns the faults if these names are defined in these modules.
     fn faults_of(found: &[(&str, &[&str])]) -> Vec<String> {
         let of = |(name, places): &(&str, &[&str])| {
             let places = places.iter().map(|&place| place.to_owned()).collect();

@@ -1,38 +1,38 @@
-//! What is read by machine of the architecture page: two tables and the list of stable crates.
+//! Reads the architecture page: two tables and the list of stable crates.
 
 use anyhow::{Context, Result, bail, ensure};
 
-/// What the page says.
+/// The parts of the page that are checked.
 #[derive(Debug)]
 pub(crate) struct Page {
-    /// The table `crate | layer | library | may use | what`, one row a crate.
+    /// The table `crate | layer | library | may use | what`, one row per crate.
     pub(crate) crates: Vec<CrateRow>,
     /// The table `outside crate | seen by | why`.
     pub(super) outside: Vec<OutsideRow>,
-    /// The crates to which semantic versioning applies, without `tolman-`; empty if the page has no
-    /// such sentence.
+    /// The crates with semantic versioning, without `tolman-`; empty if the page has no such
+    /// sentence.
     pub(super) stable: Vec<String>,
 }
 
-/// One crate of the workspace.
+/// A crate of the workspace.
 #[derive(Debug)]
 pub(crate) struct CrateRow {
     pub(crate) name: String,
-    /// None for a member outside the layers, which no crate may depend on.
+    /// Layer; `None` for a member outside the layers, on which no crate may depend.
     pub(super) layer: Option<u8>,
     pub(crate) library: Library,
     pub(super) may_use: Vec<String>,
 }
 
-/// How much of the standard library a crate needs with its default features off.
+/// What a crate needs of the standard library with its default features off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Library {
-    /// It builds for bare metal, with or without an allocator.
+    /// Nothing, or an allocator: it builds for bare metal.
     NoStd,
     Std,
 }
 
-/// A crate of others that not everyone may see.
+/// An outside crate that only some crates may use.
 #[derive(Debug)]
 pub(super) struct OutsideRow {
     /// A package name; a `*` at its end stands for anything.
@@ -66,7 +66,7 @@ impl Page {
     }
 }
 
-/// The names in backticks between "Semantic versioning applies" and "The rest".
+/// Returns the names in backticks between "Semantic versioning applies" and "The rest".
 fn stable(text: &str) -> Vec<String> {
     let sentence = text
         .split_once("Semantic versioning applies")
@@ -106,7 +106,7 @@ fn crate_row([name, layer, library, may_use, _]: [&str; 5]) -> Result<CrateRow> 
     })
 }
 
-/// The rows below the header with these columns, each with its line counted from 1.
+/// Returns the rows below the header with these columns, each with its line, counted from 1.
 pub(super) fn rows<T, const N: usize>(
     text: &str,
     columns: [&str; N],
@@ -148,7 +148,7 @@ fn cells<const N: usize>(row: &str) -> Result<[&str; N]> {
         .with_context(|| format!("{found} cells where {N} are expected"))
 }
 
-/// A list like `` `a`, `b` ``; a dash for none.
+/// Returns the names of a list like `` `a`, `b` ``; a dash stands for none.
 pub(super) fn names(cell: &str) -> Result<Vec<String>> {
     if cell == "–" {
         return Ok(Vec::new());

@@ -1,4 +1,4 @@
-//! Each crate that users may build on hands on the crates that its signatures name.
+//! Checks that each crate for users re-exports the crates that its signatures name.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use anyhow::Result;
 use super::rules::Package;
 use crate::workspace::read;
 
-/// The breaches, each with the line that is missing and where.
+/// Returns the breaches, each with the missing line and where it belongs.
 ///
 /// # Errors
 /// If a crate's `lib.rs` cannot be read.
@@ -34,7 +34,7 @@ pub(super) fn faults(
     Ok(faults)
 }
 
-/// The re-exports that a `lib.rs` lacks.
+/// Returns the re-exports that a `lib.rs` lacks.
 fn missing(package: &Package, text: &str) -> Vec<String> {
     let house = package
         .uses()

@@ -1,4 +1,4 @@
-//! The rules themselves, from the page and the packages to the breaches.
+//! The rules: compare the page with the packages.
 
 use super::page::{CrateRow, Page};
 
@@ -11,14 +11,14 @@ pub(super) struct Package {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Needed to build the crate, by itself or by its build script.
+    /// Needed to build the crate, or by its build script.
     Normal,
-    /// Needed by its tests, benches and examples alone.
+    /// Needed only by its tests, benches and examples.
     Development,
 }
 
 impl Package {
-    /// What is needed to build it.
+    /// Returns what is needed to build it.
     pub(super) fn uses(&self) -> impl Iterator<Item = &str> {
         let normal = self
             .dependencies
@@ -27,13 +27,14 @@ impl Package {
         normal.map(|(name, _)| name.as_str())
     }
 
-    /// Whether `name` is needed to build it or its tests.
+    /// Returns whether `name` is needed to build it or its tests.
     fn depends_on(&self, name: &str) -> bool {
         self.dependencies.iter().any(|(used, _)| used == name)
     }
 }
 
-/// Every breach of the page, each with the crate, the edge and the repair; empty if all is well.
+/// Returns every breach of the page, each with the crate, the dependency and the repair; empty if
+/// there are none.
 pub(super) fn faults(page: &Page, packages: &[Package]) -> Vec<String> {
     let mut faults = census(page, packages);
     faults.extend(page.crates.iter().flat_map(|row| row_faults(page, row)));
@@ -57,7 +58,7 @@ impl Page {
     }
 }
 
-/// The table lists the crates that exist, each once.
+/// Checks that the table lists exactly the crates that exist, each once.
 fn census(page: &Page, packages: &[Package]) -> Vec<String> {
     let mut faults = Vec::new();
     for package in packages {
@@ -84,7 +85,7 @@ fn census(page: &Page, packages: &[Package]) -> Vec<String> {
     faults
 }
 
-/// What the table itself allows leads strictly downward.
+/// Checks that what a row allows leads strictly downward.
 fn row_faults(page: &Page, row: &CrateRow) -> Vec<String> {
     let upward = |used: &String| {
         let below = page.row(used).and_then(|used| used.layer);
@@ -107,7 +108,7 @@ fn row_faults(page: &Page, row: &CrateRow) -> Vec<String> {
     row.may_use.iter().filter_map(upward).collect()
 }
 
-/// One dependency needed to build `row`'s crate.
+/// Checks one dependency that is needed to build `row`'s crate.
 fn edge_fault(page: &Page, row: &CrateRow, used: &str) -> Option<String> {
     let name = &row.name;
     if page.row(used).is_some() {
@@ -128,12 +129,14 @@ fn edge_fault(page: &Page, row: &CrateRow, used: &str) -> Option<String> {
     })
 }
 
-/// Development dependencies are free, but not to lead back to the crate they belong to: such a
-/// crate is compiled twice in one test, as two crates with the same name and different types.
+/// Checks that development dependencies do not lead back to their own crate.
+///
+/// Such a crate would be compiled twice in one test, as two crates with the same name and different
+/// types.
 fn circle(packages: &[Package]) -> Option<String> {
     let mut left: Vec<&Package> = packages.iter().collect();
     loop {
-        // What depends on none of the rest, or is used by none of it, lies on no circle.
+        // A package that depends on none of the rest, or is used by none of it, is on no cycle.
         let inside = |name: &str| left.iter().any(|other| other.name == name);
         let lies_on_none = |package: &Package| {
             package.dependencies.iter().all(|(name, _)| !inside(name))
@@ -184,7 +187,8 @@ mod tests {
 | `parry2d*` | `sim` | collisions |
 ";
 
-    /// The packages of the page above, with `more` edges; a name with a `+` is for tests.
+    /// Returns the faults of the packages of the page above, with `more` dependencies; a `+` in a
+    /// name marks one for tests.
     fn faults_with(more: &[(&str, &str)]) -> Vec<String> {
         faults_of(PAGE, more)
     }

@@ -1,4 +1,4 @@
-//! No crate grows into a house of its own.
+//! Checks that no crate grows too large.
 
 use std::path::Path;
 
@@ -6,10 +6,10 @@ use anyhow::Result;
 
 use crate::workspace::{entries, read};
 
-/// The largest share of all lines of `src` that one crate may have.
+/// Maximum share of all lines of `src` that one crate may have.
 const LARGEST_SHARE: f64 = 0.25;
 
-/// The breaches, each with the crate and its lines.
+/// Returns the breaches, each with the crate and its number of lines.
 ///
 /// # Errors
 /// If a folder cannot be read.
@@ -34,7 +34,7 @@ pub(super) fn faults(crates: &Path) -> Result<Vec<String>> {
     Ok(told.collect())
 }
 
-/// The lines of all Rust files in a folder and those below it.
+/// Returns the number of lines of all Rust files in a folder and below.
 fn lines_below(folder: &Path) -> Result<usize> {
     let mut lines = 0;
     for path in entries(folder)? {

@@ -8,35 +8,35 @@ use tolman_systems::stream;
 
 use crate::diktiometry::SurveyorConfig;
 
-/// Deviation of robot and world from how they are made.
+/// How robot and world differ from how they are made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Condition {
-    /// Nothing.
+    /// They do not differ.
     #[default]
     AsMade,
-    /// Wheels out of calibration, each by a constant of at most this many percent.
+    /// Each wheel is off by a constant of at most this many percent.
     Wheels(u8),
-    /// A compass that is off by a constant.
+    /// The compass is off by a constant.
     CompassOffset,
-    /// Odometry errs by a constant share.
+    /// Odometry is off by a constant share.
     ConstantOdometry,
-    /// Odometry errs by a share that is drawn again in each time step.
+    /// Odometry is off by a share that is drawn again in each time step.
     FreshOdometry,
-    /// A door that stands open while the robot learns, and is shut afterwards.
+    /// A door is open while the robot learns, and shut afterwards.
     Doors,
-    /// The robot is lifted during learning and put down elsewhere, without being told.
+    /// The robot is lifted while it learns and put down elsewhere, without being told.
     Kidnapping,
-    /// Readings of all sensors that do not come.
+    /// Readings of all sensors are missing at random.
     DropOuts,
-    /// Motors, wheels, compass and odometry that do not err, as no robot is: a map that was learned
-    /// so can serve as the true one. Not among [`ALL`](Self::ALL).
+    /// Motors, wheels, compass and odometry have no errors, as on no real robot. A map learned in
+    /// this way can serve as the true one. Not among [`ALL`](Self::ALL).
     Flawless,
 }
 
-/// The largest constant error of a compass, rad.
+/// Maximum constant error of a compass, rad.
 const COMPASS: f64 = 5.0 * core::f64::consts::PI / 180.0;
 
-/// The largest error of what wheels roll, as a share.
+/// Maximum error of odometry, as a share.
 const ODOMETRY: f64 = 0.1;
 
 /// Probability that a reading is missing.
@@ -46,7 +46,7 @@ const WHEEL_STREAM: u64 = 32;
 const DOOR_STREAM: u64 = 33;
 
 impl Condition {
-    /// All that are worse than as made, and that.
+    /// As made, and all conditions that are worse.
     pub const ALL: [Self; 10] = [
         Self::AsMade,
         Self::Wheels(1),
@@ -60,7 +60,7 @@ impl Condition {
         Self::DropOuts,
     ];
 
-    /// Returns its name in tables.
+    /// Returns the name in tables.
     #[must_use]
     pub fn name(self) -> String {
         match self {
@@ -77,7 +77,7 @@ impl Condition {
     }
 
     /// Returns the condition of a name, as in tables or as typed: `compass-offset` is compass
-    /// offset.
+    /// offset. `None` if there is none.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         let slug = |name: &str| name.to_lowercase().replace(' ', "-");
@@ -85,7 +85,7 @@ impl Condition {
         all.find(|condition| slug(&condition.name()) == slug(name))
     }
 
-    /// Returns an e-puck under it.
+    /// Returns the e-puck under this condition.
     pub(super) fn epuck(self, mut robot: EpuckConfig) -> EpuckConfig {
         match self {
             Self::Wheels(percent) => robot.wheels.push(constant(share(percent))),
@@ -98,7 +98,7 @@ impl Condition {
         robot
     }
 
-    /// Returns a laser Pioneer under it.
+    /// Returns the laser Pioneer under this condition.
     pub(super) fn laser_pioneer(
         self,
         mut robot: LaserPioneerConfig,
@@ -137,7 +137,7 @@ impl Condition {
         robot
     }
 
-    /// Returns a Pioneer 2-DX under it.
+    /// Returns the Pioneer 2-DX under this condition.
     pub(super) fn pioneer_2dx(self, mut robot: Pioneer2dxConfig, seed: u64) -> Pioneer2dxConfig {
         let faults = &mut robot.faults;
         match self {
@@ -162,8 +162,8 @@ impl Condition {
         robot
     }
 
-    /// Returns the diktiometry's robot under it, whose odometry as made errs by as much for some
-    /// time steps at a time.
+    /// Returns the diktiometry's robot under this condition. As made, its odometry has the same
+    /// error for several time steps at a time.
     pub(super) fn surveyor(self, robot: SurveyorConfig, seed: u64) -> SurveyorConfig {
         let hold_steps = match self {
             Self::ConstantOdometry => u32::MAX,
@@ -189,8 +189,9 @@ impl Condition {
         }
     }
 
-    /// Returns the opening that is a door, as a cell and the way out of it: a random one whose loss
-    /// cuts nothing off. `None` if there is none, or if doors do not change.
+    /// Returns the opening that is a door, as a cell and the way out of it: a random opening
+    /// without which all cells stay connected. `None` if there is no such opening, or if this
+    /// condition has no door.
     pub(super) fn door(self, maze: &Maze, seed: u64) -> Option<(Cell, Direction)> {
         if self != Self::Doors {
             return None;
@@ -281,7 +282,7 @@ mod tests {
                     shut.set_wall(cell, way, true);
                     prop_assert!(shut.reachable().eq(maze.reachable()));
                 }
-                // There is no loop.
+                // The maze has no loop.
                 None => {
                     let ways: usize = maze.reachable().map(|cell| maze.degree(cell)).sum();
                     prop_assert_eq!(ways / 2 + 1, maze.reachable().count());

@@ -35,91 +35,90 @@ use crate::pioneer::{
 };
 use crate::{BoxError, Depicted, HasSimulated, Outing, Sent};
 
-/// Who is sent into a world.
+/// A system or baseline that is sent into a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contestant {
-    /// [`Mslst`], which learns for as long as it may drive.
+    /// [`Mslst`], which learns until it has driven as far as it may.
     Mslst,
-    /// [`BetterMslst`], which reckons with encoders.
+    /// [`BetterMslst`], which uses encoders.
     MslstBetter,
-    /// [`Cpm`] online, as the paper has it.
+    /// [`Cpm`] online, as in the paper.
     Cpm,
     /// [`Cpm`] with dead reckoning and several hypotheses.
     CpmBetter,
     /// [`Diktiometer`] with the paper's rules.
     Diktiometry,
-    /// [`Diktiometer`] with a journal of all its moves that also merges places by what they look
-    /// like.
+    /// [`Diktiometer`] with a journal of all its moves. It also merges places by their looks.
     DiktiometryBetter,
-    /// [`OfflineSlam`], which gathers records for as long as it may drive, and then learns a map of
-    /// all of them.
+    /// [`OfflineSlam`], which gathers records until it has driven as far as it may, and then learns
+    /// a map from them.
     GngSlam,
-    /// [`OnlineSlam`], whose places are points of the floor.
+    /// [`OnlineSlam`], whose places are points on the floor.
     GngSlamBetter,
     /// [`MazeMouse`], which is told the grid, its start and the goal.
     Micromouse,
-    /// [`NoisyMouse`], which is told as much, has no compass, and knows where it is by a particle
-    /// filter over the walls it believes in: what many would pick instead.
+    /// [`NoisyMouse`], which is told the same and has no compass. It localizes with a particle
+    /// filter over the walls it believes in: what many would choose instead.
     WallBelief,
     /// A baseline, which learns no map.
     Baseline(Agent),
 }
 
-/// On which robot it is sent.
+/// The robot that a contestant drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ContestRobot {
-    /// That of its paper.
+    /// The robot of its paper.
     Own,
     /// The laser Pioneer with compass and encoders.
     Pioneer,
 }
 
-/// A contestant at the start of a world, which has the scale of its robot.
+/// A contestant at the start of a world, which is scaled to its robot.
 pub(super) struct Entered {
-    /// With its robot.
+    /// The system with its robot.
     pub(super) outing: Box<dyn Outing>,
-    /// From the middle of a cell of the drawing to the next, m.
+    /// Distance between the middles of two cells of the drawing, m.
     pub(super) pitch: f64,
 }
 
-/// What contestants have learned before they are sent out.
+/// What contestants learn before they are sent out; learned once.
 #[derive(Debug, Default)]
 pub struct Schooling {
     epuck: OnceLock<CommonPatterns>,
     pioneer: OnceLock<CommonPatterns>,
 }
 
-/// Where common patterns are learned.
+/// Maze in which common patterns are learned.
 const LEARNING_MAZE: &str = include_str!("../../mazes/cpm-learning.maze");
 
-/// The seed of what is learned before.
+/// Seed for what is learned before.
 const SCHOOL_SEED: u64 = 1;
 
-/// Observations of that lesson on the Pioneer.
+/// Number of observations in that lesson on the Pioneer.
 const LESSON: usize = 300;
 
-/// How many colours the walls have where a camera looks at them.
+/// Number of colours of the walls, for robots with a camera.
 const COLOURS: u32 = 8;
 
-/// Time steps until a contest [allows](Outing::allow) others.
+/// Initial limit of time steps, before the contest [allows](Outing::allow) more.
 const NO_STEPS: u32 = 0;
 
-/// From wall to wall where a robot keeps away from what is near, as GNG-SLAM's does, m.
+/// Corridor width for robots that keep away from what is near, such as GNG-SLAM's, m.
 const WIDE: f64 = 1.5;
 
-/// Time steps per cell for which MSLST records scans; it also maps for this many actions per cell.
-/// Together they use most of the distance that it may drive.
+/// Number of time steps per cell for which MSLST records scans. It also maps for this many actions
+/// per cell. Together they use most of the distance that it may drive.
 const SCANS_A_CELL: u32 = 10;
 const ACTIONS_A_CELL: u32 = 6;
 
-/// Beams of the laser that the wall belief's filter weighs.
+/// Number of the laser's beams that the wall belief's filter weighs.
 const BEAMS: u32 = 8;
 
-/// Records that GNG-SLAM takes per cell, which use most of the distance that it may drive.
+/// Number of records per cell that GNG-SLAM takes. They use most of the distance that it may drive.
 const RECORDS_A_CELL: usize = 5;
 
 impl Contestant {
-    /// All of them, systems first.
+    /// All contestants, systems first.
     pub const ALL: [Self; 15] = [
         Self::Mslst,
         Self::MslstBetter,
@@ -156,7 +155,8 @@ impl Contestant {
         }
     }
 
-    /// Returns the one of a name, as it stands in tables or is typed: `cpm-better` is CPM Better.
+    /// Returns the contestant of a name, as in tables or as typed: `cpm-better` is CPM Better.
+    /// `None` if there is none.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         let slug = |name: &str| name.to_lowercase().replace(' ', "-");
@@ -164,7 +164,7 @@ impl Contestant {
         all.find(|contestant| slug(contestant.name()) == slug(name))
     }
 
-    /// Returns whether it learns a map: all but the baselines do.
+    /// Returns whether it learns a map. Only the baselines do not.
     #[must_use]
     pub const fn learns(self) -> bool {
         !matches!(self, Self::Baseline(_))
@@ -181,7 +181,7 @@ impl Contestant {
         }
     }
 
-    /// Returns whether its robot knows which way is north.
+    /// Returns whether its robot knows where north is.
     pub(super) const fn has_compass(self, robot: ContestRobot) -> bool {
         !matches!(
             (self, robot),
@@ -192,7 +192,7 @@ impl Contestant {
         )
     }
 
-    /// Returns how many cells straight on its robot sees through an opening, at most.
+    /// Returns the maximum number of cells that its robot sees straight on through an opening.
     pub(super) const fn sees_cells(self, robot: ContestRobot) -> u32 {
         match (self, robot) {
             (Self::GngSlam | Self::GngSlamBetter, _) => 3,
@@ -201,7 +201,7 @@ impl Contestant {
         }
     }
 
-    /// Returns whether its robot sees what colours walls have.
+    /// Returns whether its robot sees the colours of walls.
     pub(super) const fn sees_colours(self, robot: ContestRobot) -> bool {
         matches!(
             (self, robot),
@@ -212,20 +212,20 @@ impl Contestant {
         )
     }
 
-    /// Returns the pose in the world of the frame in which it has the places of its map, if it
-    /// started at `start`: for pictures.
+    /// Returns the pose in the world of its map's frame, if it started at `start`. For pictures
+    /// only.
     #[must_use]
     pub const fn world_from_map(self, start: Pose) -> Pose {
         match self {
-            // Its axes are the compass's.
+            // Its axes are those of the compass.
             Self::MslstBetter => Pose::new(start.position, Heading::EAST),
             Self::GngSlamBetter => start,
             _ => Pose::new(Point::new(0.0, 0.0), Heading::EAST),
         }
     }
 
-    /// Returns which cells are its places. What it takes for a place beside, with two ways, is a
-    /// part of a way.
+    /// Returns which cells are its places. If it takes another cell with two ways for a place, that
+    /// cell counts as part of a way.
     #[must_use]
     pub const fn places(self) -> PlaceRule {
         match self {
@@ -234,9 +234,9 @@ impl Contestant {
         }
     }
 
-    /// Returns whether it says, when it is done, that its map is that of the whole world. MSLST has
-    /// then used up its actions and GNG-SLAM has its records: neither says that its places are
-    /// those of the drawing.
+    /// Returns whether being done means that it claims its map is that of the whole world. MSLST is
+    /// done when it has used up its actions, and GNG-SLAM when it has its records. Neither claims
+    /// that its places are right.
     #[must_use]
     pub const fn claims(self) -> bool {
         matches!(
@@ -251,9 +251,11 @@ impl Contestant {
         )
     }
 
-    /// Returns why it cannot work in a drawing, in a sentence without a full stop, as its features
-    /// and the robot's sensors alone say; `None` where it can. Who knows that abstains, and is not
-    /// sent. O(cells).
+    /// Returns why it cannot work in a drawing, in a sentence without a full stop; `None` if it
+    /// can.
+    ///
+    /// It decides by its own features and the robot's sensors alone. A system that cannot work
+    /// abstains, and is not sent. O(cells).
     #[must_use]
     pub fn abstains(self, maze: &Maze, robot: ContestRobot) -> Option<String> {
         let room = maze.reachable().find(|cell| maze.is_room(*cell));
@@ -274,10 +276,11 @@ impl Contestant {
         }
     }
 
-    /// Puts it at the start of the contest's drawing, in corridors as its robot is made for.
+    /// Puts it at the start of the contest's drawing, in corridors of the width that suits its
+    /// robot.
     ///
     /// # Errors
-    /// If it is a baseline, which is sent by other means, or robot and drawing do not go together.
+    /// If it is a baseline, which is sent by other means, or robot and drawing do not fit together.
     pub(super) fn enter(
         self,
         contest: &Contest<'_>,
@@ -385,7 +388,7 @@ impl Contestant {
                     ..calibrated()
                 };
                 let mut config = OnlineSlamConfig::pioneer_2dx();
-                // As far and as much a time step as the Pioneer 2-DX.
+                // The same distance and turn per time step as the Pioneer 2-DX.
                 let rates = (0.04 / robot.translate_per_step, 0.1);
                 config.drive = config.drive.with_rates(rates.0, rates.1);
                 let body = LaserPioneer::new(condition.laser_pioneer(robot, seed))?;
@@ -409,7 +412,7 @@ impl Contestant {
         R: cpm_robot::Any + HasSimulated + 'static,
     {
         let mode = match self {
-            // It cannot tell that its map grows without end: who sends it does.
+            // It does not notice that its map grows without end; the contest does.
             Self::Cpm => Mode::Paper(CpmConfig {
                 most_traversals: patience(maze),
                 ..CpmConfig::online()
@@ -484,7 +487,7 @@ fn eyed<E: Clone>(config: DiktiometerConfig, eye: E, seed: u64) -> Pathfinder<E>
     Pathfinder::new(learner, eye, seed)
 }
 
-/// What CPM can drive, whatever its errors are.
+/// The robots that CPM can drive, whatever their errors are.
 mod cpm_robot {
     use tolman_robot::Robot;
     use tolman_systems::cpm::CpmRobot;
@@ -515,16 +518,16 @@ where
     Entered { outing, pitch }
 }
 
-/// Returns a drawing in corridors as the laser Pioneer is made for.
+/// Returns a drawing as a course in corridors of the laser Pioneer's width.
 ///
 /// # Errors
-/// If the drawing marks no goal that can be reached.
+/// If the drawing has no goal that can be reached.
 pub(super) fn pioneer_course(name: &str, maze: &Maze) -> Result<Course, BoxError> {
     let file = MazeFile::from(maze.clone());
     Ok(Course::for_body(name, &file, &body())?)
 }
 
-/// Returns what the noisy mouse is told of a Pioneer among thin walls: encoders and ranges that err
+/// Returns what the noisy mouse is told of a Pioneer among thin walls: encoders and ranges are off
 /// by a few percent.
 const fn believing(robot: &LaserPioneerConfig, pitch: f64) -> NoisyMouseConfig {
     NoisyMouseConfig {
@@ -582,7 +585,7 @@ impl Schooling {
         Ok(self.epuck.get_or_init(|| learned).clone())
     }
 
-    /// Returns those that the Pioneer learns there.
+    /// Returns the common patterns that the Pioneer learns there.
     fn of_pioneer(&self) -> Result<CommonPatterns, BoxError> {
         let learned = self.pioneer.get().cloned();
         if let Some(learned) = learned {

@@ -1,4 +1,4 @@
-//! Checks that the systems can be sent into all that is drawn here.
+//! Tests that the systems can be sent into every family's drawings.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

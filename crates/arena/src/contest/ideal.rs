@@ -9,24 +9,24 @@ use super::paint::Paint;
 use super::whereabouts::Squares;
 use crate::cpm::landmark_at;
 
-/// An observer that has the drawing and recognizes all it sees without error: the ceiling for
+/// An observer that has the drawing and recognizes all it sees without error: the upper bound for
 /// anyone who watches the same drive.
 ///
-/// In each cell it sees the walls and the landmark, and through each opening the walls of several
-/// cells straight on, more than any robot. If the robot sees colours, it sees those of all walls
-/// around.
+/// In each cell it sees the walls and the landmark. Through each opening it sees the walls of
+/// several cells straight on, more than any robot does. If the robot sees colours, it sees the
+/// colours of all walls around.
 #[derive(Clone, Debug)]
 pub(super) struct IdealObserver<'a> {
     pub(super) maze: Cow<'a, Maze>,
-    /// Whether it knows which way is north.
+    /// Whether it knows where north is.
     pub(super) has_compass: bool,
     /// Number of cells it sees through an opening.
     pub(super) reach: u32,
-    /// Colours that it sees.
+    /// Colours of the walls; empty if it sees none.
     pub(super) paint: Paint,
 }
 
-/// View in a cell, clockwise from a direction.
+/// View in a cell, clockwise from one direction.
 #[derive(Debug, PartialEq)]
 struct CellView {
     landmark: Option<Landmark>,
@@ -34,17 +34,17 @@ struct CellView {
     colours: Vec<[u8; 3]>,
 }
 
-/// A possible start of the robot, and where it is now if that is right.
+/// A possible start of the robot, and where the robot is now if that start is right.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
-    /// Quarters of a turn, clockwise, from what is so to what would be.
+    /// Number of quarter turns, clockwise, from the true directions to those of this candidate.
     turned: usize,
     at: Cell,
 }
 
 impl IdealObserver<'_> {
-    /// Returns that chance after a drive along `path` of a robot that was put down amid a cell,
-    /// looking out of it.
+    /// Returns the [chance](Self::chance) for a robot that drove along `path`. It was put down in
+    /// the middle of a cell, and looked out of it.
     pub(super) fn after(&self, squares: Squares, start: (Cell, Direction), path: &[Pose]) -> f64 {
         let mut cells = vec![start.0];
         cells.extend(path.iter().map(|pose| squares.cell_at(pose.position)));
@@ -52,9 +52,9 @@ impl IdealObserver<'_> {
         self.chance(start.1, &cells)
     }
 
-    /// Returns the probability that its best guess of the last of these cells is right, 0 to 1. The
-    /// drive goes over all of them and begins looking along `way`. All cells but goals, and all
-    /// ways out of them, are equally likely starts. O(starts · cells).
+    /// Returns the probability that its best guess of the last cell is right, 0 to 1. The drive
+    /// goes through all `cells` and begins looking along `way`. All cells but goals, with all ways
+    /// out of them, are equally likely starts. O(starts · cells).
     pub(super) fn chance(&self, way: Direction, cells: &[Cell]) -> f64 {
         let (Some(first), Some(last)) = (cells.first(), cells.last()) else {
             return 0.0;
@@ -101,7 +101,7 @@ impl IdealObserver<'_> {
             .collect()
     }
 
-    /// Keeps those candidates that would see what is seen in a cell.
+    /// Removes the candidates that would see something else in this cell.
     fn see(&self, left: &mut Vec<Candidate>, cell: Cell) {
         let seen = self.view(cell, 0);
         left.retain(|candidate| self.view(candidate.at, candidate.turned) == seen);
@@ -129,8 +129,8 @@ impl IdealObserver<'_> {
         }
     }
 
-    /// Returns the shortest way from a cell to another one that was seen next: a robot may pass a
-    /// cell between two looks.
+    /// Returns the shortest way between two cells that were seen one after another. A robot may
+    /// pass cells between two looks.
     fn between(&self, from: Cell, to: Cell) -> Vec<Direction> {
         let steps = self.maze.steps_to(&[to]);
         let left = |cell: Cell| steps[self.maze.grid().index(cell)];
@@ -175,7 +175,7 @@ mod tests {
         let blind = chance(LOOP, false, Direction::East, &north[..1]);
         let known = chance(LOOP, true, Direction::East, &north[..1]);
         assert!(known > 0.99 && blind < known, "{blind} {known}");
-        // Whoever drives on to a bend the other side of which is another one knows no less.
+        // Driving on to a bend that has another bend on its far side cannot reduce what is known.
         assert!(chance(LOOP, false, Direction::East, &north) >= blind);
     }
 

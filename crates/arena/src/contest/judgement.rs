@@ -7,37 +7,40 @@ use tolman_robot::{MapPlace, MapView};
 use super::true_graph::TrueGraph;
 use super::whereabouts::{PlaceVisit, Squares, offset};
 
-/// Quality of a learned map, by the truth. Shares are from 0 to 1.
+/// Quality of a learned map, compared with the truth. Shares are from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapJudgement {
-    /// Whether it is the map of what was visited, and at least [`ENOUGH`](Self::ENOUGH) of all
-    /// places and ways are on it.
+    /// Whether it is right of what was visited, and has at least [`ENOUGH`](Self::ENOUGH) of all
+    /// places and ways.
     pub is_right: bool,
-    /// Whether the map is right as far as the robot has been: its places are different true places,
-    /// its links different true ways, and all ways that were driven are on it.
+    /// Whether the map is right as far as the robot has been. Its places are then different true
+    /// places, its links are different true ways, and it has all ways that were driven.
     pub is_right_of_visited: bool,
-    /// Share of the visits that were to the cell which their place was most often; `None` if there
-    /// were no visits.
+    /// Share of the visits at which the robot was in the cell where that place was visited most
+    /// often; `None` without visits.
     pub purity: Option<f64>,
-    /// Places of the map over true places; what has two ways and no landmark counts as a part of a
-    /// way in both.
+    /// Number of places on the map over that of true places. A place with two ways and no landmark
+    /// counts as part of a way in both.
     pub places: f64,
-    /// Share of the links that are true ways, each once; `None` of a map without links.
+    /// Share of the links that are true ways, each counted once; `None` for a map without links.
     pub link_precision: Option<f64>,
     /// Share of the true ways that are on the map.
     pub link_recall: f64,
 }
 
 impl MapJudgement {
-    /// The share of all places and ways that have to be on a right map.
+    /// Minimum share of all places and ways that a right map has.
     pub const ENOUGH: f64 = 0.95;
 }
 
-/// Judges a map and returns the judgement. `visits` are the robot's true positions when it believed
-/// to be at places. `gone` are the numbers of the ways that it truly drove. `squares` are the
-/// drawing's grid and its pitch, from the middle of a cell to the next, m.
+/// Returns the judgement of a map.
 ///
-/// A place of the map stands for the cell where the robot most often was when it believed to be
+/// - `visits` are the robot's true positions when it believed it was at places.
+/// - `gone` are the numbers of the ways that it truly drove.
+/// - `squares` are the drawing's grid and its pitch, the distance between the middles of two cells,
+///   m.
+///
+/// A place of the map stands for the cell where the robot most often was when it believed it was
 /// there. A place that was never visited stands for the cell at its position on the map, if it has
 /// one. Places that stand for cells inside a way, such as bends, belong to the link between the
 /// places at its ends. O(visits + links · ways).
@@ -56,7 +59,8 @@ pub fn judge(
     let mut found: BTreeSet<usize> = BTreeSet::new();
     let (mut links, mut right_links) = (0_usize, 0_usize);
     let mut chains = chart.chains();
-    // One without a cell between may be any way between its ends that no other is.
+    // A chain without a cell in between may be any way between its ends that no other chain is, so
+    // these come last.
     chains.sort_by_key(|chain| chain.over.is_empty());
     for chain in chains {
         let way = chart.way_of(&chain, &found, gone);
@@ -111,7 +115,7 @@ pub(super) fn stands_for(
     let mut pure = 0;
     let mut stands_for = BTreeMap::new();
     for (place, cells) in taken {
-        // Of cells that are equally frequent the first.
+        // If several cells are equally frequent, the first counts.
         let most = cells
             .iter()
             .max_by_key(|(cell, count)| (**count, Reverse(**cell)));
@@ -133,28 +137,27 @@ pub(super) fn stands_for(
     (stands_for, (all > 0).then(|| share(pure, all)))
 }
 
-/// Result for a chain of links.
+/// What a chain of links is.
 enum Matched {
-    /// It is this true way.
+    /// The true way with this index.
     Way(usize),
-    /// It ends amid a way that was not gone to its end.
+    /// The beginning of a way that was not driven to its end.
     Stub,
-    /// It is no true way, or one that is on the map already.
+    /// Not a true way, or one that is on the map already.
     Nothing,
 }
 
-/// A chain of links between two places, over places that stand for cells amid a way.
+/// A chain of links between two places, through places that stand for cells inside a way.
 struct Chain {
     ends: [u32; 2],
     over: Vec<u32>,
 }
 
-/// A map with what its places stand for.
+/// A map with the cells that its places stand for.
 struct Chart<'a> {
     stands_for: &'a BTreeMap<u32, Cell>,
     truth: &'a TrueGraph,
-    /// By place: the links there and where they lead; a link from a place to itself stands there
-    /// twice.
+    /// By place: its links and where they lead. A link from a place to itself is listed twice.
     links: BTreeMap<u32, Vec<(usize, u32)>>,
 }
 
@@ -169,7 +172,7 @@ impl<'a> Chart<'a> {
         let mut links: BTreeMap<u32, Vec<(usize, u32)>> = places.collect();
         let mut number = 0;
         for ((one, other), [there, back]) in counts {
-            // A way that can be gone both ways stands on the map twice.
+            // A way that can be driven in both directions is on the map twice.
             let count = match one == other {
                 true => there.div_ceil(2),
                 false => there.max(back),
@@ -200,29 +203,29 @@ impl<'a> Chart<'a> {
         self.links.get(&place).map_or(0, Vec::len)
     }
 
-    /// Returns whether it stands for a cell amid a way, and is a part of a chain.
+    /// Returns whether it stands for a cell inside a way, and is part of a chain.
     fn is_amid(&self, place: u32) -> bool {
         !self.is_true_place(place) && self.cell(place).is_some() && self.degree(place) == 2
     }
 
-    /// Returns whether a link leads to a cell amid a way and no further.
+    /// Returns whether a link leads to a cell inside a way and no farther.
     fn is_stub(&self, place: u32) -> bool {
         !self.is_true_place(place) && self.cell(place).is_some() && self.degree(place) == 1
     }
 
-    /// Returns the places that belong to no chain and end no stub, with their cells.
+    /// Returns the places that are not part of a chain or the end of a stub, with their cells.
     fn nodes(&self) -> Vec<(u32, Option<Cell>)> {
         let places = self.links.keys().copied();
         let nodes = places.filter(|place| !self.is_amid(*place) && !self.is_stub(*place));
         nodes.map(|place| (place, self.cell(place))).collect()
     }
 
-    /// Returns all links, those over places amid a way joined.
+    /// Returns all chains. Links that meet at a place inside a way are joined.
     fn chains(&self) -> Vec<Chain> {
         let mut used: BTreeSet<usize> = BTreeSet::new();
         let mut chains = Vec::new();
         let ends = self.links.keys().filter(|place| !self.is_amid(**place));
-        // What is left then are rings without an end.
+        // Only cycles without an end are left then.
         for from in ends.chain(self.links.keys()) {
             for (link, to) in self.links.get(from).into_iter().flatten() {
                 if used.insert(*link) {
@@ -274,7 +277,7 @@ impl<'a> Chart<'a> {
                 && !found.contains(number)
                 && over.iter().all(|cell| way.between.contains(cell))
         });
-        // Among ways that the map does not tell apart, those first that were gone.
+        // Among ways that the map does not tell apart, those that were driven come first.
         let fitting: Vec<usize> = fitting.by_ref().map(|(number, _)| number).collect();
         let walked = fitting.iter().find(|number| gone.contains(number));
         let best = walked.or(fitting.first());
@@ -307,8 +310,8 @@ mod tests {
         (family.draw)(family.sizes[0], &mut ChaCha8Rng::seed_from_u64(seed)).unwrap()
     }
 
-    /// Returns the map that has each of these cells as a place, by its index, with the openings
-    /// between neighbours as links.
+    /// Returns a map with each of these cells as a place, by its index, and with links for the
+    /// openings between neighbours.
     fn of_cells(maze: &Maze) -> (MapView, Vec<PlaceVisit>) {
         let id = |cell: Cell| maze.grid().index(cell) as u32;
         let mut map = MapView::default();
@@ -328,7 +331,7 @@ mod tests {
         (map, visits)
     }
 
-    /// Returns the map that has the true places alone.
+    /// Returns a map with the true places only.
     fn of_places(maze: &Maze, truth: &TrueGraph) -> (MapView, Vec<PlaceVisit>) {
         let id = |cell: Cell| maze.grid().index(cell) as u32;
         let mut map = MapView::default();
@@ -387,7 +390,7 @@ mod tests {
             let (mut map, mut visits) = of_places(&maze, &truth);
             let link = map.links[which.index(map.links.len())];
             match fault {
-                // A way that was gone is missing.
+                // A way that was driven is missing.
                 0 => {
                     let back = MapLink { from: link.to, to: link.from };
                     let kept = map.links.iter().position(|one| *one == link).unwrap();
@@ -395,14 +398,14 @@ mod tests {
                     let kept = map.links.iter().position(|one| *one == back).unwrap();
                     map.links.remove(kept);
                 }
-                // One way is there twice.
+                // One way is on the map twice.
                 1 => map.links.extend([link, MapLink { from: link.to, to: link.from }]),
-                // A place is there twice.
+                // One place is on the map twice.
                 2 => {
                     map.places.push(place(10_000));
                     visits.push(PlaceVisit { place: 10_000, cell: maze.start().unwrap().0 });
                 }
-                // Two places are one.
+                // Two places are merged into one.
                 _ => {
                     let [kept, lost] = [map.places[0].id, map.places[map.places.len() - 1].id];
                     map.places.pop();

@@ -1,8 +1,8 @@
-//! Every system in every kind of world, judged by one truth.
+//! Sends every system into every kind of world, and judges all by the same truth.
 //!
-//! A [`Contest`] sends one [`Contestant`] into one drawing. It learns, is put down somewhere and
-//! finds out where, is put down somewhere else and goes to the goal. Its map is judged by the
-//! drawing's [`TrueGraph`], which it never sees.
+//! A [`Contest`] sends one [`Contestant`] into one drawing. The contestant learns. It is put down
+//! somewhere and localizes; then it is put down somewhere else and drives to the goal. Its map is
+//! compared with the drawing's [`TrueGraph`], which it never sees.
 
 mod condition;
 mod contestant;

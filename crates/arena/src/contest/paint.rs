@@ -11,19 +11,19 @@ use crate::course::Course;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Paint(BTreeMap<Cell, Vec<[u8; 3]>>);
 
-/// Colours that are seen in a quarter of a turn.
+/// Number of colours seen in a quarter turn.
 const A_QUARTER: usize = 18;
 
 impl Paint {
-    /// Returns what is seen from each cell that can be reached. O(cells · walls).
+    /// Returns the colours seen from each cell that can be reached. O(cells · walls).
     pub(super) fn of(course: &Course) -> Self {
         let cells = course.maze.reachable();
         let seen = |cell| (cell, around(&course.world, course.cell_centre(cell)));
         Self(cells.map(seen).collect())
     }
 
-    /// Returns the colours around a cell, clockwise starting `quarters` quarter turns clockwise
-    /// from north; empty if colours are not recorded.
+    /// Returns the colours around a cell, clockwise from `quarters` quarter turns clockwise of
+    /// north; empty if colours are not recorded.
     pub(super) fn seen(&self, cell: Cell, quarters: usize) -> impl Iterator<Item = [u8; 3]> + '_ {
         let colours = self.0.get(&cell).map_or(&[][..], Vec::as_slice);
         let turned = colours.iter().cycle().skip(quarters * A_QUARTER);
@@ -31,8 +31,8 @@ impl Paint {
     }
 }
 
-/// Returns the colours that rays meet, evenly spread over the full circle, clockwise from the north
-/// on.
+/// Returns the colours of the walls that rays meet. The rays are evenly spread over the full
+/// circle, clockwise from north.
 fn around(world: &World, here: Point) -> Vec<[u8; 3]> {
     let rays = (0..4 * A_QUARTER).map(|ray| {
         let bearing = (ray as f64 + 0.5) / (4 * A_QUARTER) as f64 * TAU;
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
     use crate::diktiometry::{Office, OfficeConfig};
 
-    /// A cell with a way on to the north, another to the east of that.
+    /// A cell with a way north; east of the next cell there is another way.
     const BEND: &str = "\
 o---o---o
 |     G |

@@ -9,12 +9,12 @@ use tolman_systems::diktiometry::{Diktiometer, Eye, Wayfinder};
 
 use crate::BoxError;
 
-/// The diktiometry as a whole: it learns a map, and once it is put down anywhere it finds its way
-/// on that.
+/// The whole diktiometry: it learns a map, and finds its way on the map after it was put down
+/// anywhere.
 #[derive(Debug)]
 pub(super) struct Pathfinder<E> {
     learner: Diktiometer<E>,
-    /// Since it was put down.
+    /// Finds the way since it was put down; `None` before.
     finder: Option<Wayfinder<E>>,
     eye: E,
     seed: u64,

@@ -27,46 +27,46 @@ use crate::{BoxError, Outing};
 /// A contestant in a world.
 #[derive(Clone, Copy, Debug)]
 pub struct Contest<'a> {
-    /// Who.
+    /// The system or baseline.
     pub contestant: Contestant,
-    /// On which robot.
+    /// The robot that it drives.
     pub robot: ContestRobot,
     /// The drawing, which marks start and goal.
     pub maze: &'a Maze,
-    /// What it is called.
+    /// Name of the drawing.
     pub name: &'a str,
-    /// What is otherwise than as robot and world are made.
+    /// How robot and world differ from how they are made.
     pub condition: Condition,
-    /// How often it is put down to find out where it is, and as often to go to the goal.
+    /// Number of times that it is put down to localize, and again to drive to the goal.
     pub starts: u32,
-    /// The seed of all random numbers.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// What measures how long the contestant thinks; `None` if nobody asks. Nothing else depends on
-    /// it.
+    /// Measures the contestant's computing time; `None` if that is not wanted. Nothing else depends
+    /// on it.
     pub stopwatch: Option<Stopwatch>,
 }
 
-/// Reason why a contest cannot be held. That a system fails is a result, and no error.
+/// Reason why a contest cannot be held. A system that fails is a result, not an error.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ContestError {
-    /// Robot, system and drawing do not go together.
+    /// Robot, system and drawing do not fit together.
     #[error("{contestant} cannot be sent into {world}")]
     Enter {
-        /// Who.
+        /// Name of the contestant.
         contestant: &'static str,
-        /// The world's name.
+        /// Name of the world.
         world: String,
         /// The underlying error.
         #[source]
         source: BoxError,
     },
-    /// The robot cannot stand where it is put down.
+    /// There is no room for the robot where it is put down.
     #[error("{contestant} cannot be put down in {world}")]
     PutDown {
-        /// Who.
+        /// Name of the contestant.
         contestant: &'static str,
-        /// The world's name.
+        /// Name of the world.
         world: String,
         /// The underlying error.
         #[source]
@@ -74,65 +74,65 @@ pub enum ContestError {
     },
 }
 
-/// When a contest is looked at.
+/// A moment at which a contest calls its viewer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Moment {
-    /// The contestant stands at the start.
+    /// The contestant is at the start.
     Begun,
-    /// It has made an action.
+    /// The contestant has made an action.
     Acted,
-    /// Its robot was lifted and put down elsewhere, and it was told.
+    /// The robot was lifted and put down elsewhere, and the contestant was told.
     PutDown,
-    /// All is over.
+    /// The contest has ended.
     Over,
 }
 
-/// What came of a contest.
+/// Result of a contest.
 #[derive(Clone, Debug, Default)]
 pub struct ContestRecord {
-    /// Reason why the contestant did not drive at all, which it said before.
+    /// Reason why the contestant abstained and did not drive; `None` if it drove.
     pub abstained: Option<String>,
-    /// What it learned; `None` of who abstained, or learns no map.
+    /// Result of learning; `None` if the contestant abstained, or learns no map.
     pub learned: Option<LearnRecord>,
-    /// What it made of each place where it was to find out where it is.
+    /// Result of localizing from each place where it was put down.
     pub found: Vec<Located>,
-    /// How it went from each place where it was to go to the goal.
+    /// Result of driving to the goal from each place where it was put down.
     pub homes: Vec<Home>,
 }
 
-/// What a system learned of a world.
+/// Result of learning a world.
 #[derive(Clone, Debug)]
 pub struct LearnRecord {
-    /// How that ended.
+    /// How learning ended.
     pub end: TaskEnd,
-    /// What the system makes of its own map.
+    /// The system's verdict on its own map.
     pub claim: Claim,
-    /// How likely it takes its map to be right, 0 … 1; `None` if it does not weigh that.
+    /// Probability that its map is right, by its own estimate, 0 … 1; `None` if it has none.
     pub certainty: Option<f64>,
-    /// How good its map is.
+    /// Quality of its map, compared with the truth.
     pub judgement: MapJudgement,
-    /// Metres driven over the length of all corridors.
+    /// Driven distance over the length of all corridors.
     pub driven: f64,
-    /// Time steps.
+    /// Number of time steps.
     pub steps: u32,
-    /// Time steps in which it touched something.
+    /// Number of time steps in which it touched something.
     pub bumps: u32,
-    /// Places of its map.
+    /// Number of places on its map.
     pub places: usize,
-    /// Bytes of its map; `None` if it does not say.
+    /// Size of its map, bytes; `None` if unknown.
     pub map_bytes: Option<usize>,
-    /// How long it thought, the simulator aside, where that was measured.
+    /// Computing time without the simulator; `None` if it was not measured.
     pub thinking: Option<Duration>,
 }
 
-/// What a system makes of its own map.
+/// A system's verdict on its own map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Claim {
-    /// It is right and whole: the system says that it is done.
+    /// Right and complete: the system says that it is done.
     Right,
-    /// It is wrong or unfinished: the system gave up, or holds its map for rather wrong than right.
+    /// Wrong or unfinished: the system gave up, or considers its map more likely wrong than right.
     Wrong,
-    /// The system does not say: its time was up, or being done says nothing of its map.
+    /// Undecided: its time ran out, or being done says nothing about its map.
     Undecided,
 }
 
@@ -148,8 +148,8 @@ impl Claim {
 }
 
 impl LearnRecord {
-    /// Returns how likely the map is right by the system's own verdict, 0 … 1: as likely as it
-    /// takes it to be where it claims that; a half where it does not say.
+    /// Returns the probability that the map is right by the system's own verdict, 0 … 1. It is the
+    /// system's estimate if it claims something, and ½ if it is undecided.
     #[must_use]
     pub fn likelihood(&self) -> f64 {
         match self.claim {
@@ -159,16 +159,16 @@ impl LearnRecord {
         }
     }
 
-    /// Returns the bytes of its map for each place; `None` of a map without places, and where it
-    /// does not say.
+    /// Returns the size of its map per place, bytes; `None` for a map without places or of unknown
+    /// size.
     #[must_use]
     pub fn bytes_per_place(&self) -> Option<f64> {
         let bytes = self.map_bytes.filter(|_| self.places > 0)?;
         Some(bytes as f64 / self.places as f64)
     }
 
-    /// Returns how long it thought for each time step, µs, the simulator aside; `None` where nobody
-    /// measured it.
+    /// Returns the computing time per time step without the simulator, µs; `None` if it was not
+    /// measured.
     #[must_use]
     pub fn us_per_step(&self) -> Option<f64> {
         let thinking = self.thinking.filter(|_| self.steps > 0)?;
@@ -176,31 +176,31 @@ impl LearnRecord {
     }
 }
 
-/// What a system says of where it was put down.
+/// A system's answer to where it was put down.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LocateOutcome {
-    /// It says where it is, and is there.
+    /// It says where it is, and is right.
     Right,
-    /// It says where it is, and is elsewhere.
+    /// It says where it is, and is wrong.
     Wrong,
-    /// It does not say.
+    /// It does not answer.
     Abstained {
         /// Reason, as a sentence without a full stop.
         why: String,
     },
 }
 
-/// What came of it when a robot was put down and asked where that is.
+/// Result of localizing after the robot was put down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Located {
-    /// What it says.
+    /// Its answer.
     pub outcome: LocateOutcome,
-    /// How likely an observer that has the true drawing and mistakes nothing would be right about
-    /// the cell after the same drive, 0 … 1: the passive ceiling. `None` if it did not drive.
+    /// Probability that an ideal observer with the true drawing would name the right cell after the
+    /// same drive, 0 … 1: the passive upper bound. `None` if it did not drive.
     pub ceiling: Option<f64>,
-    /// Whether the same system is right that is put down there on the same robot with the true map:
-    /// the active ceiling. That map is one that it learned without errors. `None` if it learned a
-    /// wrong one even so, and where its own map is wrong.
+    /// Whether the same system answers right on the same robot with the true map: the active upper
+    /// bound. It learned that map without errors. `None` if it learned a wrong map even so, or if
+    /// its own map is wrong.
     pub with_true_map: Option<bool>,
 }
 
@@ -214,33 +214,34 @@ impl Located {
     }
 }
 
-/// How a robot went to the goal.
+/// Result of driving to the goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Home {
-    /// Metres driven over those of the shortest way; `None` if it did not arrive within
+    /// Driven distance over that of the shortest way; `None` if it did not arrive within
     /// [`Contest::LIMIT`] times that.
     pub over_shortest: Option<f64>,
-    /// Time steps in which it touched something.
+    /// Number of time steps in which it touched something.
     pub bumps: u32,
-    /// Reason why it gave up before; empty if it did not.
+    /// Reason why it gave up before it arrived; empty if it did not give up.
     pub gave_up: String,
 }
 
 const START_STREAM: u64 = 31;
 const KIDNAPPING_STREAM: u64 = 34;
 
-/// What the door is called.
+/// Name of the door.
 const DOOR: &str = "door";
 
-/// A robot is kidnapped when it has driven such a share of the length of all corridors.
+/// Share of the length of all corridors after which a robot is kidnapped.
 const KIDNAPPED_AT: f64 = 0.5;
 
 impl<'a> Contest<'a> {
-    /// A task ends when the robot has driven this many times the length of all corridors, or of the
+    /// Maximum driven distance of a task, as a multiple of the length of all corridors, or of the
     /// shortest way to the goal.
     pub const LIMIT: f64 = 10.0;
 
-    /// Holds it. `watch` is shown the contestant at every [`Moment`]; nothing depends on it.
+    /// Holds the contest and returns its record. Calls `watch` with the contestant at every
+    /// [`Moment`]; nothing depends on it.
     ///
     /// # Errors
     /// [`ContestError`].
@@ -311,8 +312,8 @@ impl<'a> Contest<'a> {
         })
     }
 
-    /// Returns the contestant with the true map, to be put down: one that it learned on a robot
-    /// that does not err. `None` if that map is wrong.
+    /// Returns the contestant with the true map, ready to be put down. It learned that map on a
+    /// robot without errors. `None` if the map is wrong.
     fn informed(&self, schooling: &Schooling) -> Result<Option<Bout<'a>>, ContestError> {
         let sent = |contest: &Self| {
             let entered = contest.contestant.enter(contest, schooling);
@@ -336,8 +337,8 @@ impl<'a> Contest<'a> {
         Ok(Some(informed))
     }
 
-    /// Returns where the robot is put down, to find out where it is and to go to the goal: cells
-    /// and ways out of them, by chance, never at the goal.
+    /// Returns where the robot is put down, to localize and to drive to the goal: random cells and
+    /// ways out of them, never a goal.
     #[must_use]
     pub fn put_downs(&self) -> Vec<[(Cell, Direction); 2]> {
         let mut rng = stream(self.seed, START_STREAM);
@@ -347,7 +348,7 @@ impl<'a> Contest<'a> {
         starts.collect()
     }
 
-    /// Returns the opening that is a door: see [`Condition::Doors`].
+    /// Returns the opening that is a door; see [`Condition::Doors`].
     fn door(&self) -> Option<(Cell, Direction)> {
         self.condition.door(self.maze, self.seed)
     }
@@ -374,7 +375,7 @@ impl<'a> Contest<'a> {
         Ok(course)
     }
 
-    /// Returns the drawing as it is once the robot has learned.
+    /// Returns the drawing as it is after the robot has learned.
     pub(super) fn maze_afterwards(&self) -> Cow<'a, Maze> {
         match self.door() {
             None => Cow::Borrowed(self.maze),
@@ -386,7 +387,7 @@ impl<'a> Contest<'a> {
         }
     }
 
-    /// Returns where the robot is put amid learning without being told; `None` if it is not.
+    /// Returns where the robot is put during learning without being told; `None` if it is not.
     fn kidnapping(&self) -> Option<(Cell, Direction)> {
         let is_kidnapped = self.condition == Condition::Kidnapping;
         let mut rng = stream(self.seed, KIDNAPPING_STREAM);
@@ -395,7 +396,7 @@ impl<'a> Contest<'a> {
         place.filter(|_| is_kidnapped)
     }
 
-    /// Returns the cells but goals, and the ways out of them.
+    /// Returns all cells but goals, with the ways out of them.
     fn ways_out(&self) -> Vec<(Cell, Direction)> {
         let maze = self.maze;
         let cells = maze.reachable().filter(|cell| !maze.goals().contains(cell));
@@ -403,7 +404,7 @@ impl<'a> Contest<'a> {
         cells.flat_map(out_of).collect()
     }
 
-    /// Returns the ceiling of whoever watches in a course of the drawing.
+    /// Returns the ideal observer for a course of the drawing.
     pub(super) fn observer(&self, course: &Course) -> IdealObserver<'a> {
         IdealObserver {
             maze: self.maze_afterwards(),
@@ -440,10 +441,10 @@ fn position(len: usize, rng: &mut impl Rng) -> usize {
     }
 }
 
-/// A contest under way.
+/// A contest in progress.
 pub(super) struct Bout<'a> {
     pub(super) maze: &'a Maze,
-    /// As it is once the robot has learned.
+    /// The drawing as it is after the robot has learned.
     afterwards: Cow<'a, Maze>,
     truth: TrueGraph,
     observer: IdealObserver<'a>,
@@ -452,19 +453,20 @@ pub(super) struct Bout<'a> {
     pub(super) outing: Box<dyn Outing>,
     /// Whether it was lifted, and has made no step since.
     is_lifted: bool,
-    /// The cell that each place of the map stands for.
+    /// Cell that each place of the map stands for.
     stands_for: BTreeMap<u32, Cell>,
 }
 
 /// How a task went.
 pub(super) struct Driven {
     pub(super) end: TaskEnd,
-    /// The first time step of it.
+    /// Index of its first time step.
     from: usize,
     bumps: u32,
-    /// Metres until it first was at the goal that it was sent to.
+    /// Distance driven until it first reached the goal that it was sent to, m; `None` if it did
+    /// not.
     pub(super) arrived: Option<f64>,
-    /// Metres in all.
+    /// Distance driven in all, m.
     pub(super) metres: f64,
 }
 
@@ -491,9 +493,10 @@ impl<'a> Bout<'a> {
         last.map_or_else(Point::origin, |pose| pose.position)
     }
 
-    /// Lets it pursue a task until it is done, gives up, or has driven `most` metres. After as many
-    /// metres as `kidnapping` says it is put elsewhere, and not told. `see` is shown what it was
-    /// before and after each action.
+    /// Lets it pursue a task until it is done, gives up, or has driven `most` metres.
+    ///
+    /// After as many metres as `kidnapping` says, it is put elsewhere without being told. `see` is
+    /// called before and after each action.
     pub(super) fn pursue(
         &mut self,
         task: Task,
@@ -502,7 +505,7 @@ impl<'a> Bout<'a> {
         mut see: impl FnMut(&dyn Outing, Point),
         watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Driven {
-        // The path does not know that the robot was lifted: its last pose is where that was.
+        // The path does not show that the robot was lifted: its last pose is where that happened.
         let from = self.outing.path().len() - usize::from(!self.is_lifted);
         self.is_lifted = false;
         let bumped = self.outing.bumped().len();
@@ -510,10 +513,10 @@ impl<'a> Bout<'a> {
         self.outing.allow(cells.saturating_mul(STEPS_A_CELL));
         let is_sent = matches!(task, Task::Reach(_));
         let (mut driven, mut until) = (0.0, from);
-        // Metres driven when it last had made a cell's way, and actions since.
+        // Distance, m, at which it had last advanced by a cell, and the number of actions since.
         let (mut before_last, mut idle) = (0.0, 0_u32);
         let mut arrived = None;
-        // Where it was put, and the pose of its path that came next.
+        // Where it was put, and the index of the next pose of its path.
         let mut put: Option<(Point, usize)> = None;
         let end = loop {
             let before = match put {
@@ -541,7 +544,7 @@ impl<'a> Bout<'a> {
                 Ok(Standing::UnderWay) => {}
                 Ok(Standing::Done) => break TaskEnd::Done,
                 Ok(Standing::GaveUp { why }) => break TaskEnd::GaveUp { why },
-                // It broke off amid an action, as it had to.
+                // It had to break off in the middle of an action.
                 Err(_) if self.outing.is_out_of_time() => break TaskEnd::OutOfTime,
                 Err(error) => {
                     let why = error.to_string();
@@ -576,12 +579,12 @@ impl<'a> Bout<'a> {
         }
     }
 
-    /// Metres of all corridors.
+    /// Returns the length of all corridors, m.
     pub(super) fn corridors(&self) -> f64 {
         self.maze.corridor_count() as f64 * self.squares.pitch
     }
 
-    /// What [`LearnRecord::driven`] is a multiple of, m.
+    /// Returns the unit of [`LearnRecord::driven`], m.
     pub(super) fn scale(&self) -> f64 {
         self.corridors().max(self.squares.pitch)
     }
@@ -593,7 +596,7 @@ impl<'a> Bout<'a> {
     ) -> LearnRecord {
         let squares = self.squares;
         let most = Contest::LIMIT * self.corridors();
-        // Where it was when it came to each of its places, and what it believed after each action.
+        // The cell where it was at each of its places, and its belief after each action.
         let mut arrivals: Vec<Cell> = Vec::new();
         let mut beliefs: Vec<PlaceVisit> = Vec::new();
         let see = |outing: &dyn Outing, before: Point| {
@@ -649,7 +652,7 @@ impl<'a> Bout<'a> {
         }
     }
 
-    /// Puts the robot down amid a cell and tells its system.
+    /// Puts the robot down in the middle of a cell and tells its system.
     pub(super) fn put_down(
         &mut self,
         (cell, way): (Cell, Direction),
@@ -659,7 +662,7 @@ impl<'a> Bout<'a> {
         self.outing.put_down(pose)
     }
 
-    /// Puts the robot back at the pose that it was lifted from.
+    /// Puts the robot back to the pose from which it was lifted.
     pub(super) fn put_back(&mut self, pose: Pose) -> Result<(), BoxError> {
         self.is_lifted = false;
         self.outing.lift(pose)
@@ -685,7 +688,7 @@ impl<'a> Bout<'a> {
         })
     }
 
-    /// Returns what it says of where it is once its search for that has ended so, by the truth.
+    /// Returns its answer after localizing has ended, compared with the truth.
     pub(super) fn outcome(&self, end: TaskEnd) -> LocateOutcome {
         match end {
             TaskEnd::Done => self.found(),
@@ -733,15 +736,15 @@ impl<'a> Bout<'a> {
     }
 }
 
-/// A system that has not advanced by one cell within this many actions is stuck; it would turn in
-/// place forever.
+/// Number of actions without advancing by one cell after which a system counts as stuck. Otherwise
+/// it could turn in place forever.
 const IDLE: u32 = 500;
 
-/// Maximum number of time steps of a task per cell, however little is driven in them: an e-puck,
-/// the slowest, makes some 1200 in a cell, and may drive ten times through all.
+/// Maximum number of time steps of a task per cell, however little is driven in them. An e-puck,
+/// the slowest, makes about 1200 in a cell, and may drive through all of them ten times.
 const STEPS_A_CELL: u32 = 20_000;
 
-/// A robot is at a place when it is nearer to it than this, in cells.
+/// Distance from a place within which a robot is at it, in cells.
 pub(super) const NEAR: f64 = 0.75;
 
 /// Returns the length of a path, m.
@@ -754,9 +757,9 @@ pub(super) fn length(path: &[Pose]) -> f64 {
     steps.map(step).sum()
 }
 
-/// What a contest measures of a drawing.
+/// Lengths that a contest measures in a drawing.
 pub(super) trait Measured {
-    /// Openings between two cells that are reached.
+    /// Returns the number of openings between two cells that can be reached.
     fn corridor_count(&self) -> usize;
 
     /// Returns the length of the shortest way from a cell to the goal, m.
@@ -829,7 +832,7 @@ mod tests {
         }
     }
 
-    /// Ticks a millisecond whenever it is asked.
+    /// A stopwatch that advances by a millisecond with each call.
     fn ticking() -> Duration {
         use core::sync::atomic::{AtomicU64, Ordering};
         static TICKS: AtomicU64 = AtomicU64::new(0);
@@ -881,7 +884,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_has_a_map_finds_itself_and_the_goal_from_anywhere() {
+    fn a_system_with_a_map_finds_itself_and_the_goal_from_anywhere() {
         for contestant in [
             Contestant::MslstBetter,
             Contestant::CpmBetter,
@@ -895,7 +898,7 @@ mod tests {
             assert!(found.ceiling.is_some_and(|chance| chance > 0.0));
             let learned = record.learned.as_ref();
             assert!(learned.is_some_and(|map| map.judgement.is_right && map.claim == Claim::Right));
-            // The better MSLST has no true map there: it learns a wrong one without noise.
+            // The better MSLST has no true map there: it learns a wrong one even without noise.
             let with_true_map = (contestant != Contestant::MslstBetter).then_some(true);
             assert_eq!(found.with_true_map, with_true_map, "{contestant:?}");
             let over = record.homes[0].over_shortest;
@@ -961,7 +964,7 @@ mod tests {
                 assert!(driven < 1.2 * Contest::LIMIT, "{condition:?}: {driven}");
                 let told = format!("{record:?}");
                 assert_eq!(told, format!("{:?}", played(contestant, condition)));
-                // An e-puck has no compass, and its wheels slip as made by a share drawn again.
+                // An e-puck has no compass, and its wheels slip by a fresh share even as made.
                 let is_untouched = contestant == Contestant::CpmBetter
                     && matches!(
                         condition,
@@ -1020,7 +1023,7 @@ mod tests {
     fn a_system_in_its_cage_drives_no_more_than_ten_times_the_corridors() {
         let record = play(Contestant::Diktiometry, "spiral", ContestRobot::Own);
         let learned = record.learned.unwrap();
-        // The last action may lead on a little.
+        // The last action may exceed the limit a little.
         assert!(learned.driven < 1.2 * Contest::LIMIT, "{learned:?}");
     }
 }

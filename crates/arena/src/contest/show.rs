@@ -1,5 +1,5 @@
-//! A contestant shown: it learns a drawing, is put down in it, finds out where, and drives to the
-//! goal from there.
+//! Shows a contestant: it learns a drawing, is put down in it, localizes, and drives to the goal
+//! from there.
 
 use tolman_maze::{Cell, Direction};
 use tolman_robot::{Goal, Landmark, Standing, Task};
@@ -13,38 +13,39 @@ use crate::{BoxError, Outing};
 pub struct ShowRecord {
     /// Result of learning.
     pub learned: LearnRecord,
-    /// Metres driven until then.
+    /// Distance driven while learning, m.
     pub explored: f64,
-    /// Result of localizing where it was put down.
+    /// Result of localizing.
     pub found: FoundOut,
-    /// Metres driven from there until it was at the goal; `None` if it did not arrive.
+    /// Distance driven to the goal from there, m; `None` if it did not arrive.
     pub home: Option<f64>,
-    /// Metres of the shortest way to the goal from the cell where it then was.
+    /// Length of the shortest way to the goal from the cell where it then was, m.
     pub shortest: f64,
     /// Reason why it gave up on the way to the goal; empty if it did not.
     pub gave_up: String,
 }
 
-/// How a robot found out where it was put down.
+/// How a robot localized.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundOut {
     /// Its answer.
     pub outcome: LocateOutcome,
-    /// Whether it was left where it was put down: who follows its robot alone is put back.
+    /// Whether it stayed where it was put down. A system that only tracks its robot is put back.
     pub was_put_down: bool,
-    /// Actions that it took.
+    /// Number of actions.
     pub actions: u32,
-    /// Metres that it drove.
+    /// Distance driven, m.
     pub metres: f64,
-    /// The last time step of that, counted from the beginning.
+    /// Last time step of localizing, counted from the beginning.
     pub step: usize,
 }
 
 impl Contest<'_> {
-    /// Shows all that a contestant does and returns the result. It learns the drawing and is put
-    /// down at the first of its [places](Contest::put_downs). It finds out where that is, and
-    /// drives to the goal from there. A contestant that cannot be put down elsewhere is put back
-    /// instead. Calls `watch` at every [`Moment`].
+    /// Plays the show and returns its result. Calls `watch` at every [`Moment`].
+    ///
+    /// The contestant learns the drawing and is put down at the first of its
+    /// [places](Contest::put_downs). It localizes, and drives to the goal from there. A contestant
+    /// that cannot be put down elsewhere is put back instead.
     ///
     /// # Errors
     /// [`ContestError`], also if the contestant [abstains](super::Contestant::abstains).

@@ -3,20 +3,20 @@ use alloc::collections::BTreeSet;
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Landmark;
 
-/// Rule for which cells of a drawing are places, by what a system can distinguish.
+/// Which cells of a drawing are places, depending on what a system can distinguish.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceRule {
-    /// Junctions, dead ends, the start and the goals; a bend is a part of a way.
+    /// Junctions, dead ends, the start and the goals. A bend is part of a way.
     Landmarks,
-    /// Junctions, dead ends and bends: all but where a corridor leads straight on, also where a
-    /// landmark stands there.
+    /// Junctions, dead ends and bends: all cells but those where a corridor leads straight on, even
+    /// with a landmark.
     Corners,
 }
 
-/// The places of a drawing and the ways between them, as they truly are.
+/// The true places of a drawing and the ways between them.
 ///
-/// A place is a cell that is reached and that the [`PlaceRule`] names; every cell of an open square
-/// is a junction or a bend.
+/// A place is a cell that can be reached and that the [`PlaceRule`] names. Every cell of an open
+/// square is a junction or a bend.
 #[derive(Clone, Debug)]
 pub struct TrueGraph {
     places: BTreeSet<Cell>,
@@ -29,7 +29,7 @@ pub struct TrueGraph {
 pub struct TrueWay {
     /// The places at its ends, which may be the same.
     pub ends: [Cell; 2],
-    /// The cells between them, from the first to the second.
+    /// The cells in between, from the first end to the second.
     pub between: Vec<Cell>,
 }
 
@@ -93,8 +93,8 @@ impl TrueGraph {
         landmarks.find(|(at, _)| *at == cell).map(|(_, mark)| *mark)
     }
 
-    /// Returns the numbers of the ways that a robot has gone from end to end which was in these
-    /// cells one by one. O(cells · ways).
+    /// Returns the numbers of the ways that a robot has driven from end to end, given its `cells`
+    /// in order. O(cells · ways).
     #[must_use]
     pub fn gone(&self, cells: impl IntoIterator<Item = Cell>) -> BTreeSet<usize> {
         let mut gone = BTreeSet::new();
@@ -119,7 +119,7 @@ impl TrueGraph {
         self.ways.iter().position(|way| {
             let is_forward = way.ends == [from, to] && way.between == between;
             let is_backward = way.ends == [to, from] && way.between.iter().eq(backward.clone());
-            // One who stays in a place has not gone round a loop.
+            // A robot that stays in a place has not driven round a loop.
             (is_forward || is_backward) && (from != to || !between.is_empty())
         })
     }
@@ -142,7 +142,8 @@ fn turn_back_or_on(between: &mut Vec<Cell>, cell: Cell) {
     }
 }
 
-/// Returns the way that leads `out` of a place, and the direction in which one comes to its end.
+/// Returns the way that leaves a place in the direction `out`, and the direction in which it
+/// arrives at its end.
 fn follow(
     maze: &Maze,
     places: &BTreeSet<Cell>,
@@ -194,7 +195,7 @@ mod tests {
         let south = [(3, 1), (3, 0), (2, 0), (1, 0), (1, 1)];
         let half = graph.gone(cells(&north));
         assert_eq!(half.len(), 1, "the loop was not gone to its end");
-        // Back and forth between two cells is no other way.
+        // Back and forth between two cells is not another way.
         let wavering = [(3, 2), (3, 1), (3, 2)];
         let all = cells(&[&north[..], &wavering, &south].concat());
         let whole = graph.gone(all);
@@ -212,7 +213,7 @@ mod tests {
                 let graph = TrueGraph::of(&maze, PlaceRule::Landmarks);
                 let fragments = TrueFragments::of(&maze).count() as usize;
                 assert_eq!(graph.ways().len(), fragments, "{}\n{maze}", family.name);
-                // Whoever is everywhere has gone all ways.
+                // A robot that has been everywhere has driven all ways.
                 for way in graph.ways() {
                     let [from, to] = way.ends;
                     let there = [&[from][..], &way.between, &[to]].concat();

@@ -12,14 +12,14 @@ use crate::episode::{self, Episode, Trial};
 use crate::mind::Mind;
 use crate::pioneer::calibrated;
 
-/// Maximum number of time steps of a run for each metre that may be driven: turning in place drives
-/// nowhere.
+/// Maximum number of time steps of a run for each metre that may be driven. Turning in place covers
+/// no distance.
 const STEPS_A_METRE: f64 = 20.0;
 
-/// Share of its belief about one cell from which it knows where it is.
+/// Share of its belief about one cell from which it is sure where it is.
 const SURE: f64 = 0.95;
 
-/// A baseline that is sent from where a system is put down, on the laser Pioneer.
+/// Sends a baseline from where a system is put down, on the laser Pioneer.
 pub(super) struct Sender<'a> {
     contest: &'a Contest<'a>,
     agent: Agent,
@@ -37,7 +37,7 @@ impl<'a> Sender<'a> {
         })
     }
 
-    /// Returns a trial from a start that ends when the robot may have driven `most` metres.
+    /// Returns a trial from `start` that ends when the robot may have driven `most` metres.
     fn trial(&self, number: u64, start: (Cell, Direction), most: f64) -> Trial<'_> {
         let Contest {
             condition, seed, ..
@@ -55,7 +55,7 @@ impl<'a> Sender<'a> {
         Ok(self.cast.mind(self.agent, &self.course, &trial.robot)?)
     }
 
-    /// Lets it go to the goal.
+    /// Lets it drive to the goal from each place, and returns the results.
     pub(super) fn homes(&self) -> Result<Vec<Home>, BoxError> {
         let starts = (0_u64..).zip(self.contest.put_downs());
         starts
@@ -82,10 +82,11 @@ impl<'a> Sender<'a> {
         })
     }
 
-    /// Lets the unlocalized oracle, which has the true map, find out where it is on its way to the
-    /// goal. The others give no answer.
+    /// Lets the unlocalized oracle, which has the true map, localize on its way to the goal, and
+    /// returns its answers. The other baselines give none.
     ///
-    /// It is as sure as the systems have to be: when it has most of its belief about one cell.
+    /// It is sure under the same condition as the systems: when most of its belief is about one
+    /// cell.
     pub(super) fn found(&self) -> Result<Vec<Located>, BoxError> {
         if self.agent != Agent::UnlocalizedOracle {
             return Ok(Vec::new());
@@ -103,7 +104,7 @@ impl<'a> Sender<'a> {
         };
         let most = Contest::LIMIT * self.course.maze.corridor_count() as f64 * squares.pitch;
         let trial = self.trial(number, start, most);
-        // Whether it was right when it was sure first, and how many time steps it had made.
+        // Whether it was right when it was first sure, and the number of time steps until then.
         let mut first = None;
         let mut steps = 0_usize;
         let episode = episode::run(&trial, &mut self.mind(&trial)?, |step| {
@@ -131,7 +132,7 @@ impl<'a> Sender<'a> {
     }
 }
 
-/// Returns where it likeliest is, if enough of the belief lies about there.
+/// Returns its most likely position, if enough of the belief is near it.
 fn sure_of(belief: &[Guess], pitch: f64) -> Option<Point> {
     let point = |guess: &Guess| match guess.at {
         Position::Point(point) => Some(point),

@@ -2,25 +2,25 @@ use tolman_geom::{Point, Vector};
 use tolman_maze::{Cell, Grid};
 use tolman_robot::{Guess, MapPlace, MapView, Position};
 
-/// True position of a robot when it believed to be at a place of its map.
+/// True position of a robot when it believed it was at a place of its map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlaceVisit {
-    /// The place, by id.
+    /// Id of the place.
     pub place: u32,
-    /// The cell.
+    /// Cell where the robot truly was.
     pub cell: Cell,
 }
 
-/// The cells of a drawing in a world where they are so far apart.
+/// The cells of a drawing, and their size in the world.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Squares {
     pub(super) grid: Grid,
-    /// From the middle of a cell to the next, m.
+    /// Distance between the middles of two cells, m.
     pub(super) pitch: f64,
 }
 
 impl Squares {
-    /// Returns the cell of a point; of a point outside the nearest.
+    /// Returns the cell of a point; outside the drawing, the nearest cell.
     pub(super) fn cell_at(self, point: Point) -> Cell {
         let along = |metres: f64, cells: u16| {
             let cell = libm::floor(metres / self.pitch);
@@ -38,7 +38,7 @@ impl Squares {
     }
 }
 
-/// Returns the place that a belief names first; of a point the place that lies nearest to it.
+/// Returns the place that a belief names first. For a position, that is the nearest place.
 pub(super) fn believed(belief: &[Guess], map: impl Fn() -> MapView) -> Option<u32> {
     match belief.first()?.at {
         Position::Place(id) => Some(id),
@@ -54,7 +54,7 @@ fn nearest(map: &MapView, point: Point) -> Option<u32> {
 }
 
 /// Returns the offset of a map's frame from the world's, m, by the visited places; `None` if none
-/// of them has a position. The axes are taken to be the same.
+/// of them has a position. The axes are assumed to be the same.
 pub(super) fn offset<'a>(
     places: impl Iterator<Item = (&'a MapPlace, Cell)>,
     squares: Squares,

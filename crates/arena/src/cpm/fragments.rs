@@ -12,7 +12,7 @@ pub struct TrueFragments {
     ways: BTreeMap<(Cell, Direction), WayOut>,
 }
 
-/// A fragment as one leaves a place by it.
+/// A fragment with the direction in which a robot leaves a place by it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WayOut {
     /// The fragment's number.

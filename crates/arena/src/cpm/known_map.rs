@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn a_junction_is_known_to_be_one_by_a_fragment_that_was_walked_twice() {
-        // Over the top, back through the middle, over the bottom: as it lies, the middle is the
+        // Over the top, back through the middle, over the bottom: in truth, the middle is the
         // shortest way, but no fragment was walked twice.
         let by_different_ones = [East, North, West, South, East];
         assert_eq!(shortest(THREE_WAYS, &by_different_ones), Some(12));

@@ -107,7 +107,7 @@ mod tests {
         file.map(&dictionary).unwrap()
     }
 
-    /// Returns whether a map is right on which all fragments were walked but those between these
+    /// Returns whether a map is right if all fragments were walked except those between these
     /// cells.
     fn is_right(map: &CpMap, unwalked: &[u32]) -> bool {
         let maze = tolman_maze::read(THREE_WAYS).unwrap().maze;

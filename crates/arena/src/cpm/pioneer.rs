@@ -95,7 +95,7 @@ fn a_pioneer_learns_a_maze_by_its_laser_and_goes_to_the_goal() {
     }
 }
 
-/// As the paper has it: patterns of a learning maze, no dead reckoning.
+/// As in the paper: patterns of a learning maze, no dead reckoning.
 #[test]
 fn a_pioneer_learns_as_the_paper_s_robot_does() {
     let learning = course(include_str!("../../mazes/cpm-learning.maze"));

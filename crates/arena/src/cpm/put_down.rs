@@ -57,7 +57,7 @@ pub struct PutDownRecord {
     /// The same if the observer also saw the place ahead, and the ways to the sides of the place
     /// behind if it stands beside that. No robot knows more on average.
     pub knowable_by_places: f64,
-    /// Whether the robot knew them then; who has observed nothing did not.
+    /// Whether the robot knew them then; not if it had observed nothing.
     pub is_right_under_way: bool,
     /// The same at that place.
     pub is_right_at_first_place: bool,
@@ -86,7 +86,8 @@ impl KnownMaze<'_> {
 }
 
 impl PutDown<'_> {
-    /// Plays it, or `None` if the map has no fragment that is long enough to stand amid.
+    /// Plays it and returns the record; `None` if the map has no fragment that is long enough to be
+    /// put down in.
     ///
     /// # Errors
     /// [`CpmTrialError`].
@@ -114,7 +115,8 @@ impl PutDown<'_> {
         let maps: Vec<CpMap> = maps.collect();
         let mut search =
             Relocalization::new(&maps, self.patterns, self.approach, self.most_places)?;
-        // The ways that it came by to each place; to the first, from amid one, it is not told.
+        // The ways that it came by to each place. Those to the first place, from mid-fragment, are
+        // not compared.
         let mut onward = Vec::new();
         find_out(&mut search, &mut walker, &mut rng, |walker| {
             let from = walker.departed_at(walker.body().path());

@@ -8,7 +8,7 @@ use crate::Simulated;
 /// The simulated e-puck. Its maze's zones `start` and `destination` are its landmarks.
 pub type SimulatedEpuck = Simulated<Epuck>;
 
-/// A sweep at 4.83 rad/s, just below what the wheels can, takes one sample a step.
+/// A sweep at 4.83 rad/s, just below the wheels' limit, takes one sample per step.
 const STEP_US: u64 = 13_000;
 
 /// Returns the paper's e-puck, with the wheels of the real one, so that a sweep takes 1.3 s.

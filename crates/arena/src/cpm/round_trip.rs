@@ -31,7 +31,7 @@ pub struct RoundTrip {
     pub given_up: u32,
     /// Common patterns from start to goal on the shortest way of the map before the way back.
     pub length_before: u32,
-    /// The same after it, which is no longer.
+    /// Length of that way afterwards, which is not longer.
     pub length_after: u32,
     /// The map at the end.
     pub map: CpMap,

@@ -89,8 +89,8 @@ impl<'a> Score<'a> {
         self.begin_at(layer.explorer().mapper.at(), cell);
     }
 
-    /// Takes in a walk to the end of a fragment; a robot that looks for the goal never turns back
-    /// amid one.
+    /// Adds a walk to the end of a fragment. A robot that looks for the goal never turns back
+    /// inside one.
     pub(super) fn see(
         &mut self,
         layer: &Layer3,
@@ -238,7 +238,8 @@ impl<'a> Score<'a> {
         }
     }
 
-    /// Returns whether a map is that of what was walked: each thing once, and joined as it is.
+    /// Returns whether a map is that of what was walked: each thing once, and joined as it truly
+    /// is.
     pub(super) fn is_map_right(&self, map: &CpMap, maze: &Maze) -> bool {
         let walked = self.lengths.keys().copied().collect();
         is_map_right(map, maze, &self.fragments, &walked)

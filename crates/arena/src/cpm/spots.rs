@@ -94,7 +94,7 @@ impl Spot {
             };
             let headings = headings(maze, &cells);
             let bends = bends(&headings);
-            // The places at both ends are no part of the fragment.
+            // The places at both ends are not part of the fragment.
             let amid = cells.iter().zip(&headings).skip(1).enumerate();
             spots.extend(amid.map(|(passed, (cell, heading))| Self {
                 cell: *cell,

@@ -37,7 +37,7 @@ pub fn survey(
     let fragments = TrueFragments::of(&course.maze);
     let mut walks = Vec::new();
     for (cell, out, way) in fragments.ways() {
-        // Whoever came by this fragment looks into the place.
+        // A robot that came by this fragment looks into the place.
         let start = course.in_cell(cell, out.opposite());
         let body = course.robot_at(start, Epuck::new(robot.clone())?, seed)?;
         let mut walker = Walker::new(body, config.clone());

@@ -251,7 +251,7 @@ fn is_as_short(driven: u32, shortest: Option<u32>) -> bool {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CpmTrialError {
-    /// The maze is no course for an e-puck.
+    /// The maze is not a course for an e-puck.
     #[error(transparent)]
     Course(#[from] CourseError),
     /// Who watched a robot learn broke off.

@@ -144,7 +144,7 @@ pub struct WorldBuilder {
     corridors: Vec<MazeCorridor>,
 }
 
-/// Reason why a drawing is no world.
+/// Reason why a drawing is not a world.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlaneMazeError {
@@ -325,7 +325,7 @@ impl PlaneMaze {
         place.ports.get(port.number as usize).copied()
     }
 
-    /// Returns where one arrives who leaves by a port, or `None` if there is no such port.
+    /// Returns where a robot arrives that leaves by a port, or `None` if there is no such port.
     #[must_use]
     pub fn beyond(&self, port: WorldPort) -> Option<WorldPort> {
         let end = self.end_at(port)?;

@@ -52,10 +52,10 @@ impl EpuckSurveyConfig {
         }
     }
 
-    /// Returns the mapper for mazes whose places are at least so far apart, m.
+    /// Returns the mapper for mazes whose places are at least `separation` apart, m.
     #[must_use]
     pub fn mapper(&self, separation: f64) -> Config {
-        // Ways may bend: whoever left to the north does not come back by going south.
+        // Ways may bend: a robot that left to the north does not come back by going south.
         let actions = vec![ActionKind::default(); Direction::ALL.len()];
         Config {
             place_radius: self.margin / 2.0,
@@ -96,7 +96,7 @@ pub struct EpuckSurvey {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EpuckSurveyError {
-    /// The maze is no course from a start.
+    /// The maze is not a course from a start.
     #[error(transparent)]
     Course(#[from] CourseError),
     /// The robot cannot be built.
@@ -123,10 +123,10 @@ pub enum EpuckRoverError {
     /// The robot.
     #[error(transparent)]
     Walk(#[from] WalkError<StepError>),
-    /// A sweep is no signature.
+    /// A sweep is not a signature.
     #[error(transparent)]
     Signature(#[from] SignatureError),
-    /// Odometry is no number.
+    /// Odometry is not a number.
     #[error(transparent)]
     Interval(#[from] IntervalError),
 }

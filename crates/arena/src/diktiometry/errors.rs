@@ -19,7 +19,7 @@ pub struct MoveError {
 }
 
 impl MoveError {
-    /// Returns the errors of a move that the observer reports so, whose odometry was `moved` and
+    /// Returns the errors of a move that the observer reported, whose odometry was `moved` and
     /// that truly was `truth`.
     #[must_use]
     pub fn of(report: &StepReport, moved: PointBox, truth: Vector) -> Self {

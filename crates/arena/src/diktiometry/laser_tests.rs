@@ -9,7 +9,7 @@ use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
 use super::{Office, OfficeConfig, SurveyorConfig, mapper};
 use crate::run::{Limited, TaskEnd, run};
 
-/// Returns the J maze in corridors 0.95 m wide with walls that are lines, as MSLST has it.
+/// Returns MSLST's J maze: corridors 0.95 m wide, with walls that are lines.
 pub(super) fn j() -> Office {
     let file = tolman_maze::read(include_str!("../../mazes/j-long.maze")).unwrap();
     let furniture = OfficeConfig {

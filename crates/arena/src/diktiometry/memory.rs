@@ -118,7 +118,7 @@ mod tests {
         memory.go(1, Direction::East, 2, 2.0);
         memory.see(2, &all);
         assert_eq!(memory.plan(0, 2), Some(vec![Direction::East; 2]));
-        // The place between is no longer one.
+        // The place in between no longer exists.
         memory.go(0, Direction::East, 2, 4.0);
         assert_eq!(memory.plan(0, 2), Some(vec![Direction::East]));
         assert_eq!(memory.plan(0, 1), None);

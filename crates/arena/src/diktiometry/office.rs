@@ -96,7 +96,7 @@ pub enum OfficeError {
         /// The offending share.
         share: f64,
     },
-    /// There are no colours, or more than anybody tells apart.
+    /// There are no colours, or more than can be told apart.
     #[error("`colours` is {colours}; give 1 to {MOST_COLOURS}")]
     Colours {
         /// The offending number.

@@ -24,8 +24,8 @@ pub struct MapScore {
     pub places: usize,
     /// True places that were visited.
     pub visited: usize,
-    /// Share of visits to the true place that the map's place stands for: the one it was most often
-    /// taken for. Below 1 there is polytopy, one node for several places.
+    /// Share of visits to the true place that the map's place stands for: the one where it was
+    /// visited most often. Below 1 there is polytopy, one node for several places.
     pub purity: f64,
     /// Share of visited true places for which exactly one place on the map stands. Others suffer
     /// monotopy, several nodes for one, or are not on the map.

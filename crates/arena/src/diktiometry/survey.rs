@@ -67,7 +67,7 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     // The map is in metres of the odometry.
     config.shared_scale = robot.shared_share;
     config.place_radius = robot.place_radius * (1.0 + robot.shared_share);
-    // Corridors follow the axes of the compass, and nobody moves a wall.
+    // Corridors follow the axes of the compass, and walls never move.
     config.apart = Apart::Side;
     config.world = WorldKind::Static;
     match robot.sight {
@@ -189,7 +189,7 @@ pub enum RunError {
         /// Position of the robot.
         at: Point,
     },
-    /// There is no way on.
+    /// No way leads on.
     #[error("no way leads on from ({}, {}) m", at.x, at.y)]
     NoWay {
         /// Position of the robot.

@@ -35,8 +35,8 @@ pub struct SurveyFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SurveyFileError {
-    /// The header or the JSON is not sound, or names another system; or the survey has no JSON
-    /// form.
+    /// The header or the JSON is invalid, or names another system; or the survey cannot be written
+    /// as JSON.
     #[error(transparent)]
     File(#[from] FileError),
     /// The exploration probability is outside 0 to 1.
@@ -66,7 +66,8 @@ struct Body {
     /// True start and true position of the robot, m.
     start: [f64; 2],
     at: [f64; 2],
-    /// The true site of every visit and the place on the map it was taken for, from the start on.
+    /// True site of every visit, and the place on the map where the robot believed it was, from the
+    /// start on.
     visits: Vec<(u32, PlaceId)>,
     /// The true ways gone: from which site in which direction.
     gone: Vec<(u32, Direction)>,
@@ -123,7 +124,7 @@ impl SurveyFile {
         if !(0.0..=1.0).contains(&body.heed) {
             return Err(SurveyFileError::Heed { found: body.heed });
         }
-        // Nobody need have a goal in it.
+        // It need not have a goal.
         let MazeFile { maze, .. } = tolman_maze::parse(&body.maze)?;
         let observer = body.map.observer()?;
         let office = Office::new(&maze, &body.office)?;

@@ -39,7 +39,7 @@ pub struct SurveyorConfig {
 /// Error of an outlier of odometry, in bounds.
 const OUTLYING: f64 = 4.0;
 
-/// Returns whether there is no such error; files then leave it out.
+/// Returns whether an error is 0; files then leave it out.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it")]
 fn is_none(error: &f64) -> bool {
     *error <= 0.0
@@ -157,7 +157,7 @@ impl SurveyorConfig {
     pub(super) fn camera_robot(&self) -> CameraPioneerConfig {
         let (columns, colour_sd) = match self.sight {
             PlaceCue::Camera { columns, colour_sd } => (columns, colour_sd),
-            // Nobody looks at it.
+            // It is not used.
             PlaceCue::Laser { .. } | PlaceCue::Exits => (1, 0.0),
         };
         CameraPioneerConfig {

@@ -60,7 +60,7 @@ pub enum BrainError {
     /// It does not start.
     #[error(transparent)]
     Launch(#[from] LaunchError),
-    /// A line of it is no answer.
+    /// A line from it is not an answer.
     #[error(
         "the brain's answer to step {step} is `{line}`: answer with a command as this robot has it, \
          {{\"done\": true}} or {{\"give_up\": \"why\"}}"

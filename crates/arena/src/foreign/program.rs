@@ -267,7 +267,7 @@ impl ForeignProgram {
 
 impl Drop for ForeignProgram {
     fn drop(&mut self) {
-        // What has ended by itself by now is as good, and nobody can be told what fails here.
+        // A program that has already ended is fine, and there is no one to report a failure to.
         if self.is_kept {
             let _ = ask_keeper(&mut self.child);
         }

@@ -57,7 +57,7 @@ pub struct DrivenMap {
     pub drives: Vec<PlaceDrive>,
 }
 
-/// Reason why there are no drives.
+/// Reason why drives cannot be made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DrivenMapError {

@@ -57,7 +57,7 @@ impl OnlineRun {
     }
 }
 
-/// Reason why there is no run.
+/// Reason why a run cannot be made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OnlineRunError {
@@ -125,7 +125,7 @@ fn run(
     let (mut reckoned, mut way) = (start, 0.0);
     let mut seen = Vec::with_capacity(looks as usize);
     for _ in 0..looks {
-        // Its standing is no matter: it has as many looks as it has.
+        // Its standing does not matter: it has a fixed number of looks.
         let mut robot_heard = Reckoned::new(&mut robot, |rolled| {
             reckoned = rolled.applied_to(reckoned);
             way += rolled.distance.abs();

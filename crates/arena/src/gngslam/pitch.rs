@@ -40,7 +40,7 @@ pub struct Goals {
     pub yellow: Pose,
 }
 
-/// Reason why there is no such arena, or no place in it.
+/// Reason why there is no such arena, or no room in it.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PitchError {
@@ -177,7 +177,7 @@ impl Pitch {
     /// Returns the [paper's robot](paper_robot) in this arena's light.
     ///
     /// # Errors
-    /// As that.
+    /// As [`paper_robot`].
     pub fn robot(&self, seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, PitchError> {
         let mut robot = paper_robot(seed, calibration)?;
         robot.camera.light = self.light;
@@ -189,11 +189,11 @@ impl Pitch {
 /// Name of the Pioneer 2-DX, as in the files of maps.
 pub const PIONEER_2DX: &str = "Pioneer 2-DX";
 
-/// Returns the paper's robot. Its wheels count wrongly by a constant share within ± `calibration`,
-/// each its own, by `seed`; 0 for wheels that are right but for slip.
+/// Returns the paper's robot. Each wheel counts wrongly by its own constant share within ±
+/// `calibration`, drawn from `seed`; with 0 the wheels only slip.
 ///
 /// # Errors
-/// [`PitchError::Calibration`] if that is no share from 0 to 0.5.
+/// [`PitchError::Calibration`] if that is not a share from 0 to 0.5.
 pub fn paper_robot(seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, PitchError> {
     if !(0.0..=0.5).contains(&calibration) {
         return Err(PitchError::Calibration { calibration });

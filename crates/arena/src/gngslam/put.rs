@@ -15,7 +15,7 @@ pub enum PutError {
     /// The robot cannot be built.
     #[error("the robot cannot be built")]
     Robot(#[from] Pioneer2dxError),
-    /// There is no place for the robot in the arena.
+    /// The arena has no room for the robot.
     #[error(transparent)]
     Pitch(#[from] PitchError),
     /// The robot cannot stand where it begins.

@@ -124,7 +124,8 @@ fn thing(rng: &mut ChaCha8Rng) -> Material {
     Material::painted(any_colour(rng)).standing(base, height)
 }
 
-/// Puts a box on the floor where it leaves lanes all round; none if there is no such place.
+/// Puts a box on the floor so that it leaves lanes all round; does nothing if there is no such
+/// place.
 fn furnish(room: &mut Room, rng: &mut ChaCha8Rng) {
     let size = Vector::new(rng.random_range(0.3..0.8), rng.random_range(0.3..0.8));
     let height = rng.random_range(0.25..1.3);
@@ -190,7 +191,7 @@ fn any_colour(rng: &mut ChaCha8Rng) -> [u8; 3] {
     core::array::from_fn(|_| rng.random_range(30_u32..220) as u8)
 }
 
-/// Returns the colour of a wall that somebody lives with.
+/// Returns a pale colour, as walls of living rooms have.
 fn pale(rng: &mut ChaCha8Rng) -> [u8; 3] {
     core::array::from_fn(|_| rng.random_range(160_u32..235) as u8)
 }

@@ -172,8 +172,8 @@ fn mean(pairs: &[(Cell, Point)]) -> Option<PointScore> {
     })
 }
 
-/// Returns whether positions are turned about their middle against the cells: the determinant of
-/// their covariance is negative.
+/// Returns whether positions are a mirror image of the cells: the determinant of their covariance
+/// is negative.
 fn is_mirrored(pairs: &[(Cell, Point)]) -> bool {
     let count = pairs.len().max(1) as f64;
     let cells = pairs.iter().map(|(cell, _)| middle(*cell).coords);

@@ -20,7 +20,7 @@ pub enum CertificateError {
         /// The state that it claims.
         known: Knowledge,
     },
-    /// It has no number for some cell, or tells of a wall the maze does not have.
+    /// It lacks a number for some cell, or names a wall that the maze does not have.
     #[error("the certificate has {found} numbers where the maze has {cells} cells")]
     Size {
         /// Numbers.

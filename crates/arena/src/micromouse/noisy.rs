@@ -146,7 +146,7 @@ pub enum NoisyError {
     /// The maze does not say where the mouse starts.
     #[error(transparent)]
     Maze(#[from] RefereeError),
-    /// There is no such mouse.
+    /// The mouse cannot be made.
     #[error(transparent)]
     Mouse(#[from] NoisyMouseError),
     /// The maze cannot be built.
@@ -163,11 +163,11 @@ pub enum NoisyError {
     Step(#[from] StepError),
 }
 
-/// Sends a mouse through `maze`: it explores until it believes to have proven its run, is put back
-/// to the start, and makes it.
+/// Sends a mouse through `maze` and returns the trial. It explores until it believes that its run
+/// is proven, is put back to the start, and makes it.
 ///
 /// # Errors
-/// If there is no such maze or mouse.
+/// If the maze or the mouse is invalid.
 pub fn send(maze: &Maze, config: &NoisyConfig, seed: u64) -> Result<NoisyTrial, NoisyError> {
     let mut outing = Outing::new(maze, config, seed)?;
     let end = outing.both_runs()?;
@@ -227,7 +227,7 @@ impl<'a> Outing<'a> {
         Ok(NoisyEnd::Arrived { run_1, run_2 })
     }
 
-    /// Lets the mouse act until it takes itself to be done; or how the trial ended before.
+    /// Lets the mouse act until it believes that it is done, and returns how the trial ended.
     fn until_done(
         &mut self,
         act: fn(&mut NoisyMouse, &mut Solo<LaserPioneer>) -> Result<NoisyNext, StepError>,

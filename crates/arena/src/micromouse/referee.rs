@@ -1,4 +1,4 @@
-//! The rules of the paper's test program, to the letter.
+//! The rules of the paper's test program, taken literally.
 
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_systems::micromouse::{Brief, Movement, Order, OrderError, Rotation, Sight};
@@ -35,7 +35,7 @@ pub struct Referee<'a> {
     start: (Cell, Direction),
     cell: Cell,
     heading: Direction,
-    /// Orders so far.
+    /// Number of orders so far.
     steps: u32,
     stage: Stage,
     verdict: ScoreSheet,
@@ -64,7 +64,7 @@ pub enum Ruling {
     ResetRefused,
     /// The movement ended on a goal in the second run: done.
     Finished,
-    /// There was no step left, or the runs are over: nothing happened.
+    /// No step was left, or the runs are over: nothing happened.
     Over,
 }
 
@@ -113,7 +113,7 @@ pub fn brief(maze: &Maze) -> Result<Brief, RefereeError> {
 }
 
 impl<'a> Referee<'a> {
-    /// Returns the mouse stands at the start, no step is done.
+    /// Returns a referee whose mouse is at the start and has made no step.
     ///
     /// # Errors
     /// If the maze has no start, or [`Maze::check`] refuses it.
@@ -228,13 +228,13 @@ impl<'a> Referee<'a> {
         (self.cell, self.heading)
     }
 
-    /// Orders that counted so far.
+    /// Returns the number of orders that counted so far.
     #[must_use]
     pub const fn steps(&self) -> u32 {
         self.steps
     }
 
-    /// Returns what is written down so far.
+    /// Returns the score sheet so far.
     #[must_use]
     pub const fn verdict(&self) -> ScoreSheet {
         self.verdict

@@ -65,14 +65,14 @@ pub fn sides_seen(sight: Sight, cell: Cell, heading: Direction) -> Vec<SideSeen>
     lines.into_iter().flat_map(line).collect()
 }
 
-/// Reason why there was no trial.
+/// Reason why a trial cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MouseTrialError {
     /// The maze will not do.
     #[error(transparent)]
     Referee(#[from] RefereeError),
-    /// There is no mouse for this maze.
+    /// No mouse can be made for this maze.
     #[error(transparent)]
     Mouse(#[from] MouseError),
     /// The mouse gave an order that the rules do not know.

@@ -34,7 +34,7 @@ pub struct Hosted {
     pub movements: u64,
     /// Number of collisions with walls.
     pub crashes: u64,
-    /// Lines that were no command.
+    /// Number of lines that were not commands.
     pub invalid_commands: u64,
     /// All figures in half-steps.
     pub half_steps: Score,
@@ -55,13 +55,13 @@ pub enum MouseExit {
     OutOfTime,
     /// It had made all its movements.
     OutOfMovements,
-    /// It wrote a line that no command can be.
+    /// It wrote a line longer than any command.
     LineTooLong,
-    /// It wrote more than a mouse has to say.
+    /// It wrote more than a mouse ever needs to.
     TooMuchOutput,
     /// It closed its stdout and ran on.
     ClosedOutput,
-    /// Whoever hosts it wanted no more.
+    /// The caller interrupted it.
     Interrupted,
 }
 

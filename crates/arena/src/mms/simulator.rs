@@ -20,7 +20,7 @@ pub struct Simulator<'a> {
     movements: u64,
     crashes: u64,
     invalid: u64,
-    /// Movements after which somebody presses the reset button.
+    /// Number of movements after which the reset button is pressed.
     reset_after: Option<u64>,
 }
 
@@ -89,8 +89,8 @@ impl<'a> Simulator<'a> {
         self.reset_after = Some(movements);
     }
 
-    /// Carries out one line of the mouse. Commands that only draw, and what is no command, get no
-    /// reply.
+    /// Carries out one line of the mouse and returns the reply. Commands that only draw, and lines
+    /// that are not commands, get none.
     pub fn answer(&mut self, line: &str) -> Option<String> {
         let mut words = line.split_ascii_whitespace();
         let command = words.next()?;
@@ -107,7 +107,7 @@ impl<'a> Simulator<'a> {
     }
 
     fn reply(&mut self, command: &str, argument: Option<&str>) -> Option<String> {
-        // What is no number counts as 0, what is missing as 1.
+        // What is not a number counts as 0, what is missing as 1.
         let number = || argument.map_or(1, |text| text.parse().unwrap_or(0));
         if let Some(eighths) = eighths_of(command) {
             let heading = self.heading.turned(eighths);
@@ -243,7 +243,7 @@ impl<'a> Simulator<'a> {
         self.crashes
     }
 
-    /// Lines that were no command.
+    /// Number of lines that were not commands.
     #[must_use]
     pub const fn invalid(&self) -> u64 {
         self.invalid

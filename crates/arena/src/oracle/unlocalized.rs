@@ -107,7 +107,7 @@ impl PlaceViews {
         })
     }
 
-    /// Returns the probability, but for a factor, of seeing `scan` at a place.
+    /// Returns the probability of seeing `scan` at a place, up to a constant factor.
     fn likelihood(&self, place: &Standpoint, scan: &[f64]) -> f64 {
         if scan.is_empty() || scan.len() != place.scan.len() {
             return 1.0;

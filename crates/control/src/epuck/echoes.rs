@@ -6,8 +6,8 @@ use super::RangeCurve;
 /// What the eight proximity sensors meet right now: a point each in the robot's frame, m, or
 /// nothing within reach.
 ///
-/// The sensors are numbered as [`proximity_mounts`]: 0 and 7 look ahead, 1 and 6 half aside, 2 and
-/// 5 aside.
+/// The sensors are numbered as [`proximity_mounts`]: 0 and 7 look ahead, 1 and 6 diagonally, 2 and
+/// 5 to the side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Echoes {
     points: [Option<Point>; PROXIMITY_SENSORS],

@@ -63,8 +63,7 @@ impl Profile {
                 if !value.is_finite() {
                     return Err(ProfileError::NotFinite { sensor, index });
                 }
-                // A sample belongs to the two bearings beside its own, to each the more the nearer
-                // it is.
+                // A sample counts for the two bearings beside its own; the nearer one counts more.
                 let bearing = (index as f64 + shifts[sensor] + count as f64) % count as f64;
                 let (below, share) = (libm::floor(bearing), bearing - libm::floor(bearing));
                 for (at, weight) in [(below, 1.0 - share), (below + 1.0, share)] {

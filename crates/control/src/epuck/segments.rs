@@ -67,8 +67,8 @@ pub struct SegmentConfig {
     /// value.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub space_below: f64,
-    /// Fewer samples than this are no space but the foot of a wall's edge, or a gap between walls
-    /// far away. The paper says nothing of it, which is 1.
+    /// Minimum number of samples of a space. Fewer are the foot of a wall's edge, or a gap between
+    /// walls far away. The paper has no such rule, which is 1.
     pub narrowest_space: u32,
     /// Neighbouring segments whose means lie both below this, or both not, are made one, so that
     /// ways and walls alternate. The paper joins none, which is 0.
@@ -77,8 +77,8 @@ pub struct SegmentConfig {
 }
 
 impl SegmentConfig {
-    /// Returns the paper's to the letter, with ours where it is silent: δ = 5; a space reads less
-    /// than 12 on average, as nothing within 23 cm does.
+    /// Returns the paper's values, taken literally, with ours where it is silent: δ = 5. A space
+    /// reads less than 12 on average, like all space with nothing within 23 cm.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -175,8 +175,8 @@ impl Profile {
                 samples: part.length as u32,
             })
             .collect();
-        // A way on that is all but hidden behind a bend is no space, but still lower than what is
-        // beside it.
+        // A way on that is almost hidden behind a bend is not a space, but still lower than its
+        // neighbours.
         let found = segments.len();
         let mean = |index: usize| segments[index % found].mean;
         let valleys = (0..found).filter(|index| {
@@ -329,7 +329,7 @@ impl Segments {
     }
 }
 
-/// Reason why a profile cannot be segmented, or segments are no feature.
+/// Reason why a profile cannot be segmented, or segments do not form a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SegmentError {

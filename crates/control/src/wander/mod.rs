@@ -11,7 +11,7 @@
 //! 3. [`UntilNear`]: carries that out on a [`Robot`](tolman_robot::Robot), and turns it to where
 //!    the way is clear, or by an angle.
 //!
-//! Where to turn is the business of whoever drives.
+//! The caller decides where to turn.
 
 mod go_ahead;
 mod near_limits;

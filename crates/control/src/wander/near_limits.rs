@@ -4,10 +4,10 @@ use tolman_robot::Sounding;
 
 /// How near a thing may come: ahead, and beside.
 ///
-/// A sensor that looks aside may be nearer to a wall than one that looks ahead, as long as the wall
-/// lies beside the lane that the robot drives along: the threshold is `side` divided by the sine of
-/// the angle between the way ahead and the edge of the sensor's cone, and at most `ahead`. Sensors
-/// that look back have none.
+/// A sensor that looks to the side may be nearer to a wall than one that looks ahead, as long as
+/// the wall is beside the lane that the robot drives along: the threshold is `side` divided by the
+/// sine of the angle between the way ahead and the edge of the sensor's cone, and at most `ahead`.
+/// Sensors that look back have none.
 ///
 /// ```
 /// use tolman_control::wander::NearLimits;
@@ -49,7 +49,7 @@ impl NearLimits {
     /// Returns the range below which a sensor says that something is near, m.
     #[must_use]
     pub fn threshold(&self, sounding: &Sounding) -> f64 {
-        /// A sensor that looks straight aside is one of the sides', rounding or not.
+        /// A sensor that looks straight to the side belongs to the sides, whatever the rounding.
         const ASIDE: f64 = FRAC_PI_2 + 1e-6;
         let bearing = sounding.mount.heading.radians().abs();
         if bearing > ASIDE {

@@ -5,7 +5,7 @@ use super::{LegEnd, LegStep};
 /// The lowest layer: the leg ends where the body touches something.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StopAtBump {
-    /// Whether this leg has made a step: what was touched before it is no matter.
+    /// Whether this leg has made a step. What was touched before the leg does not matter.
     has_moved: bool,
 }
 

@@ -1,12 +1,12 @@
-//! The outcome in three sentences, made from the rows.
+//! The result in three sentences, made from the rows.
 
 use super::header::grouped;
 use crate::{
     Doubt, ExperimentOutcome, Finding, Measured, Metric, Table, heading, value_with_spread,
 };
 
-/// Returns what was run and how much of the paper was met, what differs most, and why of the rest
-/// nobody can tell; a sentence of which there is nothing to say is left out.
+/// Returns up to three sentences: what was run and how many of the paper's values match, what
+/// differs most, and why others cannot be judged.
 pub(super) fn of(outcome: &ExperimentOutcome) -> String {
     let analysis = &outcome.analysis;
     let told = analysis.tally();
@@ -29,7 +29,7 @@ pub(super) fn of(outcome: &ExperimentOutcome) -> String {
     sentences.join(" ")
 }
 
-/// Returns the distance of a value from the paper's, in tolerances.
+/// Returns the difference of a value from the paper's, in tolerances.
 fn excess(measured: &Measured) -> Option<f64> {
     let accepted = measured.verdict.as_ref()?.accepted?;
     let far = (measured.value - measured.paper.as_ref()?.value).abs();
@@ -48,7 +48,7 @@ fn differs((table, metric, measured): (&Table, &Metric, &Measured)) -> Option<St
     ))
 }
 
-/// Returns the reason for which most values cannot be judged.
+/// Returns the most frequent reason why values cannot be judged.
 fn doubt<'a>(values: impl Iterator<Item = &'a Measured>) -> Option<String> {
     let mut doubts: Vec<(&Doubt, usize)> = Vec::new();
     for verdict in values.filter_map(|measured| measured.verdict.as_ref()) {

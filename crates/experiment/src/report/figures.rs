@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use tolman_draw::Figure;
 
-/// Figures side by side where there is room.
+/// Returns figures side by side, as far as there is room.
 pub(super) fn grid(figures: &[&Figure]) -> Markup {
     html! {
         @if !figures.is_empty() {
@@ -13,7 +13,7 @@ pub(super) fn grid(figures: &[&Figure]) -> Markup {
     }
 }
 
-/// Returns figures in a fold that names them; `more` than those that are seen before it.
+/// Returns figures in a fold that names them. `more` says that others are shown before it.
 pub(super) fn folded(figures: &[&Figure], more: bool) -> Markup {
     let count = match (figures.len(), more) {
         (1, true) => "1 more figure".to_owned(),
@@ -34,7 +34,7 @@ pub(super) fn of_no_table(figures: &[Figure]) -> Vec<&Figure> {
     figures.collect()
 }
 
-/// Returns the section of the figures that belong to no table, of which the first `shown` are seen.
+/// Returns the section of the figures that belong to no table; the first `shown` are open.
 pub(super) fn others(figures: &[&Figure], shown: usize) -> Markup {
     let (seen, rest) = figures.split_at(shown.min(figures.len()));
     html! {
@@ -48,8 +48,8 @@ pub(super) fn others(figures: &[&Figure], shown: usize) -> Markup {
     }
 }
 
-/// A picture wider than this may have to be scrolled on a phone, which the keyboard can do in
-/// focus.
+/// Width above which a picture may scroll on a phone, px. It must then be focusable, so that the
+/// keyboard can scroll it.
 const PHONE: f64 = 340.0;
 
 fn one(figure: &Figure) -> Markup {

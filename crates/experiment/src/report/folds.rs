@@ -1,28 +1,27 @@
-//! What of a page lies open, and what is folded until a reader asks for it.
+//! Chooses what is open on a page, and what is folded until a reader opens it.
 //!
-//! The story of a page takes at most six windows of a desk. The main tables come first, each with
-//! its first metrics and figures; the rest is one click away. Heights are estimated on the safe
-//! side, since a page that is written knows no browser.
+//! The open part takes at most six desktop screens. The main tables come first, each with its first
+//! metrics and figures. The rest is one click away. Heights are estimates on the safe side, because
+//! no browser is known when the page is written.
 
 use tolman_draw::Figure;
 
 use super::table;
 use crate::TableAnalysis;
 
-/// Height of six windows of 1280 × 800 pixels.
+/// Height of six screens of 1280 × 800 pixels, px.
 const STORY: f64 = 4800.0;
 
 /// Width of the page's text and figures, px.
 const WIDTH: f64 = 1200.0;
 
-/// Height of the page's head with abstract, cards and contents, and of what stands below the
-/// tables, px.
+/// Height of the page's head with abstract, cards and contents, and of what follows the tables, px.
 const HEAD: f64 = 620.0;
 
 /// Height of a folded table, px.
 const FOLDED: f64 = 56.0;
 
-/// Height of a row whose verdict may take two lines, and of another, px.
+/// Height of a row whose verdict may take two lines, and of other rows, px.
 const JUDGED_ROW: f64 = 56.0;
 const ROW: f64 = 40.0;
 
@@ -32,20 +31,20 @@ const CAPTION: f64 = 90.0;
 /// Open parts of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Shown {
-    /// Whether it lies open at all.
+    /// Whether the table is open.
     pub(super) open: bool,
-    /// Number of its varying metrics that are seen when it is open.
+    /// Number of its varying metrics that are shown when it is open.
     pub(super) metrics: usize,
-    /// Number of its figures that are seen when it is open.
+    /// Number of its figures that are shown when it is open.
     pub(super) figures: usize,
 }
 
-/// Parts that may lie open on a page.
+/// Budget for the open parts of a page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Folds {
-    /// Height that is left, px.
+    /// Remaining height, px.
     left: f64,
-    /// Rows that a table shows at most, but for those of its first metric.
+    /// Maximum number of rows that a table shows, except for those of its first metric.
     rows: usize,
     /// Whether tables show figures.
     figures: bool,
@@ -56,7 +55,7 @@ pub(super) struct Folds {
 pub(super) struct Part<'a> {
     pub(super) table: &'a TableAnalysis,
     pub(super) figures: Vec<&'a Figure>,
-    /// Whether it is told first.
+    /// Whether it comes first.
     pub(super) main: bool,
 }
 
@@ -74,7 +73,7 @@ impl<'a> Part<'a> {
 }
 
 impl Folds {
-    /// Returns the folds of the page of one experiment.
+    /// Returns the budget for the page of one experiment.
     pub(super) const fn of_report() -> Self {
         Self {
             left: STORY - HEAD,
@@ -83,9 +82,9 @@ impl Folds {
         }
     }
 
-    /// Returns the folds of a tour of `experiments` experiments.
+    /// Returns the budget for a tour of `experiments` experiments.
     pub(super) fn of_tour(experiments: usize) -> Self {
-        // Each has a heading, its source and the command that makes it again.
+        // Each has a heading, its source and the command that repeats it.
         Self {
             left: STORY - 340.0 - 165.0 * experiments as f64,
             rows: 6,
@@ -93,7 +92,7 @@ impl Folds {
         }
     }
 
-    /// Returns what is open of each table, in their order.
+    /// Returns the open parts of each table, in order.
     pub(super) fn of_tables(&mut self, parts: &[Part<'_>]) -> Vec<Shown> {
         self.left -= FOLDED * parts.len() as f64;
         let mut shown = vec![Shown::default(); parts.len()];
@@ -107,7 +106,7 @@ impl Folds {
         shown
     }
 
-    /// Returns how many of these figures lie open, and takes the room for them.
+    /// Returns how many of these figures are open, and subtracts their height.
     pub(super) fn of_figures(&mut self, figures: &[&Figure]) -> usize {
         let (count, height) = first_line(figures);
         if count > 0 && height <= self.left {
@@ -152,7 +151,7 @@ impl Folds {
     }
 }
 
-/// Returns how many figures stand side by side in the first line, and its height.
+/// Returns the number of figures in the first line, and its height.
 fn first_line(figures: &[&Figure]) -> (usize, f64) {
     let (mut count, mut width, mut height) = (0, 0.0, 0.0_f64);
     for figure in figures {

@@ -1,13 +1,13 @@
-//! The head of the page: what was run, with what, and the outcome at a glance.
+//! The head of the page: what was run, with what, and the result at a glance.
 
 use maud::{Markup, html};
 
 use crate::{Contrast, ExperimentOutcome, VerdictTally, duration};
 
-/// Corrected p-values below this are called a difference.
+/// Corrected p-values below this count as a difference.
 pub(super) const SIGNIFICANT: f64 = 0.05;
 
-/// Returns title, source, provenance, and the command that makes the page again.
+/// Returns title, source, provenance, and the command that repeats the results.
 pub(super) fn header(outcome: &ExperimentOutcome) -> Markup {
     let time = match outcome.played {
         0 => "no run played now".to_owned(),
@@ -35,7 +35,7 @@ pub(super) fn header(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// Returns the outcome in a few numbers.
+/// Returns the result in a few numbers.
 pub(super) fn cards(outcome: &ExperimentOutcome) -> Markup {
     let values = || outcome.analysis.values().map(|(_, _, measured)| measured);
     let told = outcome.analysis.tally();
@@ -62,7 +62,7 @@ pub(super) fn cards(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// Links to the tables, with how many of their values match, where there is more than one.
+/// Returns links to the tables, with their number of matching values; empty for a single table.
 pub(super) fn contents(outcome: &ExperimentOutcome) -> Markup {
     let tables = &outcome.analysis.tables;
     html! {
@@ -80,7 +80,7 @@ pub(super) fn contents(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// Returns what is found of the paper's values that ours do not match.
+/// Returns the number of the paper's values that ours do not match, by verdict.
 fn others(told: &VerdictTally) -> String {
     let better = match told.better {
         0 => String::new(),
@@ -94,14 +94,14 @@ fn others(told: &VerdictTally) -> String {
     format!("of the paper's values; {better}{differs} differ, {cannot_tell} cannot tell")
 }
 
-/// Returns how many of these hold, and how many there are.
+/// Returns how many of these are true, and how many there are.
 fn tally(these: impl Iterator<Item = bool>) -> (usize, usize) {
     these.fold((0, 0), |(hold, all), holds| {
         (hold + usize::from(holds), all + 1)
     })
 }
 
-/// Returns how many runs the rows have, where all have the same number.
+/// Returns the number of runs of each row, if all have the same number.
 fn runs_of_rows(outcome: &ExperimentOutcome) -> String {
     let tables = &outcome.analysis.tables;
     let mut rows = tables.iter().flat_map(|table| &table.table.rows);

@@ -1,10 +1,14 @@
 //! The report: one HTML file that opens anywhere, without network.
 //!
-//! The page is put together from parts, each a function of the [`ExperimentOutcome`]: header, cards
-//! and contents (`header`), one section for each table (`table`), figures (`figures`), the notes
-//! that say how to read it all (`notes`), what of it is folded (`folds`), and the replays with the
-//! script (`replays`, `page.js`). `docs/report.md` names the ids and attributes that tests and
-//! other scripts may rely on.
+//! The page is made of parts, each a function of the [`ExperimentOutcome`]:
+//!
+//! - header, cards and contents (`header`)
+//! - one section for each table (`table`), and figures (`figures`)
+//! - notes on how to read them (`notes`)
+//! - what is folded (`folds`)
+//! - replays with the script (`replays`, `page.js`)
+//!
+//! `docs/report.md` names the ids and attributes that tests and other scripts may rely on.
 
 mod abstracts;
 mod figures;
@@ -62,7 +66,7 @@ pub(crate) fn html(outcome: &ExperimentOutcome) -> String {
     page.into_string()
 }
 
-/// Returns the head of a page, with the style of all pages and `style`, its own.
+/// Returns the head of a page, with the style of all pages and its own `style`.
 fn head(title: &str, style: &str) -> Markup {
     html! {
         head {

@@ -6,7 +6,7 @@ use super::replays;
 
 use crate::{ExperimentOutcome, Metric, RESAMPLES, Statistic, Within, heading};
 
-/// Returns the notes below everything, only about what the page shows.
+/// Returns the notes at the end of the page. They explain only what the page shows.
 pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
     let analysis = &outcome.analysis;
     let metrics: Vec<&Metric> = analysis
@@ -84,7 +84,7 @@ pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// Returns the stated tolerances in words, each metric once.
+/// Returns the tolerances in words, each metric once.
 fn tolerances(metrics: &[&Metric]) -> String {
     let mut told: Vec<String> = Vec::new();
     for metric in metrics {

@@ -1,4 +1,4 @@
-//! The rows of a table compared each with each.
+//! Pairwise comparison of a table's rows.
 
 use maud::{Markup, html};
 

@@ -1,4 +1,4 @@
-//! The replays that the page carries, the player, and what stands in for the others.
+//! The page's replays, the player, and what replaces the replays of other runs.
 
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::ExperimentOutcome;
 use crate::shell;
 
-/// Returns the window a replay opens in, hidden until then, and the small text beside a dot.
+/// Returns the window in which a replay opens, hidden until then, and the small text beside a dot.
 pub(super) fn dialog(outcome: &ExperimentOutcome) -> Markup {
     html! {
         div #tip role="status" hidden {}
@@ -30,7 +30,8 @@ pub(super) fn dialog(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// Returns which replays the page carries, and why not all; empty if no run is recorded.
+/// Returns a sentence that says which replays the page carries, and why not all; empty if no run is
+/// recorded.
 pub(super) fn carried(outcome: &ExperimentOutcome) -> String {
     let replays = &outcome.replays;
     let megabytes = replays.budget as f64 / 1e6;
@@ -60,7 +61,7 @@ pub(super) fn carried(outcome: &ExperimentOutcome) -> String {
 
 const CARRIES: &str = "This page carries the replays of";
 
-/// Returns the rules of the player, if the page has replays.
+/// Returns the player's style rules; empty for a page without replays.
 pub(super) fn style(outcome: &ExperimentOutcome) -> &'static str {
     match outcome.replays.recorded.is_empty() {
         true => "",
@@ -68,7 +69,7 @@ pub(super) fn style(outcome: &ExperimentOutcome) -> &'static str {
     }
 }
 
-/// Returns what the page's script reads, the replays, the player and the script.
+/// Returns the data for the page's script, the replays, the player and the script.
 pub(super) fn scripts(outcome: &ExperimentOutcome) -> Markup {
     html! {
         script #report-data type="application/json" { (PreEscaped(data(outcome))) }
@@ -81,7 +82,7 @@ pub(super) fn scripts(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// Returns the command that plays a run again, in the parts the script puts together.
+/// Returns the command that plays a run again, in the parts that the script joins.
 fn data(outcome: &ExperimentOutcome) -> String {
     let tables = (1_u32..)
         .zip(&outcome.analysis.tables)

@@ -1,4 +1,4 @@
-//! One table of the paper beside ours.
+//! A table of the paper with our values beside it.
 
 use maud::{Markup, html};
 
@@ -11,12 +11,12 @@ use crate::{
 };
 use tolman_draw::Series;
 
-/// Returns the section of the table, with its figures; `number`, from 1, names it where it is the
-/// only one of that number on the page.
+/// Returns the section of the table with its figures. `number`, from 1, names it if the page has
+/// only one table of that number.
 ///
 /// Each metric is a body of the table. A header with `data-sort` sorts the rows of every body by
 /// the `data-value` of their cells with that `data-column`. On a narrow page a row becomes a card:
-/// name and verdict above, the other cells below with their `data-label`.
+/// name and verdict on top, the other cells below with their `data-label`.
 pub(super) fn section(number: Option<u32>, part: &Part<'_>, shown: Shown) -> Markup {
     let analysis = part.table;
     let table = &analysis.table;
@@ -81,19 +81,19 @@ fn matrix(analysis: &TableAnalysis, metrics: &[&MetricAnalysis]) -> Markup {
     }
 }
 
-/// Returns the metrics that are not the same in every run.
+/// Returns the metrics that vary between runs.
 pub(super) fn varying(analysis: &TableAnalysis) -> impl Iterator<Item = &MetricAnalysis> {
     let metrics = analysis.metrics.iter();
     metrics.filter(|metric| !is_constant(metric))
 }
 
-/// Returns what the metrics are called, in turn.
+/// Returns the titles of the metrics.
 fn titles(metrics: &[&MetricAnalysis]) -> String {
     let titles = metrics.iter().map(|metric| metric.metric.title.as_str());
     titles.collect::<Vec<_>>().join(", ")
 }
 
-/// Returns whether all rows have one value without spread, for which the paper has none.
+/// Returns whether all rows have the same value without spread, and the paper has no value.
 fn is_constant(metric: &MetricAnalysis) -> bool {
     let Some(first) = metric.rows.first() else {
         return false;
@@ -118,11 +118,11 @@ fn same(metric: &MetricAnalysis) -> Option<String> {
     ))
 }
 
-/// Columns of a table, beside those that all have.
+/// Which columns a table has in addition to the common ones.
 struct Columns<'a> {
-    /// Whether the paper says anything of the table.
+    /// Whether there is a column for the paper.
     paper: bool,
-    /// Whether a metric is a mean or a median, beside which stands the other.
+    /// Whether there is a column for the median beside means, or the mean beside medians.
     also: bool,
     comparison: Option<&'a Comparison>,
 }
@@ -174,7 +174,8 @@ fn group(analysis: &TableAnalysis, columns: &Columns<'_>, metric: &MetricAnalysi
     }
 }
 
-/// Returns what a reader is told who points at the heading of a metric; `None` if there is nothing.
+/// Returns the explanation shown when the pointer is on the heading of a metric; `None` if there is
+/// none.
 fn explained(metric: &Metric) -> Option<String> {
     let explanation = metric.explanation();
     (!explanation.is_empty()).then_some(explanation)
@@ -232,7 +233,7 @@ fn contrast(comparison: &Comparison, measured: &Measured) -> Markup {
     }
 }
 
-/// Returns how large an effect is, in the words of Vargha and Delaney ("A critique and improvement
+/// Returns the size of an effect in words: that of Vargha and Delaney ("A critique and improvement
 /// of the CL common language effect size statistics of McGraw and Wong", 2000).
 fn magnitude(a12: f64) -> &'static str {
     match (a12 - 0.5).abs() {
@@ -243,8 +244,8 @@ fn magnitude(a12: f64) -> &'static str {
     }
 }
 
-/// Returns the verdict, with how much of a difference could have been seen; who points at it reads
-/// the tolerance or the reason.
+/// Returns the verdict, with the smallest difference that could have been detected. The tolerance
+/// or the reason shows when the pointer is on it.
 fn verdict(metric: &Metric, verdict: Option<&Verdict>) -> Markup {
     html! {
         @if let Some(verdict) = verdict {
@@ -255,7 +256,7 @@ fn verdict(metric: &Metric, verdict: Option<&Verdict>) -> Markup {
                 } @else if let Some(doubt) = verdict.finding.doubt() {
                     span.accepted { (doubt) }
                 }
-                // Where they do not fit beside each other the line breaks here.
+                // The line breaks here if they do not fit side by side.
                 " "
                 span class={ "badge " (word.replace(' ', "-")) } { (word) }
             }
@@ -263,7 +264,7 @@ fn verdict(metric: &Metric, verdict: Option<&Verdict>) -> Markup {
     }
 }
 
-/// Returns which values lie within the tolerance, and why nobody can tell.
+/// Returns which values are within the tolerance, or why the value cannot be judged.
 fn told(metric: &Metric, verdict: &Verdict) -> String {
     let decimals = metric.places();
     let within = verdict.accepted.map(|accepted| {
@@ -277,7 +278,7 @@ fn told(metric: &Metric, verdict: &Verdict) -> String {
     parts.join("; ")
 }
 
-/// Returns the median beside a mean, the mean beside a median.
+/// Returns the median if the value is a mean, and the mean if it is a median.
 fn also(metric: &Metric, measured: &Measured) -> Option<String> {
     let decimals = metric.places();
     match metric.statistic {

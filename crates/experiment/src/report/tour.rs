@@ -1,4 +1,4 @@
-//! The page of a tour: the tables of several experiments in turn.
+//! The page of a tour: the tables of several experiments.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -7,9 +7,10 @@ use super::{figures, head, table};
 use crate::ExperimentOutcome;
 use tolman_draw::Figure;
 
-/// Returns the page of a tour: of every experiment its tables, figures and verdicts, with a link to
-/// the report of its own, which lies in the folder `NAME` beside the page and carries the replays.
-/// `last` says what is not on it.
+/// Returns the page of a tour: tables, figures and verdicts of every experiment.
+///
+/// Each links to its own report, which is in the folder `NAME` beside the page and carries the
+/// replays. `last` is the sentence at the end, which says what is missing.
 #[must_use]
 pub fn tour_html(outcomes: &[ExperimentOutcome], last: &str) -> String {
     let numbered = || (1_usize..).zip(outcomes);
@@ -43,10 +44,11 @@ pub fn tour_html(outcomes: &[ExperimentOutcome], last: &str) -> String {
     page.into_string()
 }
 
-/// Part of one experiment on the page.
+/// One experiment on the page.
 struct Stop<'a> {
     outcome: &'a ExperimentOutcome,
-    /// Its figures, by names of its own: ids are of one experiment, and the page has several.
+    /// Its figures under names that are unique on the page: several experiments may use the same
+    /// ids.
     figures: Vec<Figure>,
 }
 
@@ -63,7 +65,7 @@ impl<'a> Stop<'a> {
         }
     }
 
-    /// Returns its tables; the first comes before all others.
+    /// Returns its tables; the first comes before those of later experiments.
     fn parts(&self) -> impl Iterator<Item = Part<'_>> {
         let tables = self.outcome.analysis.tables.iter().enumerate();
         tables.map(|(place, table)| Part::of(table, &self.figures, place == 0))

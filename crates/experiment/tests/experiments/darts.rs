@@ -11,12 +11,12 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_replay::{Replay, RobotTrack, Scenery};
 use tolman_robot::Body;
 
-/// How far shares of hits may lie apart.
+/// Tolerance of shares of hits.
 pub(crate) const HITS: Tolerance = Tolerance::absolute(15.0, "darts scatter");
-/// The same of numbers of throws.
+/// Tolerance of numbers of throws.
 pub(crate) const LENGTH: Tolerance = Tolerance::relative(0.35, "arms tire");
 
-/// The most darts of a run.
+/// Maximum number of darts in a run.
 const DARTS: u32 = 10;
 
 record! {
@@ -40,7 +40,7 @@ pub(crate) struct Darts {
     pub(crate) tables: Vec<Table>,
     /// Half the side of the board.
     pub(crate) reach: f64,
-    /// How often a replay goes over the darts.
+    /// Number of times that a replay repeats the darts.
     pub(crate) replay_length: usize,
 }
 

@@ -50,7 +50,7 @@ fn an_interrupted_experiment_goes_on_where_it_stopped() {
     let folder = fresh("interrupted");
     let (whole, parts) = (folder.join("whole"), folder.join("parts"));
     run(&Darts::new(), &options(&whole)).0.unwrap();
-    // A smaller outcome of before does not pass for the outcome of the interrupted one.
+    // An earlier, smaller summary must not be taken for that of the interrupted experiment.
     let few = Options {
         runs: Some(2),
         ..options(&parts)
@@ -89,7 +89,7 @@ fn an_interrupted_experiment_goes_on_where_it_stopped() {
     }
 }
 
-/// A line as versions without checksums wrote it.
+/// Returns a line as versions without checksums wrote it.
 fn without_checksum(line: &str) -> String {
     let (values, _) = line.split_once(",\"checksum\"").unwrap();
     format!("{values}}}")
@@ -113,7 +113,7 @@ fn broken_lines_are_told_and_played_again() {
         .into();
     let older = without_checksum(whole.lines().next().unwrap());
     lines.push(older.replace("\"miss\":0", "\"miss\":1").into());
-    // As after a process that died within a line.
+    // As if a process had died while writing a line.
     lines.push(b"{\"table\":\"1 (n".to_vec());
     fs::write(out.join("runs.jsonl"), lines.join(&b'\n')).unwrap();
 
@@ -174,7 +174,7 @@ fn lines_of_what_no_run_measures_are_told_and_played_again() {
         );
         assert_eq!(read(&out, "runs.jsonl"), whole);
 
-        // Beside the good line, or of a run nobody asks for, it does no harm.
+        // It does no harm beside a good line, or if nobody asks for its run.
         fs::write(out.join("runs.jsonl"), format!("{whole}{wrong}\n")).unwrap();
         let (outcome, listener) = run(&Darts::new(), &options(&out));
         assert_eq!(outcome.unwrap().played, 0, "{wrong}");
@@ -194,7 +194,7 @@ fn a_flipped_digit_is_told_and_its_run_played_again() {
     assert_eq!((found.played, found.runs), (240, 240));
     assert!(found.faults.is_empty(), "{found}");
 
-    // Another value that a run may have.
+    // The line has another possible value.
     let line = whole.lines().nth(7).unwrap();
     let flipped = match line.contains("\"throws\":3,") {
         true => line.replace("\"throws\":3,", "\"throws\":4,"),
@@ -240,7 +240,8 @@ fn a_folder_is_verified_by_playing_its_runs_again() {
         "one of each of two tables' rows"
     );
 
-    // Without its checksum a line passes for one of an older version: playing finds the value.
+    // Without its checksum a line counts as that of an older version, and only playing reveals the
+    // value.
     let whole = read(&out, "runs.jsonl");
     let older: String = whole
         .lines()
@@ -510,7 +511,7 @@ fn tables_that_contradict_themselves_are_refused() {
     }
 }
 
-/// A record with fewer fields than columns: those of [`Throws`] and others.
+/// A record with fewer fields than columns: [`Throws`] and others.
 macro_rules! miscast {
     ($name:ident, $columns:expr) => {
         #[derive(Serialize, Deserialize)]
@@ -529,9 +530,9 @@ miscast!(Twice, vec![Column::of::<u64>("throws", "")]);
 miscast!(Named, vec![Column::of::<u64>("run", "")]);
 
 record! {
-    /// A run with a part that no table has.
+    /// A run with a field that no table has.
     struct Strange {
-        /// What it bears twice.
+        /// The field that it has twice.
         seed: u64 => neither("seed"),
     }
 }
@@ -559,7 +560,7 @@ impl Procedure for Spoilt {
     }
 }
 
-/// Returns a hit of which nothing else is told.
+/// Returns a hit without any other facts.
 fn hit() -> Throws {
     Throws {
         success: true,

@@ -1,4 +1,4 @@
-//! The runner with an experiment that knows no maze: players throw darts at a board.
+//! Tests of the runner with an experiment that knows no maze: players throw darts at a board.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod chunks;

@@ -1,4 +1,4 @@
-//! What is written and shown.
+//! Tests of what is written and shown.
 
 use std::fs;
 
@@ -362,7 +362,7 @@ fn every_value_of_the_paper_is_judged_or_says_why_not() {
     }
     let tally = outcome.analysis.tally();
     assert_eq!((tally.all(), counted), (9, 9));
-    // Of the miss nobody has said how far it may lie from the paper's.
+    // The miss has no tolerance.
     assert!(tally.cannot_tell >= 1 && tally.judged() >= 1, "{tally}");
     let text = tables_as_text(&outcome.analysis, Ink::Plain);
     assert!(
@@ -505,7 +505,7 @@ fn the_report_carries_the_replays_of_the_first_runs_of_each_row() {
     let page = read(&out, "report.html");
     assert_eq!(page.matches(" data-replay ").count(), 3 * 25);
     assert!(page.contains("carries the replays of runs 0 to 24 of each row"));
-    // What a player reads here and in a file of its own is the same run.
+    // A replay in the page equals that in a file of its own.
     let run_7 = page
         .split("data-row=\"Adept\" data-run=\"7\">")
         .nth(1)
@@ -514,7 +514,7 @@ fn the_report_carries_the_replays_of_the_first_runs_of_each_row() {
     let written = write_replay(&(&darts).into(), &options(&out), "1 (near)", "Adept", 7).unwrap();
     assert!(written.ends_with("replays/1-2-7.html"));
     assert!(fs::read_to_string(written).unwrap().contains(run_7));
-    // The script knows what plays the others.
+    // The script knows the command that plays the others.
     assert!(page.contains(r#""shell":"'1 (near)'""#));
 
     let few = Options {
@@ -608,7 +608,7 @@ fn figures_are_xml_files_of_their_own() {
     let out = fresh("figures").join("out");
     let figures = out.join("figures");
     run(&Darts::new(), &options(&out)).0.unwrap();
-    // One of an earlier time is not kept.
+    // An older figure is removed.
     fs::write(figures.join("old.svg"), "<svg/>").unwrap();
     run(&Darts::new(), &options(&out)).0.unwrap();
 

@@ -1,4 +1,4 @@
-//! Folders to write to, and a listener.
+//! Temporary folders, and a listener.
 
 use core::sync::atomic::{AtomicU64, Ordering};
 use std::fs;
@@ -9,7 +9,7 @@ use tolman_experiment::{
     Build, Error, Experiment, ExperimentOutcome, Options, Progress, ProgressEvent, execute,
 };
 
-/// Returns a folder for one test, empty at its begin.
+/// Returns an empty folder for one test.
 pub(crate) fn fresh(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("experiments")
@@ -39,7 +39,7 @@ pub(crate) fn options(out: &Path) -> Options {
     }
 }
 
-/// Remembers what it hears and stops after some runs.
+/// Records what it hears, and stops after some runs.
 #[derive(Default)]
 pub(crate) struct Listener {
     pub(crate) messages: Mutex<Vec<String>>,
@@ -96,7 +96,7 @@ impl Progress for Listener {
     }
 }
 
-/// Runs an experiment and tells what was heard.
+/// Runs an experiment and returns what was heard.
 pub(crate) fn run(
     experiment: impl Into<Experiment>,
     options: &Options,

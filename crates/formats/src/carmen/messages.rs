@@ -91,7 +91,7 @@ pub(crate) fn robot_laser(line: u64, fields: &mut Fields<'_>) -> Result<ReadScan
     Ok(ReadScan::of(scan, &ranges))
 }
 
-/// Farther from the robot's middle no laser sits, m: such a pose is one that somebody has
+/// Maximum distance of a laser from the robot's middle, m. A pose that is farther away has been
 /// corrected.
 const FARTHEST_MOUNT: f64 = 0.5;
 

@@ -36,14 +36,14 @@ pub enum G2oFaultKind {
         /// Text found.
         text: String,
     },
-    /// An id is no whole number.
+    /// An id is not a whole number.
     #[error("`{text}` is not the id of a pose; ids are whole numbers from 0")]
     Id {
         /// Text found.
         text: String,
     },
     /// A pose stands twice.
-    #[error("pose {id} stands for the second time, first in line {first}; remove one")]
+    #[error("pose {id} is given a second time, first in line {first}; remove one")]
     Twice {
         /// The pose.
         id: u64,
@@ -66,6 +66,6 @@ pub enum G2oFaultKind {
     #[error("the information matrix is not positive definite; give the inverse of a covariance")]
     Information,
     /// The file ends in the middle of a line.
-    #[error("the file is cut off here; what stands before is used")]
+    #[error("the file is cut off here; the part before is used")]
     Cut,
 }

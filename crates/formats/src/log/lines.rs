@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead, Read};
 
-/// Longer lines are no lines of a log, bytes.
+/// Maximum length of a line, bytes. Longer lines do not come from a log.
 const LONGEST: u64 = 1 << 20;
 
 /// A file line by line.
@@ -71,7 +71,7 @@ fn text(bytes: &[u8]) -> Line<'_> {
 /// A line that goes on for longer ends the file: it has no lines, or never ends, bytes.
 const SKIPPED: usize = 64 << 20;
 
-/// Reads on to the end of a line; returns whether there may be another.
+/// Reads to the end of a line, and returns whether there may be another.
 fn skip_line(source: &mut impl BufRead) -> bool {
     let mut skipped = 0;
     while skipped < SKIPPED {

@@ -34,7 +34,7 @@ pub struct LogReader<R> {
 const JUMP_S: f64 = 60.0;
 
 impl LogReader<Box<dyn BufRead + Send>> {
-    /// Opens a file, plain or packed by gzip.
+    /// Opens a file, plain or gzipped.
     ///
     /// # Errors
     /// If there is no such file.

@@ -7,10 +7,11 @@ use crate::fields::{Fields, Wrong};
 /// Records of a file with one record per line, and the report on reading it.
 pub(crate) type Records<T> = (Vec<T>, LogReport);
 
-/// Reads a file, plain or packed by gzip, whose lines `parse` understands; `what` it is to hold.
+/// Reads a file, plain or gzipped, whose lines `parse` understands. `what` names its contents in
+/// errors.
 ///
 /// # Errors
-/// If there is no such file, or no line says anything.
+/// If there is no such file, or no line can be used.
 pub(crate) fn read_records<T>(
     path: &Path,
     what: &str,

@@ -52,7 +52,7 @@ pub enum LogTrouble {
     NoText,
     /// It is longer than a megabyte. Left out.
     TooLong,
-    /// Ranges are no numbers, or negative. The scan is used; such a beam has hit nothing.
+    /// Ranges are not numbers, or negative. The scan is used; such a beam has hit nothing.
     NoRange,
     /// Its time lies before that of the line above. It is used, in the order of the file.
     BackInTime,
@@ -62,9 +62,9 @@ pub enum LogTrouble {
     EndsEarly,
     /// It is of a kind that is not known. Left out.
     UnknownKind,
-    /// A scan of a time at which no odometry was told. Left out.
+    /// A scan at a time without odometry. Left out.
     NoOdometry,
-    /// Nobody tells where the laser sits. It is taken to sit in the robot's middle.
+    /// The laser's position is unknown. It is assumed to be in the robot's middle.
     NoMount,
     /// Fields stand behind the last one. It is used without them.
     TooManyFields,
@@ -160,11 +160,11 @@ impl fmt::Display for LogTrouble {
             Self::NoRange => "ranges that are not numbers, taken for beams that hit nothing",
             Self::BackInTime => "times before those of the line above, used in the file's order",
             Self::ClockJump => "jumps of the clock by more than a minute, used",
-            Self::EndsEarly => "the file cannot be read to its end; what stands above is used",
+            Self::EndsEarly => "the file cannot be read to its end; the lines before are used",
             Self::UnknownKind => "lines of a kind that is not known, left out",
             Self::NoOdometry => "scans of times without odometry, left out",
             Self::NoMount => {
-                "scans of lasers that sit nobody says where, taken for the robot's middle"
+                "scans of lasers whose position is unknown, assumed to be the robot's middle"
             }
             Self::TooManyFields => {
                 "lines with more fields than they should have, used without them"

@@ -41,7 +41,7 @@ pub fn is_mcap(path: &Path) -> bool {
     read.is_ok() && first == MCAP
 }
 
-/// Opens a file, plain or packed by gzip.
+/// Opens a file, plain or gzipped.
 pub(crate) fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, LogError> {
     let wrong = |source| LogError::File {
         path: path.to_owned(),

@@ -47,7 +47,7 @@ pub enum GreyMapError {
         byte: usize,
         /// The value.
         value: u64,
-        /// That of white.
+        /// Maximum value, that of white.
         most: u16,
     },
     /// The picture ends too early.

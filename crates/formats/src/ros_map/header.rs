@@ -31,7 +31,7 @@ pub enum RosMapHeaderError {
         line: usize,
     },
     /// A key stands twice.
-    #[error("line {line}: `{key}` stands for the second time; remove one")]
+    #[error("line {line}: `{key}` is given a second time; remove one")]
     Twice {
         /// Number of the line.
         line: usize,
@@ -283,7 +283,7 @@ free_thresh: 0.196
             (
                 "negate: 0",
                 "image: b",
-                "line 6: `image` stands for the second time",
+                "line 6: `image` is given a second time",
             ),
             (
                 "negate: 0",

@@ -25,7 +25,7 @@ pub struct ReadRelations {
 }
 
 impl ReadRelations {
-    /// Reads a file, plain or packed by gzip.
+    /// Reads a file, plain or gzipped.
     ///
     /// # Errors
     /// If there is no such file, or it holds no relation.

@@ -44,7 +44,7 @@ pub struct ReadTrajectory {
 }
 
 impl ReadTrajectory {
-    /// Reads a file, plain or packed by gzip.
+    /// Reads a file, plain or gzipped.
     ///
     /// # Errors
     /// If there is no such file, or it holds no pose.

@@ -17,7 +17,7 @@ pub(super) fn sum_down(a: f64, b: f64) -> f64 {
     if lost.is_nan() {
         return sum.next_down();
     }
-    // Half of all sums are rounded up, by chance, so that a branch costs more than the sum. A sum
+    // Half of all sums are rounded up, at random, so a branch would cost more than the sum. A sum
     // that was rounded is not 0.
     let step = i64::from(lost < 0.0);
     let bits = sum.to_bits().cast_signed();

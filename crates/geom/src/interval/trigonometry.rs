@@ -54,8 +54,8 @@ impl Interval {
             let (high_sin, high_cos) = sines_of(self.high);
             (sin, cos) = (sin.hull(high_sin), cos.hull(high_cos));
         }
-        // Between the ends both grow or fall, but for the quarter turns inside. The quotients are
-        // rounded: one more is looked at.
+        // Between the ends both are monotonic, except at the quarter turns inside. The quotients
+        // are rounded, so one more is tried.
         let [first, last] = [self.low, self.high].map(|end| libm::floor(end / FRAC_PI_2) as i32);
         for quarter in first..=last + 1 {
             if multiple_of_half_pi(quarter).meets(self) {

@@ -23,7 +23,7 @@ use crate::pose_graph::PoseGraph;
 ///
 /// # Errors
 /// [`AuditError`] if odometry does not join a pose with the next, or the scale of the standard
-/// deviations is no positive number.
+/// deviations is not a positive number.
 ///
 /// # Complexity
 /// O(pairs + closures · (edges · log edges)), where pairs are those of closures that begin and end

@@ -47,11 +47,11 @@ pub struct CycleStep {
     pub over: Option<u32>,
 }
 
-/// Reason why some steps are no cycle of a graph.
+/// Reason why some steps do not form a cycle of a graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum CycleError {
-    /// There are no steps, or the first is no closure.
+    /// There are no steps, or the first is not a closure.
     #[error("it does not begin with its closure")]
     Beginning,
     /// A step does not begin where the one before ends, or the last does not end where the first

@@ -288,7 +288,7 @@ impl Checker<'_> {
         Ok(())
     }
 
-    /// Measures a cycle again, holds its numbers against those of the certificate, and counts its
+    /// Measures a cycle again, compares its numbers with those of the certificate, and counts its
     /// runs.
     fn measure(
         &self,
@@ -340,7 +340,7 @@ fn compare(
     ] {
         let allowed = ROUNDING * largest(measured);
         for (told, measured) in told.iter().zip(measured) {
-            // NaN is no agreement either.
+            // NaN does not agree, either.
             let agrees = (told - measured).abs() <= allowed;
             if !agrees {
                 let (told, measured) = (*told, *measured);

@@ -24,14 +24,14 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bearings(Vec<f64>);
 
-/// Reason why numbers are no bearings.
+/// Reason why numbers are not bearings.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BearingsError {
     /// The list has no bearing; a place has at least the way by which it is entered.
     #[error("the place has no ways; give at least the direction of the way of entry")]
     Empty,
-    /// A direction is no number.
+    /// A direction is not a number.
     #[error("the direction of way {way} is {value}; give finite radians")]
     NotFinite {
         /// Counted from 0.

@@ -208,8 +208,8 @@ impl Localizer {
     /// Starts with the robot equally likely on each of `maps`.
     ///
     /// # Errors
-    /// [`LocalizeError`] if there is no map, a map is another dictionary's, or a field is outside
-    /// its range.
+    /// [`LocalizeError`] if there is no map, a map belongs to another dictionary, or a field is out
+    /// of its range.
     pub fn new(
         maps: &[CpMap],
         dictionary: &Dictionary,

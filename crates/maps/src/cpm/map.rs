@@ -119,7 +119,7 @@ impl From<Port> for (JunctionId, u32) {
 /// What is known about a port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PortState {
-    /// Nobody has been there, or not to its end.
+    /// The robot has not been there, or not to its end.
     Open {
         /// Number of observations made in it before the robot turned round.
         at_least: u32,

@@ -47,8 +47,8 @@ impl Mapper {
         is_expected
     }
 
-    /// Starts a new part of the map, as the robot is not where the map has it. The walk begins at
-    /// an unconnected copy of the place, until that is recognized; the port stays as it is.
+    /// Starts a new part of the map, because the robot is not where the map has it. The walk begins
+    /// at an unconnected copy of the place, until that is recognized; the port stays as it is.
     pub(super) fn go_adrift(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let place = self.map.junction(exit.junction);
         let sighting = place.map(Junction::sighting);
@@ -80,7 +80,7 @@ impl Mapper {
         fragment.traversals = fragment.traversals.saturating_add(1);
         let sense = Sense::entered_at(end.sign);
         let motion = walk.motion.map(|motion| sense.of_motion(motion));
-        // Bounds that contradict each other were no bounds; the older ones stay.
+        // Bounds that contradict each other are invalid; the older ones stay.
         fragment.motion = match (fragment.motion, motion) {
             (Some(a), Some(b)) => a.intersection(b).or(Some(a)),
             (a, b) => a.or(b),

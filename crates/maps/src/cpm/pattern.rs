@@ -94,7 +94,7 @@ pub enum DictionaryError {
         /// Version it was written with.
         version: Version,
     },
-    /// A list of half-turned patterns that is no involution.
+    /// A list of half-turned patterns is not an involution.
     #[error("pattern {} half turned is {}, but that half turned is not the first one again", .pattern.0, .half_turned.0)]
     NotInvolutive {
         /// The pattern.

@@ -197,7 +197,7 @@ pub struct Similarity {
 pub enum PatternDifference {
     /// The distance of their prototypes; d_max is the greatest of those.
     Prototypes,
-    /// The difference of their numbers, to the letter, though numbers are names; d_max is that of
+    /// The difference of their numbers, taken literally, though numbers are names; d_max is that of
     /// the last and the first.
     Indices,
 }
@@ -209,7 +209,7 @@ pub enum PatternDifference {
 pub enum Span {
     /// All of both: the shorter sequence is stretched over the longer one.
     Whole,
-    /// Up to the end of the shorter one, to the letter: a fragment is similar to all that begin
+    /// Up to the end of the shorter one, taken literally: a fragment is similar to all that begin
     /// like it.
     Shorter,
 }
@@ -241,8 +241,8 @@ impl Similarity {
         }
     }
 
-    /// Returns the equations to the letter: differences of numbers, up to the shorter one's length,
-    /// E as (4) has it, μ = 0.9.
+    /// Returns the equations taken literally: differences of numbers, up to the shorter one's
+    /// length, E as in (4), μ = 0.9.
     #[must_use]
     pub const fn literal() -> Self {
         Self {

@@ -56,7 +56,7 @@ impl Observer {
             self.map.link_mut(before).follow(next);
         }
         self.relate_lately(track, to, trusted_odometry(step, choice, best.matcher));
-        // What looks like another place is no new view of this one: the robot may be there.
+        // What looks like another place is not a new view of this one: the robot may be there.
         let alike = |view| self.views.alike(view, &self.config, &self.map.paths);
         let looks_elsewhere = |view| choice.look == Similarity::Unlike && !alike(view).is_empty();
         if let Some(view) = &step.percept {

@@ -92,7 +92,7 @@ pub enum Apart {
     /// The distance between them is, as in the paper.
     #[default]
     Distance,
-    /// They are so far apart along one axis of the compass. True where corridors follow the axes;
+    /// They are δ_sep apart along one axis of the compass. True where corridors follow the axes;
     /// false in halls and slanted corridors.
     Side,
 }
@@ -257,7 +257,7 @@ pub struct Matching {
     pub well_traversed: u32,
 }
 
-/// When an unexpected place is taken for one that is known.
+/// When an unexpected place is recognized as a known one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Identity {
@@ -295,7 +295,7 @@ pub struct Tracking {
     pub history: usize,
 }
 
-/// When links and places are taken for hallucinations.
+/// When links and places count as hallucinations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Transients {

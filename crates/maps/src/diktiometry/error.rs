@@ -50,7 +50,7 @@ pub enum ObservedMoveError {
     PerceptMissing,
 }
 
-/// Reason why there is no observer.
+/// Reason why an observer cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StartError {

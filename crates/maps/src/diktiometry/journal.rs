@@ -21,7 +21,7 @@ pub struct Journal {
     pub distinctions: Vec<Distinction>,
 }
 
-/// Somebody knows that two places are different, whatever the restructurers propose.
+/// Two places are known to be different, whatever the restructurers propose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Distinction {
@@ -55,7 +55,7 @@ pub enum UndoError {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum JournalError {
-    /// There is no observer to begin with.
+    /// The observer cannot be made.
     #[error("no observer can begin as the journal does")]
     Start(#[from] StartError),
     /// A move is invalid.

@@ -64,7 +64,7 @@ impl Observer {
         }
     }
 
-    /// Notes the places that look like a place, but for those that are not it for certain.
+    /// Records the places that look like a place, except those that are certainly not it.
     fn note_alike(&mut self, place: PlaceId, alike: &[PlaceId], apart: &[PlaceId]) {
         for &other in alike {
             if other != place && apart.binary_search(&other).is_err() {

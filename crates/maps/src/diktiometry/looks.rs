@@ -17,7 +17,8 @@ pub struct Looks {
     /// Places before this id were compared with all that look like them.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) noted: usize,
-    /// The fewest kinds of looks so far that are enough for a merge where geometry knows nothing.
+    /// Minimum number of kinds of looks so far that is enough for a merge where geometry knows
+    /// nothing.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) least_wanted: Option<usize>,
 }
@@ -47,7 +48,7 @@ impl Looks {
             return 1.0;
         }
         let alike = pairs * f64::from(self.deceiving) / f64::from(self.different);
-        // Met once, it is no rule.
+        // Once is not a rule.
         let repeats = f64::from(self.repeating) / (f64::from(self.followed) + 2.0);
         let (mut by_chance, mut by_rule) = (1.0_f64, 1.0_f64);
         for before in 0..agreeing {
@@ -89,7 +90,7 @@ impl Looks {
     }
 }
 
-/// Whether two places may be taken for each other by their looks.
+/// Whether the looks of two places allow that they are one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Similarity {
     /// They do, or nothing is known of their look.

@@ -88,7 +88,7 @@ pub struct LookEvidence {
     /// The map's counts of how well looks tell places apart. The checker takes these counts as
     /// given.
     pub looks: Looks,
-    /// The chance that they agree so far at two places, 0 … 1.
+    /// Probability that they agree so far at two places, 0 … 1.
     pub chance: f64,
 }
 

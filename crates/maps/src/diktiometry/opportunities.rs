@@ -32,8 +32,8 @@ const IN_DOUBT: f64 = 0.03;
 /// The kinds of scripts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OpportunityKind {
-    /// Exploration, "going where no robot has gone before": to the nearest action that was never
-    /// tried, from a place that is certainly no other.
+    /// Exploration, "going where no robot has gone before": the way to the nearest action that was
+    /// never tried, from a place that is certainly not another.
     GoToUnknown,
     /// Exploration, "priming the pump": "if you know your current position accurately and you are
     /// near a place with high positional uncertainty, go to that place".
@@ -106,8 +106,7 @@ impl Observer {
     }
 
     fn go_to_unknown(&self) -> Option<Opportunity> {
-        // Whoever explores from a place that may still turn out to be another may explore what is
-        // known already.
+        // From a place that may still be another one, known ground may be explored.
         let unknown = |place| !self.untried(place).is_empty();
         let certain = |place| self.map.place(place).notes.is_empty() && unknown(place);
         let sure = self.script_to(certain).map(|way| (way, 1.0));

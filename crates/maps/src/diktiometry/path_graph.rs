@@ -192,7 +192,7 @@ pub struct PathGraph {
     pub(super) links: Vec<Link>,
     /// Number of places that stand.
     standing: usize,
-    /// Moves so far.
+    /// Number of moves so far.
     pub(super) now: u64,
 }
 

@@ -57,9 +57,9 @@ pub struct Contradiction {
     pub track: TrackId,
     /// What is to blame, if not the move itself.
     pub culprit: Culprit,
-    /// The displacement as the map has it, m.
+    /// Displacement by the map, m.
     pub known: PointBox,
-    /// The displacement as the move has it, m.
+    /// Displacement by the move, m.
     pub estimate: PointBox,
 }
 

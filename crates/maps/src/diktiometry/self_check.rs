@@ -9,7 +9,7 @@ use super::{
     share_a_view,
 };
 
-/// Pairs of places that are compared at most before two are taken for different.
+/// Maximum number of pairs of places that are compared before two count as different.
 const COMPARED: usize = 256;
 
 /// Signs in the map itself that it is wrong, found without the truth: counts of places.
@@ -24,9 +24,9 @@ pub struct SelfCheck {
     /// Number of places that may be one with another: the bounds allow it, they look alike, and so
     /// does all that follows along the same actions.
     pub doubtful: usize,
-    /// Those of them from where an action of a static world leads to two places, or not back.
+    /// Number of them from which an action of a static world leads to two places, or not back.
     pub torn: usize,
-    /// Those of them where an action that could be tried never was.
+    /// Number of them where an action that could be tried never was.
     pub open: usize,
 }
 

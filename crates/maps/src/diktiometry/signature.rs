@@ -66,7 +66,7 @@ pub enum SignatureError {
 }
 
 impl Signature {
-    /// Returns a signature of columns of `rows` values each, one column after the other.
+    /// Returns a signature of columns of `rows` values each, column by column.
     ///
     /// # Errors
     /// [`SignatureError`] if there are no values, the last column is not full, or a value is not

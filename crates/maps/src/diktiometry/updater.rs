@@ -133,8 +133,9 @@ fn contract(place: &mut Place, estimate: PointBox) {
     }
 }
 
-/// Adds an estimate of a place's position to its nominal envelope. Adds it to its estims only if it
-/// is narrow enough to tell one place from the next: the middle of a wide box is no observation.
+/// Adds an estimate of a place's position to its nominal envelope. It goes into the estims only if
+/// it is narrow enough to tell neighbouring places apart: the middle of a wide box is not an
+/// observation.
 fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
     place.envelope = place.envelope.hull(robot);
     if robot.width() > separation {

@@ -41,7 +41,7 @@ pub struct ActionEdge {
     pub head: Option<u32>,
 }
 
-/// Reason why a list of nodes is no graph of MSLST.
+/// Reason why a list of nodes is not a graph of MSLST.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum GraphError {

@@ -81,7 +81,7 @@ impl GraphMapper {
         self.at
     }
 
-    /// Returns the graph as far as it has grown, by id.
+    /// Returns the graph so far, by id.
     #[must_use]
     pub fn nodes(&self) -> &[Node] {
         &self.nodes

@@ -6,7 +6,7 @@ use crate::pose_graph::OptimizerConfig;
 pub struct PlaceGraphConfig {
     /// A place is new if it lies at least this far from all others, m, …
     pub place_distance: f64,
-    /// … or if none so near looks within this angle into the same direction, rad.
+    /// … or if none that near looks in the same direction within this angle, rad.
     pub place_turn: f64,
     /// Standard deviation of the scale error of a robot's wheels.
     pub scale_deviation: f64,

@@ -257,7 +257,7 @@ fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Optio
     let ear = pose.compose(arc.mount);
     let axis = ear.heading.unit();
     let cone = libm::cos(arc.half_width + CONE_SLACK);
-    // What lies farther is no match, and hides none.
+    // What is farther away is not a match, and hides none.
     let farthest = arc.range + arc_gate(gate) + SLACK;
     let (low, high) = extent(ear, arc.half_width + CONE_SLACK, farthest);
     let mut nearest: Option<(f64, Vector, &Surface)> = None;
@@ -299,8 +299,8 @@ fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Optio
     })
 }
 
-/// Returns the least and the greatest x of a sector that opens so far, rad, to either side of `ear`
-/// and reaches so far, m.
+/// Returns the minimum and the maximum x of a sector that opens by `half_width`, rad, to either
+/// side of `ear` and reaches `reach`, m.
 fn extent(ear: Pose, half_width: f64, reach: f64) -> (f64, f64) {
     let axis = ear.heading.radians();
     let [one, other] = [axis - half_width, axis + half_width].map(libm::cos);

@@ -94,17 +94,16 @@ pub enum PlaceGraphError {
     Edge(#[from] PoseGraphError),
 }
 
-/// Belief, 0 to 1, above which a hypothesis is taken for the robot's pose, once it has had enough
-/// looks.
+/// Belief, 0 to 1, above which a hypothesis becomes the robot's pose, once it has had enough looks.
 const SURE: f64 = 0.98;
 const LEAST_LOOKS: u32 = 20;
 
 /// A place that brings less of a fit is not joined, in points.
 const LEAST_SEEN: f64 = 6.0;
 
-/// Places are fitted to each other so often, …
+/// Number of rounds in which places are fitted to each other, …
 const RELAX_ROUNDS: u32 = 4;
-/// … and may move about so far in each round, m and rad.
+/// … and maximum displacement in each round, m and rad.
 const RELAX_WITHIN: (f64, f64) = (0.1, 0.05);
 
 /// The first number of places that are fitted to each other.
@@ -324,8 +323,8 @@ impl PlaceGraph {
         Ok(())
     }
 
-    /// Notes that the robot went from one place to another, if they lie so near that there was none
-    /// between them.
+    /// Records that the robot went from one place to another, if they are so near that there was
+    /// none in between.
     fn link(&mut self, from: u32, to: u32) {
         let [a, b] = [from, to].map(|id| self.graph.poses()[id as usize].position);
         if from != to && (a - b).norm() < LONGEST_LINK * self.config.place_distance {
@@ -452,7 +451,7 @@ const fn beside_a_place() -> Vector3<f64> {
     Vector3::new(0.05 * 0.05, 0.05 * 0.05, 0.04 * 0.04)
 }
 
-/// So much of each look contradicts a map that is right, since light changes and edges are vague.
+/// Share of each look that contradicts a right map, because light changes and edges are vague.
 const USUAL_CONTRADICTION: f64 = 0.08;
 
 /// Squared distance, in standard deviations, from the pose by the wheels beyond which a fit is

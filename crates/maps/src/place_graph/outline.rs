@@ -45,7 +45,7 @@ impl Outline {
     /// Returns the outline that a snapshot shows. O(pixels + soundings).
     #[must_use]
     pub fn of(snapshot: &Snapshot) -> Self {
-        // What touches the sensor has no direction, and what is no number is no reading.
+        // What touches the sensor has no direction, and what is not a number is not a reading.
         let met = |sounding: &&Sounding| {
             sounding.mount.is_finite()
                 && sounding.range > LEAST_RANGE
@@ -165,8 +165,8 @@ struct Line {
 }
 
 impl Line {
-    /// Returns the line from which the points are the least off, each as much as it is known;
-    /// `None` of fewer than four.
+    /// Returns the line with the least squares distance to the points, each weighted by its
+    /// certainty; `None` for fewer than four.
     fn through(points: &[OutlinePoint]) -> Option<Self> {
         if points.len() < 4 {
             return None;

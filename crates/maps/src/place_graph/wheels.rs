@@ -31,10 +31,10 @@ pub(super) struct Rolled {
     by_error: Matrix3x2<f64>,
 }
 
-/// Variances by slip: of the way a metre, of the heading a metre and a radian.
+/// Variances by slip: of the way per metre, of the heading per metre and per radian.
 const SLIP_WAY: f64 = 0.02 * 0.02;
 const SLIP_TURN: f64 = 0.03 * 0.03;
-/// And of a robot that has not moved.
+/// Variance of a robot that has not moved.
 const LEAST_VARIANCE: f64 = 1e-6;
 
 impl WheelError {

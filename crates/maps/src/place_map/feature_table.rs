@@ -50,8 +50,7 @@ pub struct FeatureTable {
 }
 
 impl FeatureTable {
-    /// Makes the features of records. Let the records that a map is to be asked about be among
-    /// them.
+    /// Returns the features of records. Include the records that a map is to be asked about.
     ///
     /// O(records × values); of images in [`ImageForm::Span`] O(records² × values) once.
     ///
@@ -100,7 +99,7 @@ impl FeatureTable {
         self.rows.len()
     }
 
-    /// Returns whether there are no records, which is never so.
+    /// Returns whether there are no records, which never happens.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.rows.is_empty()

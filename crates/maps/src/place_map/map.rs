@@ -147,7 +147,7 @@ impl PlaceMap {
     /// O(nodes × values).
     ///
     /// # Errors
-    /// If these are no features of its space, or the map is empty.
+    /// If these are not features of its space, or the map is empty.
     pub fn nearest_row(&self, features: &[f32]) -> Result<UnitId, PlaceMapError> {
         Ok(self.gng.nearest(features)?.id)
     }

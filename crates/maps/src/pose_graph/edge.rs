@@ -26,7 +26,7 @@ pub struct PoseEdge {
 pub enum PoseEdgeKind {
     /// Dead reckoning, which errs but does not lie.
     Odometry,
-    /// A place that was taken for one seen before.
+    /// A place that was recognized as one seen before.
     Closure,
 }
 

@@ -30,7 +30,7 @@ pub enum PoseGraphError {
         /// The pose it leads to.
         to: u32,
     },
-    /// The information is no information: somewhere it is negative.
+    /// The information matrix is invalid: it is negative in some direction.
     #[error(
         "the information of the edge from {from} to {to} is not that of a measurement: give a symmetric matrix that is positive \
          definite"

@@ -155,7 +155,7 @@ impl StandpointBelief {
     /// scan.
     fn doubt(&mut self, on: &Standpoints, north: &[f64], before: &Self, evidence: &mut Evidence) {
         let anywhere = LIFTED / on.len().max(1) as f64;
-        // Who is not sure where it is has no say in whether a wall is new.
+        // A robot that is not sure where it is does not decide whether a wall is new.
         let new_walls = match before.certainty(on, SURE_WITHIN) > SURE {
             true => NEW_WALLS,
             false => 0.0,

@@ -73,7 +73,7 @@ pub enum ChartError {
         found: f64,
     },
     /// Places or the goal lie nowhere.
-    #[error("{what} {number} lies at ({}, {}) m, which is nowhere: learn the map again", at.x, at.y)]
+    #[error("{what} {number} is at ({}, {}) m, which is not a valid position: learn the map again", at.x, at.y)]
     Nowhere {
         /// Kind of thing at the position.
         what: &'static str,
@@ -97,7 +97,7 @@ pub enum ChartError {
         places: usize,
     },
     /// The cells lie too far from the origin.
-    #[error("its first cell is {first:?}, which lies too far away: learn the map again")]
+    #[error("its first cell is {first:?}, which is too far away: learn the map again")]
     TooFar {
         /// Column and row of the first cell.
         first: [i32; 2],
@@ -175,7 +175,7 @@ impl ScanChart {
     /// Returns what was written. O(cells + places + links).
     ///
     /// # Errors
-    /// [`ChartError`] with the first part that is not sound.
+    /// [`ChartError`] with the first part that is invalid.
     pub fn from_parts(parts: ChartParts) -> Result<Self, ChartError> {
         let ChartParts {
             radius,

@@ -6,11 +6,11 @@ pub struct ScanMapConfig {
     /// Distance that the robot keeps from walls, m: its radius, minus the coarseness of the map's
     /// cells.
     pub radius: f64,
-    /// Places lie at least so far apart, m.
+    /// Minimum distance of two places, m.
     pub spacing_of_places: f64,
-    /// Ground so near to where the robot has been, and in sight of there, needs no visit, m.
+    /// Maximum distance of ground from the robot's way, in sight of it, that needs no visit, m.
     pub reach_of_visit: f64,
-    /// Scans that walls are drawn from lie at least so far apart, m.
+    /// Minimum distance of scans that walls are drawn from, m.
     pub spacing_of_scans: f64,
     /// Maximum distance between the expected and the fitted position of a scan, m; 0 keeps the
     /// expected one.

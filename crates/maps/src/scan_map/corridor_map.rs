@@ -39,18 +39,19 @@ pub struct CorridorWay {
     pub length: f64,
 }
 
-/// Ground so far off all walls is open, as a share of the corridors' width: a crossing's middle is
-/// 0.71 off.
+/// Minimum distance of open ground from all walls, as a share of the corridors' width. A crossing's
+/// middle has 0.71.
 const OPEN: f64 = 0.8;
-/// A knot so near to where a landmark was sensed is where it stands, as a share of the corridors'
-/// width.
+/// Maximum distance between a knot and a sensed landmark that stands there, as a share of the
+/// corridors' width.
 const STANDS_BY: f64 = 0.65;
-/// Whoever is nearer to the middle of a place is at it, as a share of the corridors' width.
+/// Distance from the middle of a place within which a robot is at it, as a share of the corridors'
+/// width.
 const REACH: f64 = 0.33;
-/// Whoever comes by so near passes a place, as a multiple of that.
+/// Distance within which a robot passes a place, as a multiple of that.
 const PASSED: f64 = 1.8;
-/// A goal is sensed so far into the next corridor's width before it counts as two, as a share of
-/// that.
+/// Distance into the next corridor's width at which a sensed goal counts as two, as a share of that
+/// width.
 const BORDER: f64 = 0.2;
 
 impl CorridorMap {

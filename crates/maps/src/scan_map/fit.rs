@@ -16,7 +16,7 @@ pub(super) struct ScanFit {
     pub(super) agreement: f64,
 }
 
-/// A beam's end so far from every wall does not fit at all, m.
+/// Distance from every wall beyond which a beam's end does not fit at all, m.
 const ELSEWHERE: f64 = 0.15;
 /// Weight of one beam: beams see the same walls, so they are not independent.
 const SHARE_OF_A_BEAM: f64 = 0.3;

@@ -7,9 +7,9 @@ use tolman_geom::Point;
 use super::wall_grid::{GridIndex, index_of, sees};
 use super::{ChartError, WallGrid};
 
-/// Walls, floor and unknown ground, two bits a cell: what navigation needs of a [`WallGrid`].
+/// Walls, floor and unknown ground, two bits per cell: what navigation needs of a [`WallGrid`].
 ///
-/// It is no larger than what is known, and does not grow.
+/// It is only as large as what is known, and does not grow.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GroundPlan {
     /// Column and row of the first cell.
@@ -136,8 +136,8 @@ impl GroundPlan {
         self.first
     }
 
-    /// Returns the rows from south to north, a letter a cell: `#` wall, `.` floor, a space where
-    /// nothing is known. O(cells).
+    /// Returns the rows from south to north, one letter per cell: `#` wall, `.` floor, a space
+    /// where nothing is known. O(cells).
     pub fn rows(&self) -> impl Iterator<Item = String> + '_ {
         let [first, end] = self.bounds();
         (first[1]..end[1]).map(move |row| {

@@ -37,7 +37,7 @@ pub struct ScanMap {
 /// Fewest beams that can contradict walls.
 const FEWEST: u32 = 20;
 
-/// Points where the landmark of the goal was sensed are kept so far apart at least, m.
+/// Minimum distance between two stored points where the landmark of the goal was sensed, m.
 const SPACING_OF_GOAL: f64 = 0.02;
 
 /// A place of a [`ScanMap`].

@@ -30,7 +30,7 @@ struct RayCell {
 pub(super) const RANGE_UNIT: f64 = 0.01;
 /// No range: the map does not say.
 pub(super) const UNKNOWN: u8 = u8::MAX;
-/// Beams are followed so far, in [`RANGE_UNIT`]s.
+/// Maximum length to which beams are followed, in [`RANGE_UNIT`]s.
 const LONGEST: f64 = 254.0;
 /// Steps in which a beam is followed, cells.
 const STRIDE: f64 = 0.5;

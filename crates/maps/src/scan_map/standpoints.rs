@@ -25,7 +25,8 @@ pub struct Standpoints {
     stands: RankedBits,
     /// Numbers of those where the landmark of the goal is sensed, in order.
     goals: Vec<u32>,
-    /// Numbers of those so near to where it was sensed that it is sensed there, too.
+    /// Numbers of the standpoints near enough to a point where the goal was sensed to sense it,
+    /// too.
     sensing_goal: Vec<u32>,
 }
 
@@ -170,8 +171,8 @@ impl Standpoints {
         ]
     }
 
-    /// Returns the numbers of those so near to where the landmark of the goal was sensed that it is
-    /// sensed there, too.
+    /// Returns the numbers of the standpoints near enough to a point where the goal's landmark was
+    /// sensed to sense it, too.
     pub(super) fn sensing_goal(&self) -> &[u32] {
         &self.sensing_goal
     }

@@ -292,7 +292,7 @@ impl WallGrid {
         }
     }
 
-    /// Measures the distances round a cell again that is no wall any longer.
+    /// Measures the distances round a cell that is no longer a wall.
     fn measure_again(&mut self, gone: GridIndex) {
         let reach = (Self::REACH / Self::CELL) as i32;
         let around = |index: GridIndex, reach: i32| {

@@ -70,8 +70,8 @@ impl ScanMatching {
     }
 
     /// Matches the keyframes up to `here` with those about `there`, and returns whether they match.
-    /// They are taken for the same place if an earlier or later match agrees. Returns `false` if
-    /// the configuration has no closures, or there are no such keyframes.
+    /// They count as the same place if an earlier or later match agrees. Returns `false` if the
+    /// configuration has no closures, or there are no such keyframes.
     ///
     /// # Errors
     /// If a measurement does not fit the graph.
@@ -199,7 +199,7 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Takes a match for a closure if another agrees with it; returns whether it has.
+    /// Accepts a match as a closure if another agrees with it, and returns whether it did.
     fn weigh(&mut self, config: &ClosureConfig, edge: PoseEdge) -> Result<bool, ScanMatchingError> {
         let way = |keyframe: u32| self.keyframes[keyframe as usize].way;
         let now = way(edge.to);

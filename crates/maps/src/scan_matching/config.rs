@@ -19,7 +19,7 @@ pub struct ScanMatchingConfig {
     pub keyframe_step: f64,
     /// Turn after which a scan becomes a keyframe.
     pub keyframe_turn: f64,
-    /// A scan is matched to that many keyframes before it.
+    /// Number of earlier keyframes that a scan is matched to.
     pub local_keyframes: usize,
     /// Half-width of the window about the odometry's pose, along each axis.
     pub window: f64,
@@ -77,7 +77,7 @@ pub struct ClosureConfig {
     pub window_turn_growth: f64,
     /// Maximum half-width of the window for its heading.
     pub most_window_turn: f64,
-    /// A worse fit is no closure.
+    /// A worse fit is not a closure.
     pub least_score: f64,
     /// Maximum difference of the corrections of two closures that agree.
     pub agreement: f64,
@@ -121,7 +121,7 @@ impl ScanMatchingConfig {
         }
     }
 
-    /// Returns it with closures where somebody names places.
+    /// Returns the configuration with closures at places that the caller names.
     #[must_use]
     pub fn with_places(self) -> Self {
         Self {
@@ -167,7 +167,7 @@ impl ClosureConfig {
         }
     }
 
-    /// Returns the values for places that somebody names: a few metres apart, so that matches which
+    /// Returns the values for places that the caller names: a few metres apart, as matches that
     /// agree are.
     #[must_use]
     pub fn places() -> Self {

@@ -29,7 +29,7 @@ pub(super) struct Window {
 const WIDE: i32 = 16;
 /// Number of cells of a level, along each axis, that make one of the next.
 const BRANCH: i32 = 4;
-/// Points that lie so far off must not pass by a cell between two headings, m.
+/// Distance at which points must not skip a cell between two headings, m.
 const TYPICAL_RANGE: f64 = 5.0;
 
 /// Some poses of one heading, `width` × `width` cells of them.

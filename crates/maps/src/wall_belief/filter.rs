@@ -17,7 +17,7 @@ pub struct PoseFilterConfig {
     pub particles: u32,
     /// Standard deviation of a distance or a turn, as a share of it. ≥ 0.
     pub slip: f64,
-    /// Standard deviation of the turn that nobody asked for, rad per metre. ≥ 0.
+    /// Standard deviation of the turn that was not commanded, rad per metre. ≥ 0.
     pub drift: f64,
     /// Standard deviation of where a particle is after a step, whatever was asked for, m: it keeps
     /// particles apart. ≥ 0.
@@ -85,16 +85,16 @@ impl PoseFilter {
         })
     }
 
-    /// Puts all particles at `pose`: somebody has carried the mouse there.
+    /// Puts all particles at `pose`, where the mouse was carried.
     pub fn place(&mut self, pose: Pose) {
         let weight = 1.0 / self.particles.len() as f64;
         self.particles.fill(Particle { pose, weight });
     }
 
-    /// Puts a particle at each of `poses`: somebody has carried the mouse to one of them. Nothing
-    /// happens without poses.
+    /// Puts a particle at each of `poses`: the mouse was carried to one of them. Nothing happens
+    /// without poses.
     ///
-    /// As many particles stay until they agree, which [`gather`](Self::gather) is told.
+    /// The number of particles stays until they agree, which [`gather`](Self::gather) is told.
     pub fn spread(&mut self, poses: impl IntoIterator<Item = Pose>) {
         let poses: Vec<Pose> = poses.into_iter().collect();
         let weight = 1.0 / poses.len() as f64;

@@ -62,11 +62,12 @@ pub struct Meeting {
     pub known: Knowledge,
 }
 
-/// A ray that leaves the axes by more tells of walls to the side.
+/// Cosine below which a ray leaves the axes too much: its reading is about walls at the side.
 const STRAIGHT: f64 = 0.985;
 
 impl<const N: usize> WallBelief<N> {
-    /// Log-odds from which on a wall is believed in; below their negative it is taken for open.
+    /// Log-odds from which a wall is believed to stand; below the negative value it is believed to
+    /// be open.
     pub const CONVINCED: f64 = 3.0;
     /// The log-odds grow no farther than this, so that a wrong belief can be given up.
     const MOST: f64 = 9.0;
@@ -120,7 +121,7 @@ impl<const N: usize> WallBelief<N> {
     /// Takes in one reading that `sensor` made at `pose`. A beam that is far from parallel to both
     /// axes is ignored. O(n²) for n cells along the ray.
     ///
-    /// By Bayes' rule, for each wall on the ray by itself: the likelihood of the reading if the
+    /// By Bayes' rule, for each wall on the ray alone: the likelihood of the reading if the
     /// wall stands, against that if it does not, with the present belief in the others.
     pub fn observe(&mut self, pose: Pose, reading: RangeReading, sensor: &RangeModel) {
         let heading = pose.heading.turned(reading.bearing);

@@ -275,7 +275,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         inner - self.east.count() - self.north.count()
     }
 
-    /// Returns whether three sides of a cell are known to be walls: there is no way out but back.
+    /// Returns whether three sides of a cell are known to be walls: the only way out is back.
     #[must_use]
     pub fn is_dead_end(&self, cell: Cell) -> bool {
         self.count(cell, Knowledge::Wall) >= 3

@@ -146,7 +146,7 @@ pub enum SavedWallMapError {
         /// Its number.
         wall: u32,
     },
-    /// The visits are not one number a cell.
+    /// The visits are not one number per cell.
     #[error(
         "the visits are not {} rows of {} numbers: give one for each cell, row by row from the south",
         grid.height(), grid.width()

@@ -46,8 +46,8 @@ fn a_random_walk_teaches_a_world_of_alike_places() {
     assert!(by_map < 0.5 * by_odometry, "{by_map} {by_odometry}");
 }
 
-/// The defect that the paper's restructurers are there for: whoever takes boxes that meet for the
-/// same place confuses places.
+/// The defect that the paper's restructurers are there for: a mapper that takes boxes that meet for
+/// the same place confuses places.
 #[test]
 fn boxes_that_merely_meet_confuse_places() {
     let mut config = alike();

@@ -13,7 +13,7 @@ use crate::{Cell, CheckError, Direction, Grid, Maze};
 const PITCH: usize = 4;
 
 /// Returns whether a drawing begins with this line, which has no blanks before it. Double borders
-/// are no walls, but meant as a drawing.
+/// are not walls, but count as a drawing.
 pub(super) fn begins(line: &str) -> bool {
     let mut chars = line.chars();
     chars.next().is_some_and(is_post) && chars.next().is_none_or(|c| matches!(c, '-' | ' ' | '='))

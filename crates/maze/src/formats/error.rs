@@ -7,7 +7,7 @@ use crate::{Cell, CheckError, Direction, Grid};
 
 /// Reason why a text is not a maze, and where.
 ///
-/// The text has no file name; whoever opened the file puts it before the message.
+/// The text has no file name; the caller that opened the file puts it before the message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}, column {column}: {fault}")]
 pub struct MazeError {
@@ -51,7 +51,7 @@ pub enum MazeFault {
         /// What may stand there.
         expected: &'static str,
     },
-    /// A tab, whose width nobody knows.
+    /// A tab, whose width is unknown.
     #[error("found a tab: draw with blanks")]
     Tab,
     /// A line that ends before the east border.

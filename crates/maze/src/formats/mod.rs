@@ -50,9 +50,8 @@ pub struct MazeFile {
 }
 
 impl MazeFile {
-    /// The narrowest and the widest corridor that is read or written, m: what no robot drives
-    /// through is a slip of the keyboard, and widths far beyond break the arithmetic of whoever
-    /// builds a world.
+    /// Minimum and maximum corridor width that is read or written, m. A corridor that no robot fits
+    /// through is a typing error, and huge widths break the arithmetic of worlds.
     pub const CORRIDOR_WIDTHS: (f64, f64) = (0.001, 1000.0);
 }
 

@@ -96,7 +96,7 @@ impl Braided {
     }
 }
 
-/// Opens the dead end `cell`; how many dead ends that makes fewer.
+/// Opens the dead end `cell`, and returns by how many that reduces the dead ends.
 fn open(
     maze: &mut Maze,
     cell: Cell,

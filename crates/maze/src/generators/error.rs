@@ -45,7 +45,7 @@ pub enum GenerateError {
         /// Drawings tried.
         tries: u32,
     },
-    /// A drawing does not fit so few cells.
+    /// A drawing does not fit into this few cells.
     #[error(
         "{drawing}: {width} × {height} cells are too few: it needs at least {} × {}",
         least.0, least.1

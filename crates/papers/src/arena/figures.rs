@@ -1,4 +1,4 @@
-//! A heat map of all systems in all worlds, and what worlds cost by their size.
+//! A heat map of all systems in all worlds, and the cost of learning by the size of the world.
 
 use tolman_draw::{Axis, Chart, Figure, Hatching, HeatMap, Line, LinePoint, Series, Shade};
 use tolman_experiment::{BoxError, Record, Run};
@@ -78,7 +78,7 @@ fn heat_map(
     Ok(Some(figure.caption(caption).table(table)))
 }
 
-/// End of a run, as a heat map shows it.
+/// How a run ended, as a heat map shows it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum End {
     Right,
@@ -96,7 +96,7 @@ impl End {
     }
 }
 
-/// Returns how the runs of a row ended.
+/// Returns how each run of a row ended.
 fn ends(runs: &[Run], table: &str, task: ArenaTask, row: &str) -> Result<Vec<End>, BoxError> {
     Ok(match task {
         ArenaTask::Learn => {
@@ -120,7 +120,7 @@ fn ends(runs: &[Run], table: &str, task: ArenaTask, row: &str) -> Result<Vec<End
     })
 }
 
-/// Returns the share of runs that ended so; not a number without runs.
+/// Returns the share of runs with this end; NaN without runs.
 fn share(ends: &[End], end: End) -> f64 {
     let count = ends.iter().filter(|one| **one == end).count();
     count as f64 / ends.len() as f64

@@ -1,6 +1,7 @@
-//! Every system in every kind of world, judged by one truth. It measures what each learns and
-//! whether the system's own verdict on that is right. It also measures whether the system finds out
-//! where it was put down, and whether it gets to the goal.
+//! Every system in every kind of world, compared with the same truth.
+//!
+//! The tables show what each system learns, and whether its own verdict on that is right. They also
+//! show whether it localizes after it was put down, and whether it reaches the goal.
 
 mod figures;
 mod records;
@@ -35,7 +36,7 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// Task of a contestant, and what is measured.
+/// Task of a contestant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ArenaTask {
     Learn,
@@ -43,7 +44,7 @@ enum ArenaTask {
     Locate,
 }
 
-/// The tables: what is measured, on which robot.
+/// The tables: name, task and robot.
 const TABLES: [(&str, ArenaTask, ContestRobot); 6] = [
     ("learn", ArenaTask::Learn, ContestRobot::Own),
     ("home", ArenaTask::Home, ContestRobot::Own),
@@ -53,23 +54,23 @@ const TABLES: [(&str, ArenaTask, ContestRobot); 6] = [
     ("locate, Pioneer", ArenaTask::Locate, ContestRobot::Pioneer),
 ];
 
-/// The table of cost against size.
+/// Name of the table of cost by size.
 const SIZE_TABLE: &str = "size";
 
-/// The table of conditions.
+/// Name of the table of conditions.
 const CONDITIONS_TABLE: &str = "conditions";
 
-/// The experiment, ready to run.
+/// The prepared experiment.
 #[derive(Debug)]
 struct Arena {
     seed: u64,
     worlds: Vec<ArenaWorld>,
     schooling: Schooling,
-    /// The contests that were held, which several rows look at.
+    /// Contests that were already held; several rows use each.
     held: Mutex<Held>,
 }
 
-/// Sets the tables up.
+/// Returns the experiment with its tables.
 ///
 /// # Errors
 /// If a maze cannot be read.
@@ -182,8 +183,8 @@ fn no_row(job: &Job<'_>) -> BoxError {
     format!("there is no row {:?} of {}", job.row, job.table).into()
 }
 
-/// Returns the contest of a row's run if there are `worlds` kinds of worlds: run n of the row of
-/// all is of kind n modulo their number.
+/// Returns kind and number of the world for a run of the row "all", with `worlds` kinds. Run n has
+/// kind n modulo their number.
 const fn of_all(run: u32, worlds: u32) -> (u32, u32) {
     (run % worlds, run / worlds)
 }
@@ -195,7 +196,7 @@ impl Arena {
         self.worlds[world].draw(self.seed, number)
     }
 
-    /// Returns which world a run is in, and which drawing of it.
+    /// Returns which kind of world a run is in, and which drawing of it.
     fn place(&self, row: &RowName<'_>, run: u32) -> Result<(usize, u32), BoxError> {
         if row.world == ALL {
             let (world, number) = of_all(run, self.worlds.len() as u32);

@@ -7,42 +7,43 @@ use super::rows::{ALL, contestants, row_name};
 use super::{ArenaTask, TABLES};
 
 record! {
-    /// Map that a system learned of a world.
+    /// A system's map of a world.
     pub(super) struct LearnRun {
         /// Whether it said, before it drove, that it cannot work there.
         abstained: bool => neither("abstained"),
-        /// Whether its map is one to one the graph of the true places and ways, with at least 95 %
-        /// of those that there are. Who abstained has none.
+        /// Whether its map is right: it matches the graph of the true places and ways one to one,
+        /// and has at least 95 % of them. A system that abstained has no right map.
         right: bool => higher("right"),
-        /// Whether its map is one to one the graph of the true ways that it has gone and what it
-        /// saw beside.
+        /// Whether its map matches, one to one, the graph of the true ways that the robot drove and
+        /// of what it saw beside them.
         right_of_visited: bool => higher("right as far as visited"),
-        /// Share of the visits of its places that were to the cell which that place was most often.
+        /// Share of the visits to its places in which the robot was in the cell that this place
+        /// most often was.
         purity: Option<f64> => higher("purity").share().decimals(3),
-        /// Places of its map over true places. A place with two ways and no landmark counts as part
-        /// of a way.
+        /// Number of places on its map over that of true places. A place with two ways counts as
+        /// part of a way.
         places: Option<f64> => neither("places / true").decimals(2),
-        /// Share of the links of its map that are true ways, each once.
+        /// Share of the links on its map that are true ways, each counted once.
         link_precision: Option<f64> => higher("link precision").share().decimals(3),
-        /// Share of the true ways that are on its map; 0 of who abstained.
+        /// Share of the true ways that are on its map; 0 for a system that abstained.
         link_recall: f64 => higher("link recall").share().decimals(3),
         /// For a wrong map: whether the system called it right.
         false_right: Option<bool> => lower("wrong maps called right"),
         /// For a right map: whether the system called it wrong.
         false_alarm: Option<bool> => lower("right maps called wrong"),
-        /// Whether the system did not say whether its map is right.
+        /// Whether the system gave no verdict on its map.
         undecided: Option<bool> => lower("undecided"),
-        /// Whether the map is right, where there is one.
+        /// Whether the map is right, if there is one.
         map_right: Option<bool> => higher("right maps"),
         /// Squared error of the system's probability that its map is right. That is its own
-        /// estimate if it has one; else 1 if it was done, 0 if it gave up, and a half if it did not
-        /// say.
+        /// estimate if it has one. Otherwise it is 1 if it was done, 0 if it gave up, and ½ if it
+        /// gave no verdict.
         brier: Option<f64> => lower("Brier"),
-        /// Metres driven over the length of all corridors.
+        /// Driven distance over the length of all corridors.
         driven: Option<f64> => lower("metres / corridors"),
         /// Time steps in which it touched something.
         bumps: Option<u32> => lower("bumps"),
-        /// Bytes of its map for each of its places, without the data it was learned from.
+        /// Bytes of its map per place, without the data it was learned from.
         bytes_per_place: Option<f64> => lower("bytes / place").decimals(0),
         /// How it ended, with the reason.
         why: String => neither("end"),
@@ -50,13 +51,13 @@ record! {
 }
 
 record! {
-    /// A robot's way to the goal.
+    /// A robot's drive to the goal.
     pub(super) struct HomeRun {
-        /// Whether it said before it drove that it cannot work there.
+        /// Whether it said, before it drove, that it cannot work there.
         abstained: bool => neither("abstained"),
-        /// Whether it came to the goal within ten times the shortest way.
+        /// Whether it reached the goal within ten times the shortest way.
         success: bool => higher("success"),
-        /// Metres driven over those of the shortest way from cell to cell, of those that arrived.
+        /// For runs that arrived: driven distance over that of the shortest way from cell to cell.
         metres_over_shortest: Option<f64> => lower("metres / shortest").decimals(2),
         /// Time steps in which it touched something.
         bumps: Option<u32> => lower("bumps"),
@@ -68,24 +69,23 @@ record! {
 record! {
     /// A system's answer to where it was put down.
     pub(super) struct LocateRun {
-        /// Whether it said where it is, and was there.
+        /// Whether it said where it is, and was right.
         right: bool => higher("right"),
-        /// Whether it said where it is, and was elsewhere.
+        /// Whether it said where it is, and was wrong.
         wrong: bool => lower("wrong"),
-        /// Whether it did not say.
+        /// Whether it gave no answer.
         abstained: bool => neither("abstained"),
-        /// On a map that is right, or the true one: whether it said where it is, and was there.
+        /// With a right map, or the true one: whether it said where it is, and was right.
         right_on_right_map: Option<bool> => higher("right on right maps"),
-        /// Probability that an observer with the true map and without recognition errors would be
-        /// right about the cell after the same drive.
+        /// Probability that an observer with the true map and without recognition errors would name
+        /// the right cell after the same drive.
         ceiling: Option<f64> => neither("passive ceiling").percent().decimals(1),
-        /// The same on maps that are right.
+        /// The same probability, for runs with a right map.
         ceiling_on_right_map: Option<f64> => neither("passive ceiling, on right maps").percent().decimals(1),
-        /// On maps that are right: whether the same system on the same robot finds itself there by
-        /// the true map, which it learned without errors. None where it learned a wrong one even
-        /// so.
+        /// For right maps: whether the same system localizes there with the true map, which it
+        /// learned without errors. No value if it learned a wrong map even so.
         with_true_map: Option<bool> => neither("active ceiling, on right maps"),
-        /// Reason why it did not say.
+        /// Reason why it gave no answer.
         why: String => neither("reason"),
     }
 }
@@ -93,15 +93,15 @@ record! {
 record! {
     /// Cost of learning a world.
     pub(super) struct SizeRun {
-        /// Whether the map is right and whole.
+        /// Whether the map is right and complete.
         right: bool => higher("right"),
         /// Share of the true ways that are on the map.
         link_recall: f64 => higher("link recall").share().decimals(3),
-        /// Metres driven over the length of all corridors.
+        /// Driven distance over the length of all corridors.
         driven: Option<f64> => lower("metres / corridors").decimals(2),
-        /// Time steps for each cell that can be reached.
+        /// Time steps per cell that can be reached.
         steps_per_cell: Option<f64> => lower("time steps / cell").decimals(1),
-        /// Places of the map for each of those cells.
+        /// Places of the map per cell that can be reached.
         places_per_cell: Option<f64> => lower("places / cell").decimals(2),
     }
 }
@@ -113,17 +113,18 @@ record! {
         abstained: bool => neither("abstained"),
         /// Whether its map is right.
         right: bool => higher("right"),
-        /// Share of the visits of its places that were to the cell which that place was most often.
+        /// Share of the visits to its places in which the robot was in the cell that this place
+        /// most often was.
         purity: Option<f64> => higher("purity").share().decimals(3),
-        /// Share of the true ways that are on its map; 0 of who abstained.
+        /// Share of the true ways that are on its map; 0 for a system that abstained.
         link_recall: f64 => higher("link recall").share().decimals(3),
         /// For a wrong map: whether the system called it right.
         false_right: Option<bool> => lower("wrong maps called right"),
-        /// Whether it found out where it was put down.
+        /// Whether it localized after it was put down.
         located: bool => higher("located"),
-        /// Whether it took itself to be elsewhere.
+        /// Whether it believed it was somewhere else.
         located_wrong: bool => lower("located wrongly"),
-        /// Whether it came to the goal.
+        /// Whether it reached the goal.
         success: bool => higher("success"),
     }
 }
@@ -148,7 +149,13 @@ impl ConditionRun {
 pub(super) fn conditions(name: &str) -> Table {
     Table::of::<ConditionRun>(name, "The same where robots and worlds are not as they were made")
         .metrics_from(ConditionRun::abstained)
-        .note("Each system on its paper's robot, in one small world of each family in turns. Wheels: each encoder counts wrongly, or each wheel of the e-puck rolls wrongly, by a constant of up to 1, 2 or 5 %. Compass: off by up to 5°, which no e-puck and no Pioneer 2-DX has. Odometry: off by up to 10 %, constant or drawn again in each time step. Doors: an opening that no place depends on is shut once the robot has learned. Kidnapping: put elsewhere after half the length of the corridors, and not told. Drop-outs: 2 % of all readings do not come. GNG-SLAM Better has rows where `--runs` asks for them.")
+        .note("Each system on its paper's robot, in small worlds of all families in turn. Wheels: each \
+         encoder counts wrongly, or each wheel of the e-puck rolls wrongly, by a constant of up to \
+         1, 2 or 5 %. Compass: off by up to 5°; no e-puck and no Pioneer 2-DX has one. Odometry: off \
+         by up to 10 %, constant or drawn again in each time step. Doors: an opening that no place \
+         depends on is shut after the robot has learned. Kidnapping: put elsewhere after half the \
+         length of the corridors, without being told. Drop-outs: 2 % of all readings are missing. \
+         GNG-SLAM Better has rows only if `--runs` asks for them.")
 }
 
 impl LearnRun {
@@ -212,7 +219,7 @@ impl LocateRun {
     pub(super) fn of(record: &ContestRecord) -> Self {
         let learned = record.learned.as_ref();
         let has_abstained = record.abstained.is_some();
-        // Who learns no map and says where it is has the true one.
+        // Only a baseline that is given the true map answers without learning one.
         let is_known = learned.map_or(!has_abstained, |learned| learned.judgement.is_right);
         let (outcome, ceiling, with_true_map) = match record.found.first() {
             Some(found) => (found.outcome.clone(), found.ceiling, found.with_true_map),
@@ -317,10 +324,14 @@ pub(super) fn sizes(name: &str) -> Table {
         .note("Rows above 16 × 16 are filled where this table is asked for by name (`--table size`): a system takes minutes there.")
 }
 
-/// Returns what a reader must know.
+/// Returns the note that explains a table.
 pub(super) fn note(task: ArenaTask, robot: ContestRobot) -> String {
-    let worlds = "Small and middle worlds in turns, the same for all rows; of GNG-SLAM Better, which takes seconds in each, one of each kind and none on the laser Pioneer, unless `--runs` asks for more; who abstained stays in the denominator.";
-    let places = "Places are junctions, dead ends, start and goal; of the diktiometry corners in place of start and goal. MSLST does not claim that a map is whole, and counts as undecided. A micromouse is told the grid, its start and the goal.";
+    let worlds = "Small and middle worlds in turn, the same for all rows. GNG-SLAM Better takes seconds in each, \
+     so it has one of each kind and none on the laser Pioneer, unless `--runs` asks for more. Worlds \
+     in which a system abstained stay in the denominator.";
+    let places = "Places are junctions, dead ends, start and goal. For the diktiometry, corners take the place of \
+     start and goal. MSLST does not claim that a map is whole, and counts as undecided. A micromouse \
+     is told the grid, its start and the goal.";
     let robots = match robot {
         ContestRobot::Own => {
             "Each on its paper's robot: CPM on the e-puck, the diktiometry on the Pioneer with a camera among walls of eight colours, all others on the laser Pioneer."

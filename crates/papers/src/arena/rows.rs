@@ -13,19 +13,19 @@ use super::records::{ConditionRun, SizeRun};
 use super::worlds::{ArenaWorld, DrawnWorld};
 use super::{Arena, ArenaTask, ENTRY, SIZE_TABLE, of_all};
 
-/// The world of the rows of all worlds together.
+/// World in the names of rows that combine all worlds.
 pub(super) const ALL: &str = "all";
 
-/// Worlds of each kind for a system that takes seconds in each, unless the caller asks for more.
+/// Default number of worlds of each kind for a system that takes seconds in each.
 const SLOW_RUNS: u32 = 1;
 
-/// The same where it is left out of what stands for itself.
+/// Default for rows that are left out because they take long.
 const NO_RUNS: u32 = 0;
 
-/// Between the system and the world in the name of a row.
+/// Separator of system and world in a row's name.
 const BETWEEN: &str = " · ";
 
-/// Parts of a row's name.
+/// The parts of a row's name.
 pub(super) struct RowName<'a> {
     pub(super) contestant: Contestant,
     pub(super) world: &'a str,
@@ -43,7 +43,7 @@ pub(super) fn row_name(contestant: Contestant, world: &str) -> String {
     format!("{}{BETWEEN}{world}", contestant.name())
 }
 
-/// Returns the contestants that have rows in a table: baselines learn no map, and only one of them
+/// Returns the contestants that have rows in a table. Baselines learn no map, and only one of them
 /// localizes.
 pub(super) fn contestants(task: ArenaTask) -> impl Iterator<Item = Contestant> {
     let all = Contestant::ALL.into_iter();
@@ -54,7 +54,7 @@ pub(super) fn contestants(task: ArenaTask) -> impl Iterator<Item = Contestant> {
     })
 }
 
-/// Returns the rows of a table: each contestant in each world, and in all.
+/// Returns the rows of a table: each contestant in each world, and in all worlds.
 pub(super) fn of(
     task: ArenaTask,
     robot: ContestRobot,
@@ -76,13 +76,13 @@ pub(super) fn of(
     rows
 }
 
-/// Contests that were held.
+/// Contests that were already held.
 pub(super) type Held = BTreeMap<HeldKey, Shared>;
 
-/// A contest: robot, contestant, world and drawing.
+/// Identifies a contest: robot, contestant, world and drawing.
 pub(super) type HeldKey = (ContestRobot, &'static str, usize, u32);
 
-/// A contest that the first caller plays, while the others wait.
+/// A contest that the first caller plays while the others wait.
 type Shared = Arc<Mutex<Option<Arc<ContestRecord>>>>;
 
 impl Arena {
@@ -94,7 +94,7 @@ impl Arena {
         run: u32,
     ) -> Result<HeldKey, BoxError> {
         let (world, number) = self.place(row, run)?;
-        // They drive the laser Pioneer in all tables.
+        // The baselines drive the laser Pioneer in all tables.
         let robot = match row.contestant {
             Contestant::Baseline(_) => ContestRobot::Pioneer,
             _ => robot,
@@ -102,7 +102,7 @@ impl Arena {
         Ok((robot, row.contestant.name(), world, number))
     }
 
-    /// Returns what came of the contest of a row's run, which is held once.
+    /// Returns the record of a row's contest. Each contest is held only once.
     pub(super) fn held(
         &self,
         row: &RowName<'_>,
@@ -127,7 +127,7 @@ impl Arena {
         Ok(record)
     }
 
-    /// Plays a run of the table of conditions: in a small world of one kind after the other.
+    /// Plays a run of the table of conditions, in a small world. The kinds of worlds take turns.
     pub(super) fn under_condition(&self, row: &RowName<'_>, run: u32) -> Result<Fields, BoxError> {
         let drawn = self.world_of_condition(run)?;
         let contest = Contest {
@@ -138,10 +138,10 @@ impl Arena {
         Ok(ConditionRun::of(&record).fields()?)
     }
 
-    /// Returns the world that run `run` of all conditions is in.
+    /// Returns the world of run `run` of each condition.
     pub(super) fn world_of_condition(&self, run: u32) -> Result<DrawnWorld, BoxError> {
         let (world, number) = of_all(run, self.worlds.len() as u32);
-        // Even numbers are small ones.
+        // Drawings with even numbers are small.
         self.worlds[world as usize].draw(self.seed, 2 * number)
     }
 
@@ -154,8 +154,8 @@ impl Arena {
     }
 }
 
-/// Returns the number of worlds of each kind for a contestant: as many as the caller asks for, else
-/// the experiment's own number, or `slow` for a contestant that takes seconds in each.
+/// Returns the number of worlds of each kind for a contestant: the caller's, or else the
+/// experiment's own, or `slow` for a contestant that takes seconds in each.
 fn runs_of(contestant: Contestant, options: &Options, slow: u32) -> u32 {
     match contestant {
         Contestant::GngSlamBetter => options.runs_else(slow, slow),
@@ -163,7 +163,7 @@ fn runs_of(contestant: Contestant, options: &Options, slow: u32) -> u32 {
     }
 }
 
-/// Returns the rows of the table of conditions: each system under each.
+/// Returns the rows of the table of conditions: each system under each condition.
 pub(super) fn of_conditions(options: &Options) -> Vec<Row> {
     let mut rows = Vec::new();
     for contestant in contestants(ArenaTask::Learn) {
@@ -175,7 +175,7 @@ pub(super) fn of_conditions(options: &Options) -> Vec<Row> {
     rows
 }
 
-/// Who is tried in worlds of all sizes, and how large they are a side, cells.
+/// Systems in the table of sizes, and the sides of its worlds, cells.
 pub(super) const SIZED: [Contestant; 4] = [
     Contestant::Mslst,
     Contestant::CpmBetter,
@@ -184,7 +184,7 @@ pub(super) const SIZED: [Contestant; 4] = [
 ];
 pub(super) const SIZES: [u16; 6] = [5, 8, 12, 16, 24, 40];
 
-/// The largest where the table is not asked for by name: larger worlds take minutes each.
+/// Maximum side if the table is not asked for by name. Larger worlds take minutes each.
 const QUICK_SIDE: u16 = 16;
 
 /// Returns the rows of the table of sizes.

@@ -1,4 +1,4 @@
-//! Maps by which a system's own verdict on them is judged: enough right ones and enough wrong ones.
+//! Maps for judging a system's own verdicts: enough right ones and enough wrong ones.
 
 use tolman_arena::contest::{Claim, Condition, ContestRecord};
 use tolman_arena::family::FamilySize;
@@ -35,11 +35,11 @@ impl Rung {
     }
 }
 
-/// Maps of one system, drawn until there are enough right and enough wrong ones.
+/// Maps of one system, collected until there are enough right and enough wrong ones.
 ///
 /// Each [round](Self::round) is a fresh world of every family. While there are more right maps than
-/// wrong ones, the next round is harder, else easier. So both kinds grow alike. The worlds depend
-/// only on the seed and on the results of earlier rounds.
+/// wrong ones, the next round is harder; otherwise it is easier. So both kinds grow alike. The
+/// worlds depend only on the seed and on the results of earlier rounds.
 #[derive(Clone, Debug)]
 pub struct VerdictPool {
     seed: u64,
@@ -48,7 +48,7 @@ pub struct VerdictPool {
     most_rounds: u32,
     rounds: u32,
     rung: usize,
-    /// Worlds of each rung.
+    /// Number of worlds drawn at each difficulty.
     drawn: [u32; RUNGS.len()],
     abstained: u32,
     maps: Vec<OwnVerdict>,
@@ -57,30 +57,30 @@ pub struct VerdictPool {
 /// A system's verdict on its map, and whether the map is right.
 #[derive(Clone, Copy, Debug)]
 struct OwnVerdict {
-    /// Number of the difficulty of its world.
+    /// Index of the difficulty of its world.
     rung: usize,
     is_right: bool,
     claim: Claim,
     likelihood: f64,
 }
 
-/// A round of a [`VerdictPool`]: worlds in which a map is to be learned, and under which condition.
+/// A round of a [`VerdictPool`]: worlds in which a map is to be learned, and their condition.
 #[derive(Clone, Debug)]
 pub struct PoolRound {
-    /// One of each family. Nobody is put down in them.
+    /// One world of each family. No robot is put down in them.
     pub worlds: Vec<DrawnWorld>,
-    /// Condition of robot and world.
+    /// How robot and worlds differ from how they are made.
     pub condition: Condition,
 }
 
 /// Summary of a [`VerdictPool`]. Shares are in percent; `None` without a map of the kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoolJudgement {
-    /// Maps that are right.
+    /// Number of right maps.
     pub right: usize,
-    /// Maps that are wrong.
+    /// Number of wrong maps.
     pub wrong: usize,
-    /// Worlds in which it abstained.
+    /// Number of worlds in which it abstained.
     pub abstained: u32,
     /// Share of the wrong maps that it called right.
     pub false_right_percent: Option<f64>,
@@ -100,21 +100,21 @@ pub struct PoolJudgement {
 pub struct RungJudgement {
     /// Name of the difficulty.
     pub name: &'static str,
-    /// Worlds.
+    /// Number of worlds.
     pub worlds: u32,
-    /// Maps that are right.
+    /// Number of right maps.
     pub right: usize,
     /// Number of these that it called wrong.
     pub false_alarms: usize,
-    /// Maps that are wrong.
+    /// Number of wrong maps.
     pub wrong: usize,
     /// Number of these that it called right.
     pub false_right: usize,
 }
 
 impl VerdictPool {
-    /// Returns a pool without maps, which is full once it has `enough` right and `enough` wrong
-    /// ones, or after `most_rounds` rounds.
+    /// Returns an empty pool. It is full when it has `enough` right and `enough` wrong maps, or
+    /// after `most_rounds` rounds.
     #[must_use]
     pub const fn new(worlds: Vec<ArenaWorld>, seed: u64, enough: u32, most_rounds: u32) -> Self {
         Self {
@@ -130,7 +130,7 @@ impl VerdictPool {
         }
     }
 
-    /// Returns the next round; `None` of a full pool.
+    /// Returns the next round; `None` if the pool is full.
     ///
     /// # Errors
     /// If a family cannot draw a world.
@@ -154,7 +154,7 @@ impl VerdictPool {
         }))
     }
 
-    /// Takes in what came of the worlds of a round.
+    /// Adds the results of a round.
     pub fn take(&mut self, held: &[ContestRecord]) {
         self.rounds += 1;
         self.drawn[self.rung] += held.len() as u32;
@@ -176,7 +176,7 @@ impl VerdictPool {
         };
     }
 
-    /// Returns whether there are enough maps of either kind.
+    /// Returns whether there are enough right and enough wrong maps.
     #[must_use]
     pub fn is_enough(&self) -> bool {
         let (right, wrong) = self.counts();
@@ -189,7 +189,7 @@ impl VerdictPool {
         (right, self.maps.len() - right)
     }
 
-    /// Returns what all maps so far say.
+    /// Returns the summary of all maps so far.
     #[must_use]
     pub fn judgement(&self) -> PoolJudgement {
         let (right, wrong) = self.counts();

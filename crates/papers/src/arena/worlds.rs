@@ -13,9 +13,9 @@ use crate::maze_file;
 /// A kind of world that contests are held in.
 #[derive(Clone, Debug)]
 pub enum ArenaWorld {
-    /// Drawings of a family: small and middle ones in turns.
+    /// Drawings of a family, small and middle ones in turn.
     Family(Family),
-    /// One drawing, of a file.
+    /// The drawing in a file.
     File {
         /// The maze's name, or the file's.
         name: String,
@@ -24,7 +24,7 @@ pub enum ArenaWorld {
     },
 }
 
-/// A drawing with the seed of the contest that is held in it.
+/// A drawing, with the seed of the contest in it.
 #[derive(Clone, Debug)]
 pub struct DrawnWorld {
     /// Name of the world.
@@ -38,7 +38,7 @@ pub struct DrawnWorld {
 }
 
 impl DrawnWorld {
-    /// Returns the contest of one contestant in it.
+    /// Returns the contest of a contestant in it.
     #[must_use]
     pub fn contest(&self, contestant: Contestant, robot: ContestRobot) -> Contest<'_> {
         Contest {
@@ -61,7 +61,7 @@ impl ArenaWorld {
         Family::ARENA.map(Self::Family).into()
     }
 
-    /// Returns the mazes of files, and of folders of files.
+    /// Returns the mazes of files, and of all files in folders.
     ///
     /// # Errors
     /// If one cannot be read, or marks no start.
@@ -103,8 +103,8 @@ impl ArenaWorld {
         }
     }
 
-    /// Returns drawing `number` under a master seed: of a family a small one if that is even, else
-    /// a middle one.
+    /// Returns drawing `number` under a master seed. Of a family, even numbers are small and odd
+    /// ones middle drawings.
     ///
     /// # Errors
     /// If the family cannot draw it.
@@ -117,7 +117,7 @@ impl ArenaWorld {
         self.draw_sized(seed, number, size)
     }
 
-    /// Returns drawing `number` of a size by a seed of its own; of a file, whatever its size.
+    /// Returns drawing `number` of a given size by `seed`; a file's drawing has its own size.
     pub(super) fn draw_sized(
         &self,
         seed: u64,
@@ -140,7 +140,7 @@ impl ArenaWorld {
         })
     }
 
-    /// Returns what results depend on.
+    /// Returns the configuration that results depend on.
     pub(super) fn config(&self) -> toml::Value {
         match self {
             Self::Family(Family { name, sizes, .. }) => {

@@ -1,4 +1,4 @@
-//! How often the corridor detector takes each kind of place for a corridor.
+//! How often the corridor detector calls each kind of place a corridor.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -20,18 +20,18 @@ pub(super) const NAME: &str = "corridor detector";
 record! {
     /// Random poses in one kind of place.
     struct CorridorRun {
-        /// Poses at which the detector takes the place for a corridor.
+        /// Share of the poses at which the detector calls the place a corridor.
         called_corridor_percent: f64 => neither("called corridor").percent(),
     }
 }
 
-/// Random poses in one run.
+/// Number of random poses in a run.
 const POSES: u32 = 200;
 
-/// Length of the arms of a place, cells: farther than the laser sees.
+/// Length of a place's arms, cells: farther than the laser sees.
 const ARM: u16 = 2;
 
-/// A kind of place and the directions it is open in.
+/// Kinds of places, with the directions in which they are open.
 const PLACES: [(&str, &[Direction]); 5] = [
     ("corridor", &[Direction::North, Direction::South]),
     ("bend", &[Direction::North, Direction::East]),
@@ -53,7 +53,7 @@ pub(super) fn table() -> Table {
         ))
 }
 
-/// Returns one run: the share of random poses in a place that look like a corridor.
+/// Plays one run: the share of random poses at which a place looks like a corridor.
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let open = PLACES
         .iter()
@@ -90,8 +90,8 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     .fields()?)
 }
 
-/// Returns a place with straight arms in the directions it is open in; the goal lies at the end of
-/// one.
+/// Returns a place with straight arms in the directions in which it is open. The goal is at the end
+/// of one.
 fn place(centre: Cell, open: &[Direction]) -> Maze {
     let grid = Grid::new(2 * ARM + 1, 2 * ARM + 1);
     let mut maze = Maze::solid(grid);

@@ -1,4 +1,4 @@
-//! Ways of the runs: for each maze and brain, the middle run over all others.
+//! The robots' ways, for each maze and brain, with the median run on top.
 
 use tolman_geom::Point;
 

@@ -1,9 +1,9 @@
-//! The baselines of MSLST: what wandering and wall-following reach without any map.
+//! The baselines of MSLST: what wandering and wall-following reach without a map.
 //!
 //! Tables 2 and 3 of "Maze Solving by Learning State Topologies" for its two simple brains, with a
-//! random one as the floor and an oracle as the ceiling. Competition mazes, or any others, are
-//! further tables. A last table shows how often the corridor detector takes each kind of place for
-//! a corridor.
+//! random one as the lower bound and an oracle as the upper bound. Competition mazes, or any
+//! others, are further tables. A last table shows how often the corridor detector calls each kind
+//! of place a corridor.
 
 mod detector;
 mod figures;
@@ -21,7 +21,7 @@ use tolman_experiment::{
 };
 use tolman_replay::Replay;
 
-/// The rows: the paper's brains in its order, then floor and ceiling.
+/// The rows: the paper's brains in its order, then lower and upper bound.
 const ROWS: [Agent; 4] = [
     Agent::Avoid,
     Agent::WallFollow,
@@ -43,13 +43,13 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// The experiment, ready to run.
+/// The prepared experiment.
 #[derive(Debug)]
 struct Baselines {
     venues: Vec<Venue>,
 }
 
-/// Reads the worlds and sets the tables up.
+/// Returns the experiment with its worlds and tables.
 ///
 /// # Errors
 /// If a maze cannot be read, or the robot does not fit its corridors.
@@ -91,7 +91,7 @@ fn table(venue: &Venue) -> Table {
 }
 
 impl Baselines {
-    /// Returns the trial and the mind of a run; `None` for a run of the detector.
+    /// Returns trial and mind of a run; `None` for a run of the detector.
     fn cast(&self, job: &Job<'_>) -> Result<Option<(Trial<'_>, Mind)>, EpisodeError> {
         let mut venues = self.venues.iter();
         let venue = venues.find(|venue| venue.table == job.table);
@@ -101,7 +101,7 @@ impl Baselines {
         Ok(Some((venue.trial(job.seed), venue.mind(agent)?)))
     }
 
-    /// Plays one run; also how figures play it again.
+    /// Plays one run. Figures use it to play a run again. `None` for a run of the detector.
     fn episode(&self, job: &Job<'_>) -> Result<Option<Episode>, EpisodeError> {
         let Some((trial, mut mind)) = self.cast(job)? else {
             return Ok(None);

@@ -1,5 +1,4 @@
-//! The worlds of the baselines: the paper's, competition mazes where they are found, or the
-//! caller's.
+//! The worlds of the baselines: the paper's, competition mazes if they are here, or the caller's.
 
 use std::path::PathBuf;
 
@@ -8,13 +7,13 @@ use crate::data;
 use crate::venue::{self, Venue};
 use tolman_experiment::BoxError;
 
-/// Competition mazes that join in where they are found.
+/// Competition mazes, used if they are here.
 const COMPETITION: [&str; 2] = [
     "mazes/classic/taiwan2016f.txt",
     "mazes/classic/apec2016.txt",
 ];
 
-/// Returns the worlds for these files, or the default ones, and a remark on what is not there.
+/// Returns the worlds of these files, or the default ones, and a note on what is missing.
 pub(super) fn venues(files: &[PathBuf]) -> Result<(Vec<Venue>, Option<String>), BoxError> {
     if !files.is_empty() {
         return Ok((venue::from_files(files, &[detector::NAME])?, None));

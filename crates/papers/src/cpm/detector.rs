@@ -1,5 +1,5 @@
-//! Recognition of junctions and dead ends by one sweep: section 4.1, with the effect of each of our
-//! additions.
+//! Recognition of junctions and dead ends from one sweep (section 4.1), and the effect of each of
+//! our additions.
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -20,7 +20,7 @@ use tolman_experiment::{
 /// The name of the table.
 pub(super) const DETECTOR: &str = "detector";
 
-/// Settings of a row.
+/// Setting of a row.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Setting {
     name: &'static str,
@@ -59,21 +59,21 @@ record! {
     /// Looks at the places of all mazes.
     #[check(DetectorRun::relations)]
     struct DetectorRun {
-        /// Looks at places.
+        /// Number of looks at places.
         looks: u32 => neither("looks"),
-        /// Looks that counted the openings correctly.
+        /// Number of looks that counted the openings correctly.
         counted: u32 => higher("counted"),
-        /// Looks that recognized a junction as one.
+        /// Number of looks that recognized a junction as one.
         junctions_right: u32 => higher("junctions recognized correctly"),
-        /// Looks that took a place for a junction.
+        /// Number of looks that reported a junction.
         junctions_told: u32 => neither("junctions reported"),
-        /// Junctions looked at.
+        /// Number of looks at a junction.
         junctions_there: u32 => neither("true junctions"),
-        /// Looks that recognized a dead end as one.
+        /// Number of looks that recognized a dead end as one.
         dead_ends_right: u32 => higher("dead ends recognized correctly"),
-        /// Looks that took a place for a dead end.
+        /// Number of looks that reported a dead end.
         dead_ends_told: u32 => neither("dead ends reported"),
-        /// Dead ends looked at.
+        /// Number of looks at a dead end.
         dead_ends_there: u32 => neither("true dead ends"),
         /// Share of the reported junctions that are junctions.
         junction_precision: Option<f64> => higher("junctions: precision").share(),
@@ -117,14 +117,14 @@ impl DetectorRun {
         ]
     }
 
-    /// Counts a place of `truth` openings that looked like one of `openings`.
+    /// Counts a place with `truth` openings that looked like one with `openings`.
     fn told(&mut self, openings: usize, truth: usize) {
         self.looks += 1;
         self.counted += u32::from(openings == truth);
         self.place(Some(place_of(openings)), place_of(truth));
     }
 
-    /// Counts a place of which nothing was reported.
+    /// Counts a place with `truth` openings that was not reported.
     fn missed(&mut self, truth: usize) {
         self.place(None, place_of(truth));
     }
@@ -138,7 +138,7 @@ impl DetectorRun {
         }
     }
 
-    /// Returns the record with the shares that follow from the counts.
+    /// Returns the record with the shares computed from its counts.
     fn finished(mut self) -> Self {
         self.junction_precision = share(self.junctions_right, self.junctions_told);
         self.junction_recall = share(self.junctions_right, self.junctions_there);
@@ -153,10 +153,11 @@ fn share(part: u32, whole: u32) -> Option<f64> {
     (whole > 0).then(|| f64::from(part) / f64::from(whole))
 }
 
-/// The row of a robot that walks and looks again from the middle of what it takes for a place.
+/// Row of a robot that walks, and looks again from the middle of what it believes is a place.
 const ON_THE_WAY: &str = "Ours, on the way";
 
-/// Returns the rows of single sweeps: each in the mazes as they are drawn, and with wide corridors.
+/// Returns the rows of single sweeps: each setting in the mazes as they are drawn, and with wide
+/// corridors.
 fn settings() -> impl Iterator<Item = (&'static Setting, Option<f64>)> {
     let widths = [None, Some(WIDE)];
     let each = |width| SETTINGS.iter().map(move |setting| (setting, width));
@@ -183,23 +184,25 @@ pub(super) fn table() -> Table {
         .metrics_from(DetectorRun::junction_precision)
         .rows(rows.map(Row::new));
     table.note(format!(
-        "One sweep in every cell that the robot can come to, up to {:.0} cm off its middle and {ASKEW} rad askew. Literal: the eight vectors are averaged as they come, aligned: each turned by its sensor's mounting angle \
-         first; both cut by the paper's rule. Ours: values above 60 are cut before steps are taken. On the way: every \
-         fragment is walked both ways by a robot that drives to the middle of what looks like a place and looks again.",
+        "One sweep in every cell that the robot can reach, up to {:.0} cm off its middle and {ASKEW} \
+         rad askew. Literal: the eight vectors are averaged as they come. Aligned: each is turned by \
+         its sensor's mounting angle first. Both are cut by the paper's rule. Ours: values above 60 \
+         are cut before steps are computed. On the way: a robot walks every fragment both ways, \
+         drives to the middle of what looks like a place, and looks again.",
         100.0 * OFF
     ))
 }
 
-/// Returns what the runs depend on.
+/// Returns the configuration that the runs depend on.
 pub(super) fn config() -> impl Serialize {
     #[derive(Serialize)]
     struct Config {
         settings: [Setting; SETTINGS.len()],
-        /// In metres.
+        /// Width of wide corridors, m.
         wide: f64,
-        /// In metres.
+        /// Maximum offset from the middle of a cell, m.
         off: f64,
-        /// In radians.
+        /// Maximum error of the heading, rad.
         askew: f64,
     }
     Config {
@@ -210,7 +213,7 @@ pub(super) fn config() -> impl Serialize {
     }
 }
 
-/// Looks at places of all mazes.
+/// Plays a run: looks at the places of all mazes.
 pub(super) fn run(courses: &[Course], job: &Job<'_>) -> Result<Fields, BoxError> {
     let mut tally = DetectorRun::default();
     let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
@@ -229,7 +232,7 @@ pub(super) fn run(courses: &[Course], job: &Job<'_>) -> Result<Fields, BoxError>
     Ok(tally.finished().fields()?)
 }
 
-/// Returns one sweep in every cell that the robot can come to.
+/// Returns one sweep from every cell that the robot can reach.
 fn sweep_all(
     setting: &Setting,
     course: &Course,
@@ -258,7 +261,7 @@ fn sweep_all(
         };
         let body = pilot.robot_mut();
         body.place(pose)?;
-        // What it senses is of its last step, before it was lifted.
+        // Its readings are those of its last step, before it was lifted.
         body.step(&WheelSpeeds::default())?;
         let sweep = pilot.sweep()?;
         let profile = Profile::of(&sweep, setting.alignment)?;
@@ -269,7 +272,7 @@ fn sweep_all(
 }
 
 /// Counts the places at the ends of all fragments, each walked both ways. A place that the robot
-/// does not reach is missed.
+/// does not reach counts as missed.
 fn walk(course: &Course, seed: u64, tally: &mut DetectorRun) -> Result<(), BoxError> {
     let config = walker_config(&epuck(), course.corridor_width)?;
     for walk in survey(course, &epuck(), &config, seed)? {

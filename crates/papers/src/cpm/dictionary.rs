@@ -1,5 +1,5 @@
-//! Number of common patterns that the robot learns: section 5, "31 clusters are obtained with 102
-//! nodes".
+//! Number of common patterns that the robot learns (section 5: "31 clusters are obtained with 102
+//! nodes").
 
 use crate::tolerances::PROTOTYPES;
 use tolman_arena::course::Course;
@@ -14,9 +14,9 @@ record! {
     /// Patterns learned on a walk through the learning maze.
     #[check(DictionaryRun::relations)]
     pub(super) struct DictionaryRun {
-        /// Units of SOINN, each a common pattern of ours.
+        /// Number of SOINN's units, each one of our common patterns.
         units: u32 => neither("units").tolerance(PROTOTYPES),
-        /// Clusters of SOINN, each a common pattern of the paper.
+        /// Number of SOINN's clusters, each a common pattern in the paper.
         clusters: u32 => neither("clusters").at_least(1).tolerance(PROTOTYPES),
     }
 }
@@ -48,7 +48,7 @@ pub(super) fn table(learning: &Course) -> Table {
         )
 }
 
-/// Returns one walk through the learning maze.
+/// Plays one run: a walk through the learning maze.
 pub(super) fn run(learning: &Course, job: &Job<'_>) -> Result<Fields, BoxError> {
     let patterns = learn(learning, job.seed)?;
     Ok(DictionaryRun::of(&patterns).fields()?)

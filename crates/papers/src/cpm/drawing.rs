@@ -1,4 +1,4 @@
-//! Pictures of a map, as the paper's figures 5 (b) and 8.
+//! Pictures of a map, like the paper's figures 5 (b) and 8.
 
 use core::fmt::Write;
 
@@ -23,13 +23,13 @@ const RADIUS: f64 = 4.5;
 /// The colour of junctions, and the first of fragments.
 const JUNCTION: Series = Series(0);
 
-/// Returns the name of a fragment on all pictures.
+/// Returns the name of a fragment, the same in all pictures.
 #[must_use]
 pub fn fragment_name(id: FragmentId) -> String {
     format!("A{}", id.0)
 }
 
-/// Returns what stands at a junction, or its number.
+/// Returns the landmark at a junction, or else its number.
 #[must_use]
 pub fn junction_name(map: &CpMap, id: JunctionId) -> String {
     match map.junction(id).and_then(|junction| junction.landmark) {
@@ -39,14 +39,14 @@ pub fn junction_name(map: &CpMap, id: JunctionId) -> String {
     }
 }
 
-/// Returns the colour of a fragment: that of its number.
+/// Returns the colour of a fragment, by its number.
 const fn series(id: FragmentId) -> Series {
     Series(1 + id.0 % (Series::COLOURS - 1))
 }
 
 /// Returns a map over the maze in which it was learned. Each fragment is drawn along its corridor,
-/// in a colour of its own, with its name and its signs. Junctions are squares, dashed stubs
-/// unexplored ports.
+/// in its own colour, with its name and signs. Junctions are squares, and unexplored ports are
+/// dashed stubs.
 #[must_use]
 pub fn over_maze(map: &CpMap, course: &Course) -> Drawing {
     let plan = plan_with(map, course);
@@ -56,7 +56,7 @@ pub fn over_maze(map: &CpMap, course: &Course) -> Drawing {
     ))
 }
 
-/// Returns a drive over the map that it was made by, over the maze.
+/// Returns a robot's way, over the map that it learned and over the maze.
 #[must_use]
 pub fn drive(map: &CpMap, course: &Course, path: &[Pose]) -> Drawing {
     let mut plan = plan_with(map, course);
@@ -119,7 +119,8 @@ pub fn plan_of(course: &Course) -> FloorPlan {
     plan
 }
 
-/// Adds a node; where one stands already, as where the map has one place twice, it is named there.
+/// Adds a node. If there is one at the same position, because the map has a place twice, its name
+/// is added to that one.
 fn add(graph: &mut GraphPicture, node: GraphNode) {
     let same = |other: &&mut GraphNode| {
         other.mark == node.mark
@@ -138,8 +139,8 @@ fn add(graph: &mut GraphPicture, node: GraphNode) {
 }
 
 /// Returns the map by itself, like the paper's figure 8. Fragment nodes are discs, junction nodes
-/// squares. Each edge has the sign of the fragment's end and the port of the junction. Nodes have
-/// their positions in the maze.
+/// squares. Each edge has the sign of the fragment's end and the port of the junction. Nodes are
+/// drawn at their positions in the maze.
 #[must_use]
 pub fn graph(map: &CpMap, course: &Course) -> Drawing {
     let world = &course.world;
@@ -178,7 +179,7 @@ pub fn graph(map: &CpMap, course: &Course) -> Drawing {
             }
         }
     }
-    // Names stand to the right of their nodes.
+    // Names are on the right of their nodes.
     let mut bounds = world.bounds();
     bounds.max.x += 0.1 * (bounds.max.x - bounds.min.x);
     let mut plan = FloorPlan::of_bounds(&bounds, WIDTH);
@@ -202,7 +203,7 @@ fn junction_node(map: &CpMap, id: JunctionId, junction: &Junction, at: Point) ->
     let mut note = format!("{}: ", junction_name(map, id));
     for (number, port) in (0_u32..).zip(&junction.ports) {
         let what = match port {
-            PortState::Open { .. } => "nobody has been there".to_owned(),
+            PortState::Open { .. } => "unexplored".to_owned(),
             PortState::Filled(end) => end_name(*end),
         };
         // Writing to a string cannot fail.
@@ -215,7 +216,7 @@ fn junction_node(map: &CpMap, id: JunctionId, junction: &Junction, at: Point) ->
         .note(note.trim_end_matches("; "))
 }
 
-/// Returns an end as the paper writes it: A3⁺.
+/// Returns an end in the paper's notation: A3⁺.
 fn end_name(end: End) -> String {
     let sign = match end.sign {
         Sign::Minus => "⁻",
@@ -265,12 +266,12 @@ fn stubs(graph: &mut GraphPicture, layout: &Layout, world: &World) {
     for open in layout.open_ports() {
         let at = world.cell_centre(open.cell);
         let on = world.cell_centre(open.next) - at;
-        // Hidden below its junction.
+        // It is hidden below its junction.
         let from = graph.node(GraphNode::at(at).mark(NodeMark::Square).series(JUNCTION));
         let to = graph.node(
             GraphNode::at(at + 0.5 * on)
                 .series(JUNCTION)
-                .note("nobody has been there"),
+                .note("unexplored"),
         );
         graph.edge(
             GraphEdge::between(from, to)
@@ -285,14 +286,14 @@ fn centres(cells: &[Cell], world: &World) -> Vec<Point> {
     cells.iter().map(|cell| world.cell_centre(*cell)).collect()
 }
 
-/// Returns the point half way along cells, where a fragment's name stands.
+/// Returns the middle of the way along cells, for a fragment's name.
 #[must_use]
 pub fn middle_of(cells: &[Cell], world: &World) -> Point {
     point_along(&centres(cells, world), 0.5)
 }
 
-/// Returns a point along a way from which straight lines to both its ends pass no node: the middle,
-/// or the nearest such point.
+/// Returns a point on a way from which straight lines to both ends touch no node: the middle, or
+/// the nearest such point.
 fn free(points: &[Point], graph: &GraphPicture) -> Point {
     let (Some(start), Some(end)) = (points.first(), points.last()) else {
         return Point::origin();
@@ -306,7 +307,7 @@ fn free(points: &[Point], graph: &GraphPicture) -> Point {
         });
         distances.fold(f64::INFINITY, f64::min)
     };
-    // Less than half a cell is too near.
+    // Half a cell is the minimum distance from a node.
     let cell = points.get(1).map_or(0.0, |next| (next - start).norm());
     let mut candidates =
         [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8].map(|share| point_along(points, share));
@@ -325,7 +326,7 @@ fn distance_to(point: Point, from: Point, to: Point) -> f64 {
     (point - (from + share.clamp(0.0, 1.0) * along)).norm()
 }
 
-/// Returns the point at this share of the length, 0 … 1.
+/// Returns the point at this share of the way's length, 0 … 1.
 fn point_along(points: &[Point], share: f64) -> Point {
     let length = |pair: &[Point]| (pair[1] - pair[0]).norm();
     let mut left = points.windows(2).map(length).sum::<f64>() * share;
@@ -338,7 +339,7 @@ fn point_along(points: &[Point], share: f64) -> Point {
     points.first().copied().unwrap_or_else(Point::origin)
 }
 
-/// Returns where a sign stands: a little way along, to the left. `unit` is the length of a user
+/// Returns the position of a sign: a little way along, to the left. `unit` is the length of a user
 /// unit, m.
 fn beside(at: Point, towards: Point, unit: f64) -> Point {
     let along = (towards - at).normalize();

@@ -1,5 +1,5 @@
-//! One episode of CPM against many of Q-learning and of a random walk. The paper claims an
-//! advantage over reinforcement learning, without figures (sections 1 and 2).
+//! Compares one episode of CPM with many episodes of Q-learning and of a random walk. The paper
+//! claims an advantage over reinforcement learning, without figures (sections 1 and 2).
 
 use alloc::collections::BTreeMap;
 
@@ -17,29 +17,29 @@ use tolman_systems::cpm::CommonPatterns;
 /// The name of the table.
 pub(super) const EPISODES: &str = "episodes";
 
-/// The end of all patience, episodes.
+/// Maximum number of episodes.
 const MOST_EPISODES: u32 = 10_000;
 
-/// And fragments of one episode.
+/// Maximum number of fragments in an episode.
 const MOST_FRAGMENTS: u32 = 100_000;
 
 record! {
-    /// A trial of CPM, and what its rivals need to do as well, where CPM solves it.
+    /// A trial of CPM, and what its rivals need to be as good, if CPM solves the maze.
     #[check(EpisodesRun::relations)]
     struct EpisodesRun {
-        /// Cells of CPM's way in its second episode.
+        /// Length of CPM's way in its second episode.
         cells: Option<u32> => lower("CPM's second way").unit("cells"),
-        /// Cells of the shortest way.
+        /// Length of the shortest way.
         shortest_cells: u32 => neither("shortest way").unit("cells"),
-        /// Episodes before CPM drives that way.
+        /// Number of episodes before CPM drives that way.
         cpm_episodes: Option<u32> => lower("CPM: episodes").at_most(MOST_EPISODES),
-        /// Length of CPM's way in them.
+        /// Distance that CPM drives in them.
         cpm_metres: Option<f64> => lower("CPM: driven").unit("m").at_least(0),
-        /// Episodes before Q-learning's greedy way is as short.
+        /// Number of episodes before Q-learning's greedy way is as short.
         q_learning_episodes: Option<u32> => lower("Q-learning: episodes").at_most(MOST_EPISODES),
-        /// Length of Q-learning's way in them.
+        /// Distance that Q-learning drives in them.
         q_learning_metres: Option<f64> => lower("Q-learning: driven").unit("m").at_least(0),
-        /// Episodes before the random walk happens to be as short.
+        /// Number of episodes before the random walk happens to be as short.
         random_walk_episodes: Option<u32> => lower("random walk: episodes").at_most(MOST_EPISODES),
         /// Length of the random walk in them.
         random_walk_metres: Option<f64> => lower("random walk: driven").unit("m").at_least(0),
@@ -64,7 +64,7 @@ impl EpisodesRun {
     }
 }
 
-/// Returns the table, with one row for each of `courses`.
+/// Returns the table, with one row for each course.
 pub(super) fn table(courses: &[Course]) -> Table {
     let table = Table::of::<EpisodesRun>(EPISODES, "Episodes until the way is known")
         .metrics_from(EpisodesRun::cells)
@@ -75,15 +75,17 @@ pub(super) fn table(courses: &[Course]) -> Table {
         exploration,
     } = QLearningConfig::usual();
     table.note(format!(
-        "How many episodes it takes until the next leads over a way as short as that which CPM (faithful, online) drives in its second, in \
-         the runs that CPM solves. Q-learning (α {learning_rate}, γ {discount}, ε {exploration}) and the random walk, which does not turn \
-         round but in dead ends, have no robot: they are told at which junction they stand and move over the maze's graph without noise, \
-         at the length of each fragment. Q-learning is done when its greedy way is as short; the random walk learns nothing and is done \
-         when one of its ways happens to be. They give up after {MOST_EPISODES} episodes.",
+        "Number of episodes before a way is as short as the one that CPM (faithful, online) drives \
+         in its second episode, in the runs that CPM solves. Q-learning (α {learning_rate}, γ \
+         {discount}, ε {exploration}) and the random walk have no robot. They are told their \
+         junction and move over the maze's graph without noise, at the length of each fragment. The \
+         random walk turns round only in dead ends. Q-learning is done when its greedy way is as \
+         short. The random walk learns nothing, and is done when one of its ways happens to be as \
+         short. They give up after {MOST_EPISODES} episodes.",
     ))
 }
 
-/// Returns one trial of CPM, and what its rivals need to do as well.
+/// Plays a run: a trial of CPM, and then its rivals until they are as good.
 pub(super) fn run(
     course: &Course,
     patterns: &CommonPatterns,
@@ -119,7 +121,7 @@ pub(super) fn run(
     Ok(run.fields()?)
 }
 
-/// Episodes and metres counted on a graph.
+/// Numbers of episodes and metres on a graph.
 struct Walked {
     episodes: u32,
     cells: u64,
@@ -131,7 +133,7 @@ impl Walked {
     }
 }
 
-/// The ways out of each place of a maze; costs are cells.
+/// The ways out of each place of a maze, with costs in cells.
 struct JunctionTask {
     places: Vec<Cell>,
     ways: Vec<Vec<(usize, WayOut)>>,
@@ -170,7 +172,7 @@ impl JunctionTask {
     }
 }
 
-/// Returns how many steps from cell to cell a drive had.
+/// Returns the number of steps from cell to cell in a drive.
 fn length_of(cells: impl Iterator<Item = Cell>) -> u32 {
     let mut cells = cells.peekable();
     let mut length = 0;
@@ -206,7 +208,8 @@ impl LearningTask for &JunctionTask {
     }
 }
 
-/// Learns until the greedy way is as short as wanted.
+/// Learns until the greedy way is at most `wanted` cells long. Returns `None` if that takes too
+/// many episodes.
 fn q_learning(graph: &JunctionTask, wanted: u32, seed: u64) -> Option<Walked> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut learner = QLearner::new(QLearningConfig::usual(), graph);
@@ -226,7 +229,8 @@ fn q_learning(graph: &JunctionTask, wanted: u32, seed: u64) -> Option<Walked> {
     None
 }
 
-/// Walks until a way happens to be as short as wanted.
+/// Walks until a way happens to be at most `wanted` cells long. Returns `None` if that takes too
+/// many episodes.
 fn random_walk(graph: &JunctionTask, wanted: u32, seed: u64) -> Option<Walked> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut before = 0;
@@ -244,7 +248,8 @@ fn random_walk(graph: &JunctionTask, wanted: u32, seed: u64) -> Option<Walked> {
     None
 }
 
-/// Returns one episode: at each junction a branch at random, but not the one it came by.
+/// Walks one episode and returns its length: at each junction it takes a random branch other than
+/// the one it came by.
 fn wander(graph: &JunctionTask, rng: &mut impl Rng) -> u64 {
     let (mut at, mut cells) = (graph.start, 0);
     let mut came: Option<u32> = None;

@@ -1,5 +1,5 @@
-//! Mazes explored to their end: the robot's walk relative to the best one, and Theorem 1's bound
-//! with the measured times.
+//! Completely explored mazes: the robot's walk compared with the best one, and the bound of Theorem
+//! 1 compared with the measured times.
 
 use tolman_systems::cpm::Done;
 
@@ -11,38 +11,39 @@ use tolman_experiment::{BoxError, Fields, Options, Record, Table, record, requir
 /// The name of the table.
 pub(super) const EXPLORED: &str = "explored";
 
-/// Runs of a row. For a walk half as long again as the best one, they give the mean to within a
-/// thirtieth.
+/// Number of runs of a row. If a walk is half as long again as the best one, this gives its mean to
+/// within a thirtieth.
 const RUNS: u32 = 40;
 
-/// Runs of a row for a first look.
+/// Number of runs of a row for a first look.
 const QUICK_RUNS: u32 = 3;
 
 record! {
-    /// A maze explored until no port of its map is unknown.
+    /// A maze explored until its map has no unknown port.
     #[check(ExploredRun::relations)]
     struct ExploredRun {
         /// Time steps in which the robot touched a wall.
         bumps: u32 => lower("steps at a wall"),
-        /// Whether the robot came to the end of its exploration.
+        /// Whether the exploration was completed.
         finished: bool => higher("finished"),
-        /// Whether every junction and fragment is on the map once, all joined as they truly are.
+        /// Whether every junction and fragment is on the map exactly once, and all are joined as
+        /// they truly are.
         map_right: bool => higher("map right"),
-        /// Fragments on the map.
+        /// Number of fragments on the map.
         fragments: u32 => neither("fragments"),
-        /// Fragments walked, each as often as it was.
+        /// Number of walks along fragments.
         traversals: u32 => lower("fragments walked"),
-        /// Fragments of the shortest walk from the start through all of them.
+        /// Number of fragments in the shortest walk from the start through all of them.
         best: Option<u32> => neither("best covering walk"),
-        /// Fragments walked for each of the best covering walk.
+        /// Walked fragments per fragment of the best covering walk.
         traversals_to_best: Option<f64> => lower("walked / best"),
-        /// Time until the last fragment was walked.
+        /// Time until the last fragment was first walked.
         seconds: Option<f64> => lower("all walked after").unit("s").at_least(0),
-        /// Time by which all are walked, by Theorem 1.
+        /// Bound of Theorem 1 on that time.
         bound: f64 => neither("Theorem 1").unit("s"),
-        /// Whether the last fragment was walked by then.
+        /// Whether that time is within the bound.
         within_bound: bool => higher("within Theorem 1"),
-        /// Reason for an early end of the exploration.
+        /// Reason why the exploration ended early.
         trouble: Option<String> => neither("trouble"),
     }
 }
@@ -65,7 +66,7 @@ impl ExploredRun {
     }
 }
 
-/// Returns the trials. If the mazes are the `papers`, others are drawn as well.
+/// Returns the trials. If the mazes are the paper's, as `papers` says, drawn ones are added.
 pub(super) fn explored(courses: &[Course], papers: bool, options: &Options) -> Trials {
     let mut settings = in_both_modes(courses);
     if papers {
@@ -74,16 +75,18 @@ pub(super) fn explored(courses: &[Course], papers: bool, options: &Options) -> T
     let table = Table::of::<ExploredRun>(EXPLORED, "Mazes explored to their end")
         .metrics_from(ExploredRun::finished)
         .note(
-            "The robot walks until no port of its map is unknown. The best covering walk is the shortest from the start through all fragments, \
-             for who knows the maze. Theorem 1 bounds the time until the last fragment is walked, whether the robot knows it or not: \
-             from the times that it took for the fragments before the first it had walked before, and the longest that it took for any.",
+            "The robot walks until no port of its map is unknown. The best covering walk is the \
+             shortest from the start through all fragments, given the maze. Theorem 1 bounds the \
+             time until the last fragment is walked, whether the robot knows that or not. The bound \
+             follows from the times of the fragments before the first repeated one, and from the \
+             longest time of any fragment.",
         );
     let runs = options.runs_else(RUNS, QUICK_RUNS);
     let row = |setting: &Setting| setting.row().runs(runs);
     Trials::new(table, settings, row, measure)
 }
 
-/// Explores one maze.
+/// Explores one maze and returns the record.
 fn measure(trial: &CpmTrial<'_>) -> Result<Fields, BoxError> {
     let found = trial.explore()?;
     let is_within = found.seconds.is_some_and(|seconds| seconds <= found.bound);

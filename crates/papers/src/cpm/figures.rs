@@ -1,4 +1,4 @@
-//! Figure 9's times, and figure 8: the map, by itself and over its maze, and the ways of both
+//! Figure 9's times; and figure 8: the map by itself and over its maze, with the ways of both
 //! episodes.
 
 use tolman_geom::Point;
@@ -35,7 +35,7 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
     Ok(figures)
 }
 
-/// Returns the run with the longest first episode, of those that were solved if any was.
+/// Returns the run with the longest first episode among those that were solved, or else among all.
 fn longest<'a>(runs: &[(&'a Run, TrialRun)]) -> Option<&'a Run> {
     let key = |trial: &TrialRun| (trial.solved, trial.seconds_1.unwrap_or(0.0));
     let order = |(_, a): &&(&Run, TrialRun), (_, b): &&(&Run, TrialRun)| {
@@ -45,7 +45,7 @@ fn longest<'a>(runs: &[(&'a Run, TrialRun)]) -> Option<&'a Run> {
     runs.iter().max_by(order).map(|(run, _)| *run)
 }
 
-/// Returns the paper's figure 9, panels (a) to (c): the seconds of both episodes by trial.
+/// Returns the paper's figure 9, panels (a) to (c): the duration of both episodes by trial.
 fn times(row: &str, name: &str, runs: &[(&Run, TrialRun)]) -> Figure {
     let mut chart = Chart::new(
         Axis::linear("trial").whole_numbers(),
@@ -71,8 +71,8 @@ fn times(row: &str, name: &str, runs: &[(&Run, TrialRun)]) -> Figure {
     .table(FIGURE_9)
 }
 
-/// Returns the paper's figure 8, (b) and (c): the ways of both episodes in the trial whose first
-/// took longest.
+/// Returns the paper's figure 8, (b) and (c): the ways of both episodes in the trial with the
+/// longest first episode.
 fn ways(course: &Course, record: &TrialRecord, row: &str, name: &str) -> Figure {
     let mut plan = drawing::plan_of(course);
     let positions: Vec<Point> = record.path.iter().map(|pose| pose.position).collect();
@@ -97,23 +97,26 @@ fn ways(course: &Course, record: &TrialRecord, row: &str, name: &str) -> Figure 
     .table(FIGURE_9)
 }
 
-/// Returns the paper's figure 8 (a): the map that the first episode ended with, over the maze and
-/// by itself.
+/// Returns the paper's figure 8 (a): the map at the end of the first episode, over the maze and by
+/// itself.
 fn maps(course: &Course, record: &TrialRecord, row: &str, name: &str) -> [Figure; 2] {
     let over = drawing::over_maze(&record.map, course);
     let graph = drawing::graph(&record.map, course);
     [
         Figure::new(format!("map-{name}"), format!("{row}: the map over its maze"), over)
             .caption(
-                "The map at the end of that trial's first episode, laid over the maze port by port: each fragment A with its ends − and +, \
-                 junctions as squares, rings where nobody has been. A dashed fragment leads elsewhere on the map than in the maze.",
+                "The map at the end of that trial's first episode, laid over the maze port by port. \
+                 Each fragment A has its ends − and +. Junctions are squares, and unexplored ends \
+                 are rings. A dashed fragment leads elsewhere on the map than in the maze.",
             )
             .table(FIGURE_9),
         Figure::new(format!("graph-{name}"), format!("{row}: the map"), graph)
             .caption(
-                "The same map as a graph, as the paper's figures 5 (b) and 8 (a): fragment nodes as discs with their length in observations, \
-                 junction nodes as squares; on each edge the fragment's end and the junction's port. The turn Δ from one fragment into another is \
-                 how many ports lie between them, counter-clockwise. Point at a node for its patterns and transitions.",
+                "The same map as a graph, like the paper's figures 5 (b) and 8 (a). Fragment nodes \
+                 are discs with their length in observations, junction nodes are squares. Each edge \
+                 has the fragment's end and the junction's port. The turn Δ from one fragment into \
+                 another is the number of ports between them, counter-clockwise. Point at a node for \
+                 its patterns and transitions.",
             )
             .table(FIGURE_9),
     ]

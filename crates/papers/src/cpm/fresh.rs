@@ -1,4 +1,4 @@
-//! Every run in another world of its kind, as claims about maps need.
+//! Runs that are each in a new world of their kind. Claims about maps in general need this.
 
 use rand::{Rng, RngExt};
 use serde::Serialize;
@@ -15,38 +15,38 @@ use tolman_systems::stream;
 /// The name of the table.
 pub(super) const FRESH: &str = "fresh worlds";
 
-/// Worlds a row, unless the caller asks for more or fewer.
+/// Default number of worlds of a row.
 const WORLDS: u32 = 100;
 
-/// For a first look.
+/// Number of worlds of a row for a first look.
 const QUICK: u32 = 2;
 
-/// The stream of a run's seed that its world is drawn from, beside those of the contest.
+/// Stream of a run's seed from which its world is drawn. The contest uses other streams.
 const WORLD_STREAM: u64 = 20;
 
-/// The families of the arena whose worlds are corridors alone.
+/// Families of the arena that have only corridors.
 const CORRIDORS: [&str; 11] = [
     "perfect", "braided", "office", "blocks", "ladder", "eight", "ring", "wings", "comb", "spiral",
     "star",
 ];
 
-/// Those with openings of 2 × 2 cells.
+/// Families with openings of 2 × 2 cells.
 const OPEN: [&str; 3] = ["rooms", "braided rooms", "pillars"];
 
-/// One row: a kind of world, and the deviations of the robots.
+/// A row: a kind of world, and how the robots differ from how they are made.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct FreshRow {
     pub(super) row: String,
-    /// The families that its worlds are drawn from.
+    /// Families from which its worlds are drawn.
     families: Vec<&'static str>,
-    /// By how many percent each wheel rolls wrongly at most.
+    /// Maximum error of each wheel, %.
     wheels: u8,
-    /// Who learns.
+    /// Name of the system that learns.
     contestant: &'static str,
 }
 
 impl FreshRow {
-    /// Returns the better system on the robot as it is made.
+    /// Returns the row of the better system on the robot as it is made.
     fn new(family: &'static str) -> Self {
         Self {
             row: family.to_owned(),
@@ -56,7 +56,7 @@ impl FreshRow {
         }
     }
 
-    /// Returns the row of corridors of any family, on wheels that are out of calibration.
+    /// Returns the row of corridors of any family, with each wheel off by up to `percent`.
     fn wheels(percent: u8) -> Self {
         Self {
             row: format!("wheels {percent} %"),
@@ -66,7 +66,7 @@ impl FreshRow {
         }
     }
 
-    /// Returns the paper's system in the same worlds.
+    /// Returns the same row with the paper's system.
     fn papers_system(self) -> Self {
         Self {
             row: format!("{} (paper's system)", self.row),
@@ -88,34 +88,35 @@ pub(super) fn rows() -> Vec<FreshRow> {
 }
 
 record! {
-    /// A world drawn for it, explored to its end, and the map of it.
+    /// A world drawn for the run and explored completely, and its map.
     #[check(FreshRun::relations)]
     struct FreshRun {
-        /// Whether the goal is on the map, and the map right and whole.
+        /// Whether the goal is on the map, and the map is right.
         solved: bool => higher("solved"),
-        /// Whether the map is one to one the true junctions, dead ends, start and goal and the ways
-        /// between them, with at least 95 % of all.
+        /// Whether the map matches the true junctions, dead ends, start and goal and the ways
+        /// between them one to one, with at least 95 % of them.
         right: bool => higher("map right"),
         /// Whether the goal is on the map.
         goal_found: bool => higher("goal found"),
         /// Whether it said, before it drove, that it cannot work there.
         abstained: bool => neither("abstained"),
-        /// Whether a place of the map stands for two true ones.
+        /// Whether a place of the map stands for two true places.
         false_merge: Option<bool> => lower("false merges"),
-        /// Whether the system's verdict on its own map is right: done with a right one, given up
-        /// with a wrong one.
+        /// Whether the system's verdict on its own map is right: it is done with a right map, or
+        /// gives up with a wrong one.
         verdict_right: Option<bool> => higher("own verdict right"),
         /// For a wrong map: whether the system called it right.
         false_right: Option<bool> => lower("wrong maps called right"),
         /// For a right map: whether the system called it wrong.
         false_alarm: Option<bool> => lower("right maps called wrong"),
-        /// Share of the visits of its places that were to the cell which that place was most often.
+        /// Share of the visits to its places in which the robot was in the cell that this place
+        /// most often was.
         purity: Option<f64> => higher("purity").share().decimals(4),
-        /// Places of the map over true places.
+        /// Number of places on the map over that of true places.
         places_over_true: Option<f64> => lower("places / true places").at_least(0).decimals(2),
-        /// Share of the true ways that are on the map; 0 of who abstained.
+        /// Share of the true ways that are on the map; 0 for a system that abstained.
         link_recall: f64 => higher("link recall").share().decimals(3),
-        /// Metres driven over the length of all corridors.
+        /// Driven distance over the length of all corridors.
         driven: Option<f64> => lower("metres / corridors").at_least(0).decimals(2),
         /// Time steps in which it touched something.
         bumps: Option<u32> => lower("steps at a wall"),
@@ -135,7 +136,7 @@ impl FreshRun {
         require(self.abstained || either, told)
     }
 
-    /// Returns the record of a system that abstained before it drove.
+    /// Returns the record of a system that abstained for the reason `why`.
     fn of_abstained(why: String) -> Self {
         Self {
             abstained: true,
@@ -187,12 +188,16 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
         .metrics_from(FreshRun::purity)
         .rows(rows.iter().map(|row| Row::new(&row.row).runs(worlds)))
         .note(
-            "Each run draws its own world from its seed: of the arena's families and theirs of middle size. Rows without a word are of the better \
-             system. Explored until the robot says that it is done, or gives up. Solved: the goal is on the map, and the map is right by the arena's \
-             rule: one to one the true junctions, dead ends, start and goal and the ways between them, with 95 % of all at least. Who abstained says \
-             so before it drives, and counts as not solved. Own verdict: done says that the map is right, giving up that it is not; a robot that \
-             drives ten times the corridors has said neither, and is not right. Wheels: corridors of any family; each wheel rolls wrongly by a \
-             constant of up to 2 or 5 %, drawn for the run, beside the slip of 10 % that is drawn in each time step.",
+            "Each run draws its own world from its seed, of the arena's families and of middle size. \
+             Rows without a word are of the better system. The robot explores until it says that it \
+             is done, or gives up. Solved: the goal is on the map, and the map is right by the \
+             arena's rule. It matches the true junctions, dead ends, start and goal and the ways \
+             between them one to one, with at least 95 % of all. A system that abstains says so \
+             before it drives, and counts as not solved. Own verdict: being done says that the map \
+             is right, giving up that it is not. A robot that drives ten times the corridors has \
+             said neither, which is not right. Wheels: corridors of any family. Each wheel is off by \
+             a constant of up to 2 or 5 %, drawn for the run, in addition to the slip of 10 % that \
+             is drawn in each time step.",
         )
 }
 
@@ -218,7 +223,7 @@ impl FreshRow {
         (family.draw)(family.size(FamilySize::Middle), &mut rng)
     }
 
-    /// Lets the robot explore a world.
+    /// Lets the robot explore a new world and returns the record.
     pub(super) fn run(&self, schooling: &Schooling, seed: u64) -> Result<Fields, BoxError> {
         let maze = self.draw(seed)?;
         let contestant = Contestant::named(self.contestant).ok_or("there is no such system")?;
@@ -249,7 +254,7 @@ impl FreshRow {
     }
 }
 
-/// Returns a number below `count`.
+/// Returns a random number below `count`.
 fn position(count: usize, rng: &mut impl Rng) -> usize {
     rng.random_range(0..count.max(1) as u32) as usize
 }

@@ -1,5 +1,5 @@
-//! A robot that knows several mazes is put down in mid-fragment of one of them: section 8, "the
-//! start point is changed", and layer 4.
+//! A robot that knows several mazes is put down in mid-fragment of one of them (section 8, "the
+//! start point is changed", and layer 4).
 
 use std::sync::OnceLock;
 
@@ -13,39 +13,40 @@ use tolman_systems::cpm::{Approach, CommonPatterns};
 /// The name of the table.
 pub(super) const LOCALIZATION: &str = "localization";
 
-/// Number of places after which the robot has to know where it is.
+/// Number of places after which the robot must know where it is.
 const MOST_PLACES: u32 = 6;
 
-/// Trials that are made at most to have a map of a maze.
+/// Maximum number of trials to get a map of a maze.
 const ATTEMPTS: u32 = 20;
 
-/// Runs of a row: a share of 90 % is known to within 6 % then.
+/// Number of runs of a row. With 100, a share of 90 % is known to within 6 %.
 const RUNS: u32 = 100;
 
-/// Number of maps learned of each maze, which runs share in turn; aliased mazes have one each run.
+/// Number of maps learned of each maze, which runs use in turn. Aliased mazes have a new map in
+/// each run.
 const MAPS: usize = 20;
 
-/// Runs of a row for a first look.
+/// Number of runs of a row for a first look.
 const QUICK_RUNS: u32 = 5;
 
-/// The row of mazes with fragments that look alike. Each run has another maze, the only one that
-/// the robot knows.
+/// Row of mazes with fragments that look alike. Each run has another maze, the only one that the
+/// robot knows.
 const ALIASED: &str = "Aliased";
 
-/// Suffix of a maze's name in a row of robots that turn round when they are not sure.
+/// Suffix of rows in which robots turn round when they are not sure.
 const TO_AND_FRO: &str = " to and fro";
 
 record! {
-    /// A robot put down in mid-fragment.
+    /// A robot that is put down in mid-fragment.
     #[check(LocalizationRun::relations)]
     struct LocalizationRun {
-        /// Probability that an observer who sees every bend of the corridor guesses correctly.
+        /// Probability that an observer guesses correctly who sees every bend of the corridor.
         bends_percent: f64 => neither("could be known by bends").percent().decimals(1),
-        /// The same for an observer who also sees the places at the ends.
+        /// Probability that an observer guesses correctly who also sees the places at the ends.
         places_percent: f64 => neither("could be known by bends and places").percent().decimals(1),
         /// Whether the robot turned round.
         turned_round: bool => neither("turned round"),
-        /// Whether it was right when the first place was in sight.
+        /// Whether it was right when the first place came into sight.
         under_way: bool => higher("right before the first place"),
         /// Whether it was right in the middle of the first place.
         first_place: bool => higher("right in the first place"),
@@ -53,11 +54,11 @@ record! {
         one_further: bool => higher("right within one further fragment"),
         /// Whether it was right at the last place.
         last_place: bool => higher("right in the last place"),
-        /// Whether SOINN-AM recalled the maze by the first fragment walked whole.
+        /// Whether SOINN-AM recalled the maze from the first fragment walked whole.
         recalled: Option<bool> => higher("maze recalled by SOINN-AM"),
         /// Number of places visited until the robot was sure.
         places: usize => lower("places visited").at_least(1).at_most(MOST_PLACES),
-        /// Duration.
+        /// Duration of the search.
         seconds: f64 => lower("time").unit("s").at_least(0),
     }
 }
@@ -80,7 +81,7 @@ impl LocalizationRun {
 
     fn relations(&self) -> Result<(), String> {
         for knowable in [self.bends_percent, self.places_percent] {
-            // The best guess is wrong, or one of several that are as good.
+            // The best guess is wrong, or one of several equally good ones.
             let guesses = 100.0 / knowable;
             let possible = knowable <= 0.0 || (guesses - guesses.round()).abs() <= 1e-6;
             let told = format!("a chance is {knowable} %, expected 0 or 100 over a whole number");
@@ -97,7 +98,7 @@ impl LocalizationRun {
     }
 }
 
-/// Maps of each maze, several of each, learned by the first caller.
+/// Several maps of each maze. The first caller learns them.
 #[derive(Debug, Default)]
 pub(super) struct Known([OnceLock<Vec<TrialRecord>>; MAPS]);
 
@@ -127,17 +128,23 @@ pub(super) fn table(courses: &[Course], options: &Options) -> Table {
         .metrics_from(LocalizationRun::bends_percent)
         .rows(rows)
         .note(format!(
-        "The robot knows all these mazes by maps of one dictionary, each that of a solved trial, twenty in turn, and is put down in the \
-         middle of a cell amid a fragment of the row's that its map has; of mazes with fragments that look alike, another one each run, it knows that one. It drives straight on to \
-         the place ahead, or to and fro: if it is not sure when that place comes into sight, it turns round and goes to the other end. Right: maze, fragment and direction, when the place that it \
-         is about to enter is in sight, and in the middle of it; within one further fragment: at that place if it was sure there, else before the next one. It goes on \
-         until it is sure, up to {MOST_PLACES} places. What could be known is how often the best guess is right of an observer that knows the mazes and sees \
-         without mistake how the corridor bends in every cell from the one behind on, and of one that sees the place ahead too, and the sides of the one behind if it stands beside it. SOINN-AM is asked with the first fragment walked whole."
+        "The robot knows all these mazes by maps of one dictionary, each from a solved trial, twenty \
+         in turn. It is put down in the middle of a cell, inside a fragment that its map has. Mazes \
+         with fragments that look alike are another one in each run, and the robot knows only that \
+         one. It drives straight on to the place ahead, or to and fro: if it is not sure when that \
+         place comes into sight, it turns round and goes to the other end. Right: it names maze, \
+         fragment and direction, when the first place is in sight, and in the middle of that place. \
+         Within one further fragment: right at the first place if it was sure there, or else before \
+         the next one. It goes on until it is sure, up to {MOST_PLACES} places. What could be known \
+         is how often an ideal observer's best guess is right. One observer knows the mazes and sees \
+         without error how the corridor bends in every cell from the one behind on. The other also \
+         sees the place ahead, and the sides of the one behind if it is beside it. SOINN-AM is asked \
+         with the first fragment walked whole."
     ))
 }
 
 impl Known {
-    /// Returns a solved trial of each maze, for one run of a row.
+    /// Returns a solved trial of each maze.
     fn records(
         &self,
         courses: &[Course],
@@ -151,7 +158,7 @@ impl Known {
         }
         let solved = |course: &Course| {
             for attempt in 0..ATTEMPTS {
-                // Not the chance of any run of the table.
+                // These seeds differ from those of the table's runs.
                 let attempt = number as u32 * ATTEMPTS + attempt;
                 let seed = run_seed(master_seed, "localization maps", attempt);
                 let record = trials::trial(course, patterns, trials::better(), seed).play()?;
@@ -163,11 +170,11 @@ impl Known {
         };
         let records: Result<_, BoxError> = courses.iter().map(solved).collect();
         let records = records?;
-        // Two threads may learn them at once; they learn the same.
+        // If two threads learn them at once, they learn the same.
         Ok(self.0[number].get_or_init(|| records))
     }
 
-    /// Returns one robot put down.
+    /// Plays a run: one robot that is put down.
     pub(super) fn run(
         &self,
         courses: &[Course],
@@ -193,7 +200,8 @@ impl Known {
     }
 }
 
-/// Returns the paper's robot, put down in the maze at the place `here` among those that it knows.
+/// Returns the record of the paper's robot, put down in the maze with index `here` among those that
+/// it knows.
 fn put_down<'a>(
     known: &'a [KnownMaze<'a>],
     here: usize,
@@ -212,7 +220,7 @@ fn put_down<'a>(
     }
 }
 
-/// Returns a robot put down in a maze with fragments that look alike.
+/// Returns the record of a robot put down in a maze with fragments that look alike.
 fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<Fields, BoxError> {
     for attempt in 0..ATTEMPTS {
         let seed = |of| run_seed(seed, of, attempt);

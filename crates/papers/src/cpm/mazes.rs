@@ -1,4 +1,4 @@
-//! The mazes of the experiment.
+//! Mazes of the experiment.
 
 use std::path::PathBuf;
 
@@ -15,7 +15,7 @@ use tolman_experiment::BoxError;
 /// Cells along each side of an aliased maze.
 const ALIASED_SIDE: u16 = 5;
 
-/// Returns the paper's three mazes, drawn again.
+/// Returns the paper's three mazes, redrawn.
 pub(super) fn papers() -> Result<Vec<Course>, BoxError> {
     [
         include_str!("../../mazes/cpm-1.maze"),
@@ -32,7 +32,7 @@ pub(super) fn real() -> Result<Course, BoxError> {
     read(include_str!("../../mazes/cpm-real.maze"))
 }
 
-/// Returns where the common patterns are learned.
+/// Returns the maze in which the common patterns are learned.
 pub(super) fn learning() -> Result<Course, BoxError> {
     read(include_str!("../../mazes/cpm-learning.maze"))
 }
@@ -41,8 +41,8 @@ fn read(text: &str) -> Result<Course, BoxError> {
     Ok(epuck_course("", tolman_maze::read(text)?)?)
 }
 
-/// Returns the mazes of some files. The later of two with one name gets a number, and so does one
-/// whose name is that of another's row.
+/// Returns the mazes of some files. A name that is already used, here or by another row, gets a
+/// number.
 pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Course>, BoxError> {
     let mut courses: Vec<Course> = Vec::new();
     for path in files {
@@ -58,9 +58,10 @@ pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Course>, BoxError> {
     Ok(courses)
 }
 
-/// Returns a random maze with short and similar fragments, without rooms. A way behind every other
-/// dead end is opened; the start is in the south-west, the goal in the dead end farthest from it.
-/// It is drawn until two of its fragments bend alike.
+/// Returns a random maze with short and similar fragments, without rooms.
+///
+/// Every other dead end is opened. The start is in the south-west, the goal in the dead end
+/// farthest from it. Mazes are drawn until one has two fragments that bend alike.
 pub(super) fn aliased(seed: u64) -> Result<Course, BoxError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     loop {

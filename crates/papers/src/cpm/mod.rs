@@ -1,9 +1,9 @@
 //! CPM: figures 9 and 11 of "Reasoning on the Self-Organizing Incremental Associative Memory for
 //! Online Robot Path Planning" (Kawewong and others).
 //!
-//! Further tables have the same with our own reading of loops, and mazes that the paper's robot
-//! cannot tell apart. Others show the parts: how well junctions are recognized, how many patterns
-//! there are, what other learners need.
+//! Further tables show our own version that recognizes loops by dead reckoning, and mazes that the
+//! paper's robot cannot tell apart. Others show the parts: how well junctions are recognized, how
+//! many patterns there are, and what other learners need.
 
 mod detector;
 mod dictionary;
@@ -61,7 +61,7 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// The experiment, ready to run.
+/// The prepared experiment.
 #[derive(Debug)]
 struct Cpm {
     courses: Vec<Course>,
@@ -70,10 +70,10 @@ struct Cpm {
     /// Patterns learned in the learning maze.
     patterns: CommonPatterns,
     trials: Vec<Trials>,
-    /// Maps of the courses.
+    /// Learned maps of the courses.
     known: Known,
     fresh: Vec<FreshRow>,
-    /// Preparation of robots before they are sent into fresh worlds.
+    /// What robots learn before they are sent into fresh worlds.
     schooling: Schooling,
     master_seed: u64,
 }
@@ -92,7 +92,7 @@ struct Config<'a, R, D> {
     fresh: &'a [FreshRow],
 }
 
-/// Reads the mazes, and lets the robot learn.
+/// Returns the experiment: reads the mazes, and lets the robot learn its patterns.
 ///
 /// # Errors
 /// If a maze cannot be read, or nothing is learned.
@@ -139,12 +139,12 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     Ok(Experiment::new(ENTRY, tables, cpm.config()?, cpm))
 }
 
-/// Returns by how many percent of the first the second is less.
+/// Returns by how many percent the second number is less than the first.
 fn less([first, second]: [f64; 2]) -> f64 {
     100.0 * (1.0 - second / first)
 }
 
-/// Returns whether a value is there where it is expected, and is that but for rounding.
+/// Returns whether a value is present exactly when expected, and equals it within rounding.
 fn agree(found: Option<f64>, expected: Option<f64>) -> bool {
     match (found, expected) {
         (Some(found), Some(expected)) => (found - expected).abs() < 1e-9,
@@ -153,7 +153,7 @@ fn agree(found: Option<f64>, expected: Option<f64>) -> bool {
 }
 
 impl Cpm {
-    /// Returns the maze and the way of mapping of a run that is a trial.
+    /// Returns maze and mode of a run that is a trial; `None` for another run.
     fn cast(&self, job: &Job<'_>) -> Result<Option<(Course, Mode)>, BoxError> {
         match job.table {
             EPISODES => Ok(Some((self.course(job.row)?.clone(), trials::faithful()))),
@@ -164,7 +164,8 @@ impl Cpm {
         }
     }
 
-    /// Plays the trial of a run, and says where, or `None` of a run that is no trial.
+    /// Plays the trial of a run, and returns its maze and its record; `None` for a run that is not
+    /// a trial.
     fn play(&self, job: &Job<'_>) -> Result<Option<(Course, TrialRecord)>, BoxError> {
         let Some((course, mode)) = self.cast(job)? else {
             return Ok(None);
@@ -241,7 +242,7 @@ impl Procedure for Cpm {
         if job.table == FIGURE_11 {
             return replay::of_round_trip(&self.real, job).map(Some);
         }
-        // Those are as those of figure 9, and those are no trials.
+        // The explored mazes look like those of figure 9, and the others are not trials.
         if [EPISODES, EXPLORED, FRESH].contains(&job.table) {
             return Ok(None);
         }

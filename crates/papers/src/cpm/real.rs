@@ -1,5 +1,4 @@
-//! The pair of figure 11: the maze of the real robot, walked to the goal and back, and driven
-//! again.
+//! The real robot's maze of figure 11: a walk to the goal and back, and then a drive to the goal.
 
 use std::sync::OnceLock;
 
@@ -22,11 +21,11 @@ pub(super) const FIGURE_11: &str = "11";
 /// "The learning time of 90 min (5400 s) is provided" (section 7).
 const LESSON: Lesson = Lesson::Seconds(5400.0);
 
-/// Duration of a drive between two observations, s: "20 CPs (*ca.* 121 s)" are 6 s each, and a
-/// sweep takes 3.3 s of them.
+/// Duration of a drive between two observations, s. In the paper "20 CPs (*ca.* 121 s)" are 6 s
+/// each, of which a sweep takes 3.3 s.
 const STRIDE_S: f64 = 2.7;
 
-/// The real robot's maze, and what such a robot learned before.
+/// The real robot's maze, and the patterns that such a robot learned before.
 #[derive(Debug)]
 pub(super) struct Real {
     pub(super) course: Course,
@@ -35,7 +34,7 @@ pub(super) struct Real {
     patterns: OnceLock<CommonPatterns>,
 }
 
-/// Returns what the runs depend on.
+/// Returns the configuration that the runs depend on.
 pub(super) fn config() -> impl Serialize {
     #[derive(Serialize)]
     struct Config {
@@ -68,7 +67,8 @@ impl Real {
         })
     }
 
-    /// Returns what it learned, which takes a second; two threads that ask at once learn the same.
+    /// Returns the learned patterns. Learning takes a second; if two threads ask at once, they
+    /// learn the same.
     fn patterns(&self) -> Result<&CommonPatterns, BoxError> {
         if let Some(patterns) = self.patterns.get() {
             return Ok(patterns);
@@ -78,8 +78,8 @@ impl Real {
         Ok(self.patterns.get_or_init(|| patterns))
     }
 
-    /// Plays the way there, back and there again, and returns it. Calls `see` with every fragment
-    /// of the first two ways.
+    /// Plays the way to the goal, back, and to the goal again, and returns it. Calls `see` with
+    /// every fragment of the first two ways.
     pub(super) fn play(
         &self,
         job: &Job<'_>,
@@ -99,7 +99,7 @@ impl Real {
         )?)
     }
 
-    /// Measures a run.
+    /// Plays a run and returns its record.
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         measured(&self.play(job, |_, _, _| {})?)
     }
@@ -111,23 +111,23 @@ record! {
     struct RoundTripRun {
         /// Whether goal, start and goal again were reached.
         solved: bool => higher("solved").tolerance(SUCCESS),
-        /// Observations until the goal.
+        /// Number of observations to the goal.
         observations_1: Option<u32> => lower("observations to the goal").decimals(1),
-        /// Time until the goal.
+        /// Time to the goal.
         seconds_1: Option<f64> => lower("time to the goal").unit("s").at_least(0).decimals(1),
-        /// Observations until the goal and back at the start.
+        /// Number of observations to the goal and back to the start.
         observations_both_ways: Option<u32> => lower("observations there and back").decimals(1),
-        /// Observations until the goal by the map.
+        /// Number of observations to the goal by the map.
         observations_2: Option<u32> => lower("observations in episode 2").decimals(1),
-        /// Time until the goal by the map.
+        /// Time to the goal by the map.
         seconds_2: Option<f64> => lower("time in episode 2").unit("s").at_least(0).decimals(1),
-        /// Observations that the second episode saves.
+        /// Share of observations that the second episode saves.
         steps_reduction: Option<f64> => higher("observations saved").unit("%").at_most(100).tolerance(SAVED),
-        /// Time that the second episode saves.
+        /// Share of time that the second episode saves.
         time_reduction: Option<f64> => higher("time saved").unit("%").at_most(100).tolerance(SAVED),
-        /// Fragments that the robot tried on its way back because they might be shorter.
+        /// Number of fragments that the robot tried on its way back because they might be shorter.
         tried: u32 => neither("fragments tried on the way back").tolerance(COUNTED),
-        /// Those of them that it gave up.
+        /// Number of these fragments that it gave up.
         given_up: u32 => neither("fragments given up").tolerance(COUNTED),
     }
 }
@@ -156,7 +156,7 @@ impl RoundTripRun {
     }
 }
 
-/// Reason why its numbers of observations and seconds are not ours.
+/// Reason why numbers of observations and seconds cannot be compared.
 const SMALLER: &str = "the paper's maze is smaller than this drawing of it";
 
 pub(super) fn table(course: &Course) -> Table {
@@ -177,9 +177,12 @@ pub(super) fn table(course: &Course) -> Table {
                 .paper(RoundTripRun::given_up, 1.0),
         )
         .note(
-            "Figure 11's maze drawn again: four fragments, two junctions. To the goal, back with a look at fragments that may be shorter, and to the \
-             goal again by the map. The robot sweeps at 3π/5 rad/s, looks every 6 s and has learned for 5400 s, as the paper's, which made one trial; \
-             the maze is larger than the paper's, so only the reductions can be compared. Solved: goal, start and goal again were reached; whether the last way is the shortest is not asked.",
+            "Figure 11's maze redrawn: four fragments, two junctions. The robot goes to the goal, \
+             back with a look at fragments that may be shorter, and to the goal again by the map. \
+             Like the paper's, it sweeps at 3π/5 rad/s, looks every 6 s and has learned for 5400 s. \
+             The paper made one trial. The maze is larger than the paper's, so only the reductions \
+             can be compared. Solved: goal, start and goal again were reached, whether or not the \
+             last way is the shortest.",
         )
 }
 

@@ -1,4 +1,4 @@
-//! A trial as it can be watched: both episodes, and the map as it grew.
+//! Replays of trials: both episodes, and the map as it grew.
 
 use alloc::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ use tolman_replay::{
 };
 use tolman_systems::cpm::{FragmentStep, Layer3, Walker};
 
-/// Plays a trial again and watches it.
+/// Plays a trial again and returns its replay.
 pub(super) fn of(trial: &CpmTrial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
     let mut watch = Watch::new(trial.course);
     let record = trial.watch(|layer, walker, step| watch.see(layer, walker, step))?;
@@ -40,7 +40,7 @@ pub(super) fn of(trial: &CpmTrial<'_>, job: &Job<'_>) -> Result<Replay, BoxError
         .fact("fragments walked", record.traversals.to_string()))
 }
 
-/// Plays a round trip again and watches it: to the goal, back, and to the goal again.
+/// Plays a round trip again and returns its replay: to the goal, back, and to the goal again.
 pub(super) fn of_round_trip(real: &Real, job: &Job<'_>) -> Result<Replay, BoxError> {
     let mut watch = Watch::new(&real.course);
     let trip = real.play(job, |layer, walker, step| watch.see(layer, walker, step))?;
@@ -60,7 +60,7 @@ pub(super) fn of_round_trip(real: &Real, job: &Job<'_>) -> Result<Replay, BoxErr
         .fact("given up", trip.given_up.to_string()))
 }
 
-/// Returns where an e-puck was after every step.
+/// Returns the track of an e-puck with these poses.
 fn track(path: &[Pose]) -> RobotTrack {
     let body = Body::Circle {
         radius: BODY_RADIUS,
@@ -68,14 +68,14 @@ fn track(path: &[Pose]) -> RobotTrack {
     RobotTrack::new("e-puck", body, path.to_vec())
 }
 
-/// Nodes that moved less than this are left where they are, m.
+/// Distance within which a node that moved is not redrawn, m.
 const STILL: f64 = 1e-6;
 
-/// Notes taken at the end of each fragment.
+/// Records the map at the end of each fragment.
 struct Watch<'a> {
     course: &'a Course,
     nodes: Vec<MapNode>,
-    /// The nodes that stand for parts of the map as it is.
+    /// The nodes for the present parts of the map.
     live: BTreeMap<Part, usize>,
     edges: Vec<MapEdge>,
     joints: BTreeMap<(FragmentId, Sign), usize>,
@@ -83,7 +83,7 @@ struct Watch<'a> {
     fragments: TimeSeries,
 }
 
-/// Part of the map that a node stands for.
+/// A part of the map that has a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Part {
     Junction(JunctionId),
@@ -103,7 +103,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Returns the replay of a track, with what was seen on it.
+    /// Returns the replay of a track, with what was recorded on it.
     fn replay(self, step_us: u64, job: &Job<'_>, mut track: RobotTrack) -> Replay {
         let scenery = Scenery::of_world(&self.course.world);
         track.maps = vec![MapGrowth {
@@ -137,7 +137,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Takes in the changes of the map.
+    /// Records the changes of the map.
     fn update(&mut self, map: &CpMap, now: u32) {
         let layout = Layout::of(map, &self.course.maze);
         let mut parts = Vec::new();

@@ -1,4 +1,4 @@
-//! The tables whose runs are trials: both episodes in one maze.
+//! The tables of trials: both episodes in one maze.
 
 use alloc::collections::BTreeMap;
 
@@ -11,37 +11,37 @@ use tolman_experiment::{BoxError, Fields, Job, Metric, Options, Row, Table, reco
 use tolman_maps::cpm::{FragmentMatching, Similarity};
 use tolman_systems::cpm::{CommonPatterns, CpmConfig, Mode};
 
-/// The table of figure 9.
+/// Name of the table of figure 9.
 pub(super) const FIGURE_9: &str = "9";
 
-/// Runs of the table of aliased mazes: one maze each.
+/// Number of runs in the table of aliased mazes, each in another maze.
 const ALIASED_MAZES: u32 = 200;
 
-/// Runs of the row for a first look.
+/// Number of those runs for a first look.
 const ALIASED_QUICK: u32 = 20;
 
-/// Fragments after which the paper's system gives up in an aliased maze, which has some seven. On a
-/// map that is wrong it may go round forever.
+/// Number of fragments after which the paper's system gives up in an aliased maze, which has about
+/// seven. With a wrong map it may go round forever.
 const ALIASED_PATIENCE: u32 = 500;
 
-/// Suffix of a maze's name in a row of the paper's offline system.
+/// Suffix of rows with the paper's offline system.
 const OFFLINE: &str = " offline";
 
-/// The same with f_S to the letter.
+/// Suffix of rows with the offline system that computes f_S literally.
 const PAPERS_RULE: &str = " offline (paper's rule)";
 
-/// Suffix of a maze's name in a row of our own reading.
+/// Suffix of rows with our own version.
 pub(super) const BETTER: &str = " better";
 
-/// An episode is long from this many times the shortest path on.
+/// An episode is long from this multiple of the shortest path.
 const LONG: f64 = 10.0;
 
-/// A table, and what is tried in each of its rows.
+/// A table, and the setting of each of its rows.
 #[derive(Debug)]
 pub(super) struct Trials {
     pub(super) table: Table,
     settings: Vec<Setting>,
-    /// Plays a trial and measures it.
+    /// Plays a trial and returns its record.
     measure: fn(&CpmTrial<'_>) -> Result<Fields, BoxError>,
 }
 
@@ -49,8 +49,7 @@ pub(super) struct Trials {
 #[derive(Debug)]
 pub(super) struct Setting {
     row: String,
-    /// The maze that the robot runs in; `None`: another one with fragments that look alike each
-    /// run.
+    /// Maze of the row; `None` for another maze with similar fragments in each run.
     course: Option<Course>,
     mode: Mode,
 }
@@ -75,7 +74,7 @@ pub(super) fn faithful() -> Mode {
     Mode::Paper(CpmConfig::online())
 }
 
-/// Returns the paper's own trials with its own equations.
+/// Returns the mode of the paper's own trials, with its equations taken literally.
 fn papers_rule() -> Mode {
     Mode::Paper(CpmConfig {
         matching: FragmentMatching::Positions(Similarity::literal()),
@@ -83,12 +82,12 @@ fn papers_rule() -> Mode {
     })
 }
 
-/// Returns our own reading: dead reckoning beside the patterns.
+/// Returns the mode of our own version: dead reckoning beside the patterns.
 pub(super) fn better() -> Mode {
     Mode::Reckoned(CpmConfig::robust())
 }
 
-/// Returns the trials of figure 9; `papers` says that the mazes are the paper's.
+/// Returns the trials of figure 9. `papers` says that the mazes are the paper's.
 pub(super) fn figure_9(courses: &[Course], papers: bool) -> Trials {
     let modes = [
         ("", faithful()),
@@ -113,14 +112,18 @@ pub(super) fn figure_9(courses: &[Course], papers: bool) -> Trials {
     .metric(Metric::mean(TrialRun::bumps))
     .paper_runs(10)
     .note(format!(
-        "Solved: the goal was found, and found again by a way as short as any that could be known, where two visits are known to be of one \
-         junction if a fragment was walked twice that ends there. Shortest on true map: as short as any over the same fragments as they truly lie. \
-         Map right: each junction and fragment where the robot has been is on the map once, and all are joined as they truly are. \
-         Time saved is of solved runs; some drove {LONG} times the shortest path or more in the first episode. Precision and recall of loops are \
-         means over the runs in which any was closed, or could have been. In the paper the time saved is over 50 % in every trial, and up to 95 %; \
-         its robot needs no more than two episodes either. Its trials are offline: the map is optimized when the goal is found (section 5), so its \
-         figures stand beside those rows; those without a word are online (section 6). Paper's rule: offline, and f_S to the letter, which \
-         compares the numbers of patterns up to the shorter one's end."
+        "Solved: the goal was found, and found again by a way as short as any that could be known. \
+         Two visits are known to be of one junction if a fragment that ends there was walked twice. \
+         Shortest on true map: as short as any way over the same fragments, joined as they truly \
+         are. Map right: each junction and fragment where the robot has been is on the map exactly \
+         once, and all are joined as they truly are. Time saved is of solved runs; some drove {LONG} \
+         times the shortest path or more in the first episode. Precision and recall of loops are \
+         means over the runs in which any was closed, or could have been. In the paper the time \
+         saved is over 50 % in every trial, and up to 95 %; its robot needs no more than two \
+         episodes either. Its trials are offline: the map is optimized when the goal is found \
+         (section 5). So its figures are beside those rows; rows without a word are online (section \
+         6). Paper's rule: offline, with f_S taken literally, which compares the numbers of patterns \
+         up to the shorter one's end."
     ));
     let row = |setting: &Setting| {
         let row = setting.row();
@@ -138,12 +141,12 @@ pub(super) fn figure_9(courses: &[Course], papers: bool) -> Trials {
     Trials::new(table, settings, row, measure)
 }
 
-/// Returns each maze with the paper's system and with ours.
+/// Returns settings with each maze for the paper's system and for ours.
 pub(super) fn in_both_modes(courses: &[Course]) -> Vec<Setting> {
     in_modes(courses, [("", faithful()), (BETTER, better())])
 }
 
-/// Returns each maze in some modes, each with the suffix of its rows.
+/// Returns settings with each maze in some modes, each with its row's suffix.
 fn in_modes<const N: usize>(courses: &[Course], modes: [(&str, Mode); N]) -> Vec<Setting> {
     let setting = |course: &Course, suffix: &str, mode| Setting {
         row: format!("{}{suffix}", course.name),
@@ -154,7 +157,7 @@ fn in_modes<const N: usize>(courses: &[Course], modes: [(&str, Mode); N]) -> Vec
     courses.iter().flat_map(each).collect()
 }
 
-/// Returns the paper's two systems side by side.
+/// Returns the trials of the paper's two systems side by side.
 pub(super) fn offline(courses: &[Course]) -> Trials {
     let offline = Mode::Paper(CpmConfig::offline());
     let settings = in_modes(courses, [(OFFLINE, offline), (" online", faithful())]);
@@ -165,8 +168,9 @@ pub(super) fn offline(courses: &[Course]) -> Trials {
         .metric(Metric::mean(TrialRun::seconds_1))
         .metric(Metric::mean(TrialRun::seconds_2))
         .note(
-            "Offline the robot takes ports at random and looks at its map when the goal is found (section 4); online before each decision \
-             (section 6). Rows of one maze meet the same chance.",
+            "Offline the robot takes random ports and compares its map only when the goal is found \
+             (section 4); online it does so before each decision (section 6). Rows of one maze have \
+             the same random numbers.",
         );
     Trials::new(table, settings, Setting::row, measure)
 }
@@ -184,8 +188,8 @@ pub(super) fn unlearned(courses: &[Course]) -> Trials {
         .metric(reduction())
         .metric(Metric::mean(UnlearnedRun::patterns))
         .note(
-            "The better robot, which has been in no learning maze: what it observes that is like no pattern it has becomes one, and what was \
-             written before stays readable. Aliased: one random maze a run.",
+            "The better robot without a learning maze. An observation unlike all its patterns \
+             becomes a pattern, and older sequences stay valid. Aliased: one random maze per run.",
         );
     Trials::new(table, settings, Setting::row, |trial| {
         let record = trial.play()?;
@@ -197,7 +201,7 @@ pub(super) fn unlearned(courses: &[Course]) -> Trials {
     })
 }
 
-/// Returns what the paper excludes.
+/// Returns the trials in mazes that the paper excludes.
 pub(super) fn aliased(options: &Options) -> Trials {
     let patient = CpmConfig {
         most_traversals: ALIASED_PATIENCE,
@@ -216,11 +220,14 @@ pub(super) fn aliased(options: &Options) -> Trials {
         .metric(Metric::mean(AliasedRun::alike_pairs))
         .metric(Metric::mean(AliasedRun::symmetrical))
         .note(format!(
-            "One random maze a run, the same for both rows, in which two fragments or more bend alike, cell by cell, from one end or the other; \
-             symmetrical ones bend the same from both. Faithful is the paper's system, whose constraints they break, and gives up after {ALIASED_PATIENCE} fragments. Solved: the goal was \
-             found, and found again by a way as short as any that could be known, and the map is right: each junction and fragment \
-             where the robot has been is on it once, and all are joined as they truly are. Shortest on true map: the goal was found again by a way as short as any over the \
-             same fragments as they truly lie.",
+            "One random maze per run, the same for both rows, in which two fragments or more bend \
+             alike, cell by cell, from one end or the other. Symmetrical ones bend the same from \
+             both ends. Faithful is the paper's system, which excludes such mazes, and gives up \
+             after {ALIASED_PATIENCE} fragments. Solved: the goal was found, and found again by a \
+             way as short as any that could be known, and the map is right. Each junction and \
+             fragment where the robot has been is then on it exactly once, and all are joined as \
+             they truly are. Shortest on true map: the goal was found again by a way as short as any \
+             over the same fragments, joined as they truly are.",
         ));
     let mazes = options.runs_else(ALIASED_MAZES, ALIASED_QUICK);
     let row = |setting: &Setting| setting.row().runs(mazes);
@@ -238,22 +245,22 @@ pub(super) fn aliased(options: &Options) -> Trials {
     })
 }
 
-/// Trials that are solved.
+/// Returns the metric of solved trials.
 fn solved() -> Metric {
     Metric::percent("solved_percent", TrialRun::solved).tolerance(SUCCESS)
 }
 
-/// Trials whose map is right.
+/// Returns the metric of right maps.
 fn map_right() -> Metric {
     Metric::percent("map_right_percent", TrialRun::map_right)
 }
 
-/// Returns the stricter baseline.
+/// Returns the stricter metric: the shortest way on the true map.
 fn as_it_lies() -> Metric {
     Metric::percent("shortest_as_it_lies_percent", TrialRun::shortest_as_it_lies)
 }
 
-/// Returns what the second episode saves.
+/// Returns the metric of time saved in the second episode.
 fn reduction() -> Metric {
     Metric::mean(TrialRun::reduction).named("reduction_percent")
 }
@@ -265,49 +272,50 @@ record! {
         /// Whether the goal was found, and found again by a way as short as any that could be
         /// known.
         solved: bool => higher("solved"),
-        /// Whether that way was as short as any over the same fragments as they truly lie.
+        /// Whether that way was as short as any over the same fragments, joined as they truly are.
         shortest_as_it_lies: bool => higher("shortest on true map"),
-        /// Whether every junction and fragment is on the map once, all joined as they truly are.
+        /// Whether every junction and fragment is on the map exactly once, and all are joined as
+        /// they truly are.
         map_right: bool => higher("map right"),
-        /// Time that the second episode saves, where the trial is solved.
+        /// Share of time that the second episode of a solved trial saves.
         reduction: Option<f64> => higher("time saved").unit("%").at_most(100),
         /// Whether the first episode of a solved trial was ten times as long as the shortest path.
         long: bool => neither("trials 10× the shortest"),
-        /// Time that the second episode of such a trial saves.
+        /// Share of time that the second episode of such a trial saves.
         reduction_long: Option<f64> =>
             higher("time saved, trials 10× the shortest").unit("%").at_most(100),
-        /// Share of the loops closed on the map that are closed in truth.
+        /// Share of the loops closed on the map that are truly closed.
         closure_precision: Option<f64> => higher("loops closed: precision").share(),
-        /// Share of the loops closed in truth that are closed on the map.
+        /// Share of the truly closed loops that are closed on the map.
         closure_recall: Option<f64> => higher("loops closed: recall").share(),
         /// Time until the goal is found.
         seconds_1: Option<f64> => lower("episode 1").unit("s").at_least(0),
         /// Time until the goal is found again.
         seconds_2: Option<f64> => lower("episode 2").unit("s").at_least(0),
-        /// Observations until the goal is found.
+        /// Number of observations until the goal is found.
         observations_1: Option<u32> => lower("observations in episode 1"),
-        /// Observations until the goal is found again.
+        /// Number of observations until the goal is found again.
         observations_2: Option<u32> => lower("observations in episode 2"),
-        /// Fragments walked in the first episode, each as often as it was.
+        /// Number of walks along fragments in the first episode.
         traversals: u32 => lower("fragments walked"),
-        /// Fragments on the map.
+        /// Number of fragments on the map.
         fragments: u32 => neither("fragments on the map"),
-        /// Different fragments walked.
+        /// Number of different fragments walked.
         true_fragments: u32 => neither("different fragments walked"),
-        /// Fragments that contradicted the map.
+        /// Number of fragments that contradicted the map.
         contradictions: u32 => lower("contradictions"),
         /// Time steps in which the robot touched a wall.
         bumps: u32 => lower("steps at a wall"),
-        /// Reason for an early end of the trial.
+        /// Reason why the trial ended early.
         trouble: Option<String> => neither("trouble"),
     }
 }
 
 record! {
-    /// A trial of a robot that has been in no learning maze.
+    /// A trial of a robot without a learning maze.
     struct UnlearnedRun {
         ..trial: TrialRun,
-        /// Common patterns at the end.
+        /// Number of common patterns at the end.
         patterns: u32 => neither("patterns"),
     }
 }
@@ -318,14 +326,14 @@ record! {
         ..trial: TrialRun,
         /// Whether the goal was found again by a way as short as any that could be known.
         shortest_known: bool => higher("shortest that could be known"),
-        /// Pairs of fragments that bend alike.
+        /// Number of pairs of fragments that bend alike.
         alike_pairs: u32 => neither("pairs of similar fragments").at_least(1),
-        /// Fragments that bend the same from both ends.
+        /// Number of fragments that bend the same from both ends.
         symmetrical: u32 => neither("symmetrical fragments"),
     }
 }
 
-/// Every row with the way it maps.
+/// The mode of every row.
 pub(super) type Modes<'a> = BTreeMap<&'a str, Mode>;
 
 impl Trials {
@@ -343,7 +351,7 @@ impl Trials {
         }
     }
 
-    /// Returns every row with the way it maps, for the configuration.
+    /// Returns the mode of every row, for the configuration.
     pub(super) fn modes(&self) -> Modes<'_> {
         let settings = self.settings.iter();
         settings
@@ -351,7 +359,7 @@ impl Trials {
             .collect()
     }
 
-    /// Returns the maze and the way of mapping of a run.
+    /// Returns maze and mode of a run.
     pub(super) fn cast(&self, job: &Job<'_>) -> Result<(Course, Mode), BoxError> {
         let mut settings = self.settings.iter();
         let setting = settings.find(|setting| setting.row == job.row);
@@ -363,14 +371,14 @@ impl Trials {
         Ok((course, setting.mode))
     }
 
-    /// Plays a run.
+    /// Plays a run and returns its fields.
     pub(super) fn run(&self, patterns: &CommonPatterns, job: &Job<'_>) -> Result<Fields, BoxError> {
         let (course, mode) = self.cast(job)?;
         (self.measure)(&trial(&course, patterns, mode, job.seed))
     }
 }
 
-/// Plays a trial and measures both episodes.
+/// Plays a trial and returns the record of both episodes.
 fn measure(trial: &CpmTrial<'_>) -> Result<Fields, BoxError> {
     let record = trial.play()?;
     Ok(TrialRun::of(trial.course, &record, record.is_solved()).fields()?)
@@ -449,7 +457,7 @@ impl TrialRun {
     }
 }
 
-/// Returns how far the robot drove in the first episode, m.
+/// Returns the distance driven in the first episode, m.
 pub(super) fn metres(record: &TrialRecord) -> f64 {
     let first = record
         .path
@@ -461,7 +469,7 @@ pub(super) fn metres(record: &TrialRecord) -> f64 {
         .sum()
 }
 
-/// Returns the share of a part in the whole; `None` if the whole is 0.
+/// Returns the share of `part` in the sum of both; `None` if that is 0.
 fn share(part: u32, rest: u32) -> Option<f64> {
     (part + rest > 0).then(|| f64::from(part) / f64::from(part + rest))
 }

@@ -5,11 +5,11 @@ use tolman_maps::diktiometry::{
     Use, WorldKind,
 };
 
-/// A change to the mapper.
+/// Changes the mapper's configuration.
 pub type Change = fn(&mut Config);
 
-/// Changes that remove a part, or replace it: the map without the part shows its effect. The first
-/// changes nothing. The last is the paper's rule of identity with the merge that goes with it.
+/// Changes that remove or replace a part, to show its effect. The first changes nothing. The last
+/// is the paper's rule of identity with the merge that belongs to it.
 pub const ABLATIONS: [(&str, Change); 20] = [
     ("all", |_| {}),
     ("no CONTINUE", |config| {
@@ -61,8 +61,8 @@ pub const ABLATIONS: [(&str, Change); 20] = [
     ("boxes that meet are the same", papers_rule),
 ];
 
-/// Takes a place for a known one if their boxes meet, and merges by estims. This is the paper's
-/// rule, which ignores straight corridors.
+/// Sets the paper's rule, which ignores straight corridors: a place is a known one if their boxes
+/// meet, and places merge by estims.
 pub(super) fn papers_rule(config: &mut Config) {
     config.actions = Config::compass_actions();
     config.apart = Apart::Distance;

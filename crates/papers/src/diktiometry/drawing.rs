@@ -1,4 +1,4 @@
-//! A learned map over the world it was learned in, as the paper's figures 3(a) and 4.
+//! A learned map over its world, like the paper's figures 3(a) and 4.
 
 use tolman_geom::Point;
 use tolman_sim::Bounds;
@@ -11,12 +11,14 @@ use tolman_draw::{
 /// Width of a plan, user units.
 const WIDTH: f64 = 560.0;
 
-/// More boxes than these lie over each other and hide the world.
+/// Maximum number of boxes; more would cover each other and hide the world.
 const MOST_BOXES: usize = 100;
 
-/// Returns the places with their numbers and the boxes that hold them, as seen from where the robot
-/// began, and the links, over the walls. The picture holds all boxes. Maps of more than a hundred
-/// places are drawn without boxes and numbers.
+/// Returns the places and links over the walls. Each place has its number and the box that contains
+/// it, as seen from where the robot began.
+///
+/// The picture is large enough for all boxes. Maps of more than a hundred places are drawn without
+/// boxes and numbers.
 #[must_use]
 pub fn map_over_world(office: &Office, survey: &Survey) -> Drawing {
     let drawn = survey.drawn();
@@ -38,7 +40,7 @@ pub fn map_over_world(office: &Office, survey: &Survey) -> Drawing {
         (place.id, graph.node(node))
     });
     let nodes: Vec<(u32, usize)> = nodes.collect();
-    // By id, as the layout is.
+    // The nodes are sorted by id, as the layout is.
     let node = |id: u32| {
         let at = nodes.binary_search_by_key(&id, |(id, _)| *id).ok()?;
         Some(nodes[at].1)

@@ -1,5 +1,5 @@
-//! Errors against moves, as the paper's figures 3(b) and 3(c), and learned maps over their worlds,
-//! as figures 3(a) and 4.
+//! Errors by moves, like the paper's figures 3(b) and 3(c), and learned maps over their worlds,
+//! like figures 3(a) and 4.
 
 use super::SurveyRun;
 use super::drawing::map_over_world;
@@ -11,7 +11,7 @@ use tolman_experiment::{BoxError, Record, Run};
 
 /// Width of a chart, user units.
 const WIDTH: f64 = 560.0;
-/// Maximum number of rows of a table that gets curves; more cannot be told apart.
+/// Maximum number of rows for which a table gets curves; more cannot be told apart.
 const MOST_CURVES: usize = 5;
 
 pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
@@ -61,12 +61,12 @@ fn errors(trial: &Trial, runs: &[Run]) -> Result<Figure, BoxError> {
     Ok(figure.caption(caption).table(trial.name))
 }
 
-/// Returns a table's name as part of a file's.
+/// Returns a table's name in a form for file names.
 fn slug(trial: &Trial) -> String {
     trial.name.replace(' ', "-")
 }
 
-/// Returns the map of a run, laid from where the robot truly began.
+/// Returns the map of a run, drawn from where the robot truly began.
 fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Figure, BoxError> {
     let survey = Survey::new(&setting.office, setting.config.clone(), run.seed)?.finish()?;
     let score = survey.score();
@@ -77,9 +77,9 @@ fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Fig
         drawing,
     )
     .caption(format!(
-        "Its {} places with the boxes that hold them, seen from where the robot began, and the links, over the world, of which \
-         {} true places were visited. Boxes grow with the distance from the start, since each frame knows only its neighbours; \
-         relative to those they are small.",
+        "Its {} places with the boxes that contain them, as seen from where the robot began, and the \
+         links, over the world. The robot visited {} true places. Boxes grow with the distance from \
+         the start, because each frame knows only its neighbours. Relative to those they are small.",
         score.places, score.visited
     ))
     .table(trial.name))

@@ -1,4 +1,4 @@
-//! Every run in another world of its kind, as claims about maps need.
+//! Runs that are each in a new world of their kind. Claims about maps in general need this.
 
 use alloc::sync::Arc;
 
@@ -23,25 +23,25 @@ use super::share;
 /// The name of the table.
 pub(super) const FRESH: &str = "fresh worlds";
 
-/// Worlds a row, unless the caller asks for more or fewer.
+/// Default number of worlds of a row.
 const WORLDS: u32 = 100;
 
-/// The same of the largest worlds.
+/// Default number of the largest worlds.
 const LARGE_WORLDS: u32 = 20;
 
-/// For a first look.
+/// Number of worlds of a row for a first look.
 const QUICK: u32 = 2;
 
-/// The stream of a run's seed that its world is drawn from, beside those of the walk.
+/// Stream of a run's seed from which its world is drawn. The walk uses other streams.
 const WORLD_STREAM: u64 = 20;
 
-/// Walls of eight colours, no doorways.
+/// Walls of eight colours, without doorways.
 const PAINTED: OfficeConfig = OfficeConfig { colours: 8, ..BARE };
 
 /// Generator of a row's worlds.
 type Draw = fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>;
 
-/// One row: a kind of world, a robot and a mapper.
+/// A row: a kind of world, a robot and a mapper.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FreshRow {
     pub(super) row: &'static str,
@@ -51,14 +51,14 @@ pub(super) struct FreshRow {
     /// Exploration probability.
     heed: f64,
     worlds: u32,
-    /// Errors of the robot.
+    /// Changes the errors of the robot.
     robot: fn(&mut SurveyorConfig),
-    /// Change of the mapper.
+    /// Changes the mapper.
     change: Change,
 }
 
 impl FreshRow {
-    /// Returns a passive walk by the robot of the paper's figures, by our mapper.
+    /// Returns the row of a passive walk by the robot of the paper's figures, with our mapper.
     const fn new(row: &'static str, draw: Draw, moves: u32) -> Self {
         Self {
             row,
@@ -80,7 +80,7 @@ impl FreshRow {
         Self { furniture, ..self }
     }
 
-    /// Looks count as evidence.
+    /// Returns the row with looks as evidence.
     const fn by_looks(self) -> Self {
         Self {
             change: |config| config.restructuring.look_merge = Use::On,
@@ -88,7 +88,7 @@ impl FreshRow {
         }
     }
 
-    /// Returns the row with views that only show which ways lead on; they count as evidence.
+    /// Returns the row with views that only show which ways lead on. They count as evidence.
     const fn by_exits(self) -> Self {
         Self {
             robot: |robot| robot.sight = PlaceCue::Exits,
@@ -186,17 +186,17 @@ pub(super) fn rows() -> Vec<FreshRow> {
 }
 
 record! {
-    /// A walk through a world drawn for it, and the map at its end.
+    /// A walk through a world drawn for the run, and the map at its end.
     #[check(FreshRun::relations)]
     struct FreshRun {
-        /// Whether the map is one to one the world: all places and ways that were seen, no others,
-        /// and 95 % of all at least.
+        /// Whether the map matches the seen places and ways of the world one to one, and has at
+        /// least 95 % of all.
         right: bool => higher("map right"),
-        /// The same without asking how much was seen.
+        /// Whether the map matches the seen places and ways one to one, however many those are.
         right_of_visited: bool => higher("right as far as visited"),
-        /// Share of the visits that were to the true place for which their place on the map stands.
+        /// Share of the visits that were to the true place that their place on the map stands for.
         purity: f64 => higher("purity").share().decimals(4),
-        /// Places on the map for each true place that was visited.
+        /// Number of places on the map per visited true place.
         places_over_true: f64 => lower("places / true places").at_least(0).decimals(2),
         /// Share of the true places that were visited.
         seen: f64 => higher("true places visited").share().decimals(3),
@@ -204,26 +204,26 @@ record! {
         link_recall: f64 => higher("link recall").share().decimals(3),
         /// Share of the map's links that lead where their action truly leads.
         link_precision: f64 => higher("link precision").share().decimals(4),
-        /// Merges proven by bounds, each checked against the journal.
+        /// Number of merges proven by bounds, each checked against the journal.
         geometric_certificates: Option<usize> => neither("proofs by bounds"),
-        /// Those of them that join two true places.
+        /// Number of these that join two true places.
         false_geometric: Option<usize> => lower("false proofs by bounds"),
-        /// Merges proven by bounds through places that are one by looks.
+        /// Number of merges proven by bounds through places that are one by looks.
         bounds_after_looks: Option<usize> => neither("proofs by bounds after looks"),
-        /// Those of them that join two true places.
+        /// Number of these that join two true places.
         false_after_looks: Option<usize> => lower("false proofs by bounds after looks"),
-        /// Merges by looks, each with its chance, checked against the journal.
+        /// Number of merges by looks, each with its probability, checked against the journal.
         look_certificates: Option<usize> => neither("proofs by looks"),
-        /// Those of them that join two true places.
+        /// Number of these that join two true places.
         false_looks: Option<usize> => lower("false proofs by looks"),
-        /// Sum of the chances that those say they are false by.
+        /// Sum of the probabilities of error that those merges state.
         stated_chances: Option<f64> => neither("false proofs, as stated").decimals(4),
-        /// Merges with neither kind of proof.
+        /// Number of merges with neither kind of proof.
         unproven: Option<usize> => lower("merges without proof"),
     }
 }
 
-/// The name of the row of all runs.
+/// Name of the row of all runs.
 const ALL_RUNS: &str = "all runs";
 
 impl FreshRun {
@@ -234,8 +234,7 @@ impl FreshRun {
     }
 }
 
-/// Returns whether so large shares of the places and of the ways of a world are enough for a right
-/// map.
+/// Returns whether these shares of the places and ways of a world are enough for a right map.
 fn is_whole(places: f64, ways: f64) -> bool {
     places.min(ways) >= MapJudgement::ENOUGH
 }
@@ -262,12 +261,15 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
         .rows(rows.iter().map(|row| Row::new(row.row).runs(runs(row))))
         .row(Row::of_all(ALL_RUNS))
         .note(
-            "Each run draws its own world from its seed, the same for all rows of a kind. 5x5, 7x7 and 20x20 are blocks with a quarter of \
-             the ways walled up, all places alike; 700, 3000 and 6000 moves. Doorways: a fifth of the passages, walls of eight colours. Ladders \
-             (corridors of that many cells), eights, spirals and rings have walls of eight colours, the office floor has one; 1000 moves with \
-             scripts. Scripts are begun with a chance of 30 %, in 20x20 and in the office floor always. Constant error: odometry and compass are wrong by the same \
-             all along. Paper's rule: a place is known again if boxes meet, and places merge by their estims. The row of all runs has those by \
-             the paper's rule, too.",
+            "Each run draws its own world from its seed, the same for all rows of a kind. 5x5, 7x7 \
+             and 20x20 are blocks with a quarter of the ways walled up and all places alike, with \
+             700, 3000 and 6000 moves. Doorways: a fifth of the passages, and walls of eight \
+             colours. Ladders (the number is the length of their corridors), eights, spirals and \
+             rings have walls of eight colours, the office floor has one colour; 1000 moves with \
+             scripts. Scripts are begun with a probability of 30 %, in 20x20 and in the office floor \
+             always. Constant error: odometry and compass have the same error all along. Paper's \
+             rule: a place is recognized if boxes meet, and places merge by their estims. The row of \
+             all runs includes those by the paper's rule.",
         )
 }
 
@@ -295,7 +297,7 @@ impl FreshRow {
         robot
     }
 
-    /// Draws a run's world, and says how it is surveyed there.
+    /// Returns a run's world, and how it is surveyed.
     pub(super) fn draw(&self, seed: u64) -> Result<(Arc<Office>, SurveyConfig), BoxError> {
         let mut rng = stream(seed, WORLD_STREAM);
         let maze = (self.draw)(&mut rng)?;
@@ -310,7 +312,7 @@ impl FreshRow {
         Ok((office, config))
     }
 
-    /// Surveys a world.
+    /// Surveys a new world and returns the record.
     pub(super) fn run(&self, seed: u64) -> Result<Fields, BoxError> {
         let (office, mut config) = self.draw(seed)?;
         config.mapper.journal = JournalLength::All;
@@ -328,7 +330,7 @@ impl FreshRow {
             link_precision: score.link_precision,
             ..FreshRun::default()
         };
-        // The paper's rule proves nothing.
+        // The paper's rule gives no proofs.
         let config = survey.observer().config();
         match config.matching.identity {
             Identity::Certain => Ok(run.certified(&survey)?.fields()?),
@@ -338,7 +340,7 @@ impl FreshRow {
 }
 
 impl FreshRun {
-    /// Returns the record with the counts of proofs for the map's merges, and of false ones, after
+    /// Returns the record with the numbers of proofs for the map's merges, and of false ones, after
     /// checking them.
     fn certified(self, survey: &Survey) -> Result<Self, BoxError> {
         let config = survey.observer().config();

@@ -1,5 +1,5 @@
-//! The figures of "Maps Considered as Adaptive Planning Resources" as tables: how a robot that
-//! walks an office learns its map.
+//! The figures of "Maps Considered as Adaptive Planning Resources" as tables: how well a robot that
+//! walks through an office learns its map.
 
 mod ablations;
 pub mod drawing;
@@ -36,14 +36,14 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// The experiment, ready to run.
+/// The prepared experiment.
 #[derive(Debug)]
 struct Diktiometry {
     trials: Vec<Trial>,
     fresh: Vec<FreshRow>,
 }
 
-/// Builds the offices. Maze files have no part in it.
+/// Returns the experiment with its offices. Maze files are not used.
 ///
 /// # Errors
 /// If an office cannot be built.
@@ -71,41 +71,41 @@ record! {
         /// Mean squared error per move over the last moves.
         ssd_asymptote: f64 =>
             lower("final squared error per move").unit("m²").at_least(0).decimals(4),
-        /// The same by odometry alone.
+        /// The same error by odometry alone.
         odometry: Option<f64> => lower("odometry's error").unit("m²").at_least(0),
-        /// Moves until the run is near its own asymptote.
+        /// Number of moves until the run is near its own asymptote.
         moves_to_own_asymptote: Option<usize> => lower("moves to its own asymptote"),
-        /// Squared error per move, each the mean of a window of moves.
+        /// Squared error per move, each number the mean of a window of moves.
         curve: Vec<f64> => lower("squared error per move").unit("m²").at_least(0),
-        /// Share of the visits that were to the true place for which their place on the map stands.
+        /// Share of the visits that were to the true place that their place on the map stands for.
         purity: Option<f64> => higher("purity").share().decimals(4),
         /// Share of the map's links that lead where their action truly leads.
         link_precision: Option<f64> => higher("link precision").share().decimals(4),
-        /// Share of the links believed now that lead where they say.
+        /// Share of the present links that lead where they say.
         believed_precision: Option<f64> =>
             higher("precision of links believed now").share().decimals(4),
-        /// Share of the ways as they were last seen that lead where they say.
+        /// Share of the ways, as they were last seen, that lead where they say.
         remembered_precision: Option<f64> =>
             higher("precision of ways as last seen").share().decimals(4),
         /// Share of the true ways of the whole world that are on the map.
         link_recall: Option<f64> => higher("link recall").share().decimals(4),
-        /// Share of the true places visited for which exactly one place on the map stands.
+        /// Share of the visited true places that have exactly one place on the map.
         share_once: Option<f64> => higher("true places with one node").share().decimals(4),
         /// Share of the last moves that the map expected.
         coverage: Option<f64> => higher("expected moves").share().decimals(4),
         /// Share of the plans to existing places that work.
         plans: Option<f64> =>
             higher("working plans, to existing places").share().decimals(4),
-        /// Share of those plans that work by the ways as last seen.
+        /// Share of those plans that work by the ways as they were last seen.
         remembered_plans: Option<f64> =>
             higher("working plans, by ways as last seen").share().decimals(4),
         /// Share of all plans that lead to places that no longer exist.
         plans_to_gone: Option<f64> => lower("plans to vanished places").share().decimals(4),
-        /// Places on the map.
+        /// Number of places on the map.
         places: Option<usize> => neither("places on the map").decimals(1),
-        /// True places where the robot was.
+        /// Number of true places where the robot was.
         visited: Option<usize> => neither("true places visited").decimals(1),
-        /// Whether the map has the true places visited and the ways between them, and no others.
+        /// Whether the map has exactly the visited true places and the ways between them.
         isomorphic: Option<bool> => higher("map matches the world"),
     }
 }
@@ -135,8 +135,9 @@ fn table(trial: &Trial) -> Table {
     let near = 100.0 * NEAR;
     let note = match trial.rows {
         Rows::OneWorld => format!(
-            "{} {tail} The asymptote is the lowest of the table; a row is there when the mean over all its runs and {WINDOW} moves stays less than \
-             {near:.0} % of odometry's error above it. To its own asymptote is the same of each run for itself, the first definition of this table.",
+            "{} {tail} The asymptote is the lowest of the table. A row reaches it when the mean over \
+             all its runs and {WINDOW} moves stays less than {near:.0} % of odometry's error above \
+             it. To its own asymptote: the same for each run alone, an earlier definition.",
             trial.note,
         ),
         Rows::OwnWorlds => format!("{} {tail}", trial.note),
@@ -148,7 +149,7 @@ fn table(trial: &Trial) -> Table {
         .note(note)
 }
 
-/// Returns a part of a whole; `None` of nothing.
+/// Returns the share of a part in the whole; `None` if the whole is 0.
 fn share(part: usize, whole: usize) -> Option<f64> {
     (whole > 0).then(|| part as f64 / whole as f64)
 }
@@ -177,7 +178,7 @@ impl Procedure for Diktiometry {
         let mut plans = Vec::new();
         for number in 1..=setting.config.moves {
             survey.step()?;
-            // Plans are tried where the asymptote is measured.
+            // Plans are tried in the part of the walk where the asymptote is measured.
             let late = f64::from(number) > (1.0 - TAIL) * f64::from(setting.config.moves);
             if late && setting.subject == Subject::Map && number.is_multiple_of(5) {
                 plans.extend(survey.try_plan());
@@ -231,7 +232,8 @@ impl Procedure for Diktiometry {
         }
         let setting = self.setting(job)?;
         match setting.subject {
-            // The many rows of the ablation would fill the report and take as long as all else.
+            // The many rows of the ablation would fill the report, and take as long as all others
+            // together.
             Subject::Map if job.table == settings::ABLATION => Ok(None),
             Subject::Map => replay::of(&setting.office, &setting.config, job).map(Some),
             Subject::Odometry => Ok(None),

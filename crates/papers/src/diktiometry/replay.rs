@@ -1,4 +1,4 @@
-//! A run as it can be watched: the robot's way, and the map as it grows beside it.
+//! Replays of surveys: the robot's way, with the map beside it as it grows.
 
 use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
@@ -16,9 +16,9 @@ use tolman_replay::{
 };
 use tolman_systems::diktiometry::Reason;
 
-/// Time steps of the simulator per step of the replay.
+/// Number of the simulator's time steps per step of the replay.
 const COARSE: usize = 12;
-/// Displacement below which nodes stay where they are, m: a quarter of a corridor's width. Most
+/// Distance within which a node that moved is not redrawn, m: a quarter of a corridor's width. Most
 /// moves shift most of the map a little. Viewers could not see that, but every replay would have to
 /// store it.
 const STILL: f64 = 0.3;
@@ -64,14 +64,13 @@ pub(super) fn of(
     .fact("purity", format!("{:.3}", score.purity)))
 }
 
-/// Notes taken after each move.
+/// Records the map after each move.
 #[derive(Debug)]
 struct Watch {
     start: Point,
     home: PlaceId,
     nodes: BTreeMap<PlaceId, MapNode>,
-    /// By link and its ends: a merge of places gives a link other ends, which makes it another
-    /// edge.
+    /// Edges by link and ends. Merging places gives a link other ends, and so another edge.
     edges: BTreeMap<(LinkId, PlaceId, PlaceId), MapEdge>,
     belief: Belief,
     places: TimeSeries,
@@ -117,7 +116,7 @@ impl Watch {
                 weight: 0.5,
             });
         }
-        // The last of several at one step counts.
+        // Of several beliefs at one step the last counts.
         self.belief.entries.pop_if(|entry| entry.step >= step);
         self.belief.entries.push(BeliefAt { step, shapes });
         let places = survey.observer().map().paths.places().count();
@@ -136,7 +135,7 @@ impl Watch {
         self.reason.say(step, reason);
     }
 
-    /// Takes in the changes of the map.
+    /// Records the changes of the map.
     fn map(&mut self, survey: &Survey, step: u32) {
         let map = survey.observer().map();
         for drawn in map.layout(self.home) {

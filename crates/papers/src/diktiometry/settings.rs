@@ -12,10 +12,10 @@ use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
 use tolman_maps::diktiometry::{Use, WorldKind};
 
-/// "Generally 30% of the time".
+/// Exploration probability in the paper: "Generally 30% of the time".
 pub(super) const HEED: f64 = 0.3;
 
-/// One table: a world and the rows that are tried in it.
+/// A table: a world and the rows that are tried in it.
 #[derive(Debug)]
 pub(super) struct Trial {
     pub(super) name: &'static str,
@@ -25,16 +25,16 @@ pub(super) struct Trial {
     pub(super) settings: Vec<Setting>,
 }
 
-/// Common settings of a table's rows.
+/// How a table's rows are related.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rows {
-    /// One world: they are compared with the first.
+    /// All are in one world, and are compared with the first.
     OneWorld,
-    /// Each has a world of its own.
+    /// Each is in a world of its own.
     OwnWorlds,
 }
 
-/// One row.
+/// A row.
 #[derive(Debug)]
 pub(super) struct Setting {
     pub(super) row: &'static str,
@@ -57,7 +57,7 @@ impl Setting {
         }
     }
 
-    /// Returns what the runs depend on.
+    /// Returns the configuration that the runs depend on.
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
         struct Row<'a> {
@@ -74,7 +74,7 @@ impl Setting {
     }
 }
 
-/// Quantity that a row measures.
+/// What a row measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Subject {
     /// The map.
@@ -83,8 +83,8 @@ pub(super) enum Subject {
     Odometry,
 }
 
-/// Returns an office. The paper draws its worlds in figures that no text describes. Ours are
-/// corridors between blocks; a share of the passages is walled up.
+/// Returns an office. The paper shows its worlds only in figures. Ours are corridors between
+/// blocks, with a share of the passages walled up.
 fn office(side: u16, seed: u64, furniture: &OfficeConfig) -> Result<Arc<Office>, BoxError> {
     let maze = blocks(side, WALLED_UP, &mut ChaCha8Rng::seed_from_u64(seed));
     Ok(Arc::new(Office::new(&maze, furniture)?))
@@ -93,10 +93,10 @@ fn office(side: u16, seed: u64, furniture: &OfficeConfig) -> Result<Arc<Office>,
 /// Share of the passages that are walled up.
 pub(super) const WALLED_UP: f64 = 0.25;
 
-/// Every place looks like every other.
+/// An office in which all places look alike.
 pub(super) const BARE: OfficeConfig = OfficeConfig::bare();
 
-/// Doorways, and walls of many colours.
+/// An office with doorways, and with walls of many colours.
 pub(super) const FURNISHED: OfficeConfig = OfficeConfig {
     doorway_share: 0.2,
     colours: 8,
@@ -175,7 +175,7 @@ fn compared(office: &Arc<Office>, moves: u32) -> Vec<Setting> {
     ]
 }
 
-/// The table of parts left out.
+/// Name of the table in which parts are left out.
 pub(super) const ABLATION: &str = "ablation";
 
 fn ablations(office: &Arc<Office>) -> Vec<Setting> {
@@ -187,7 +187,7 @@ fn ablations(office: &Arc<Office>) -> Vec<Setting> {
     ABLATIONS.map(setting).into()
 }
 
-/// Returns a maze of MSLST as that paper has it, with that paper's robot.
+/// Returns a row with a maze of MSLST, and with the robot of that paper.
 fn mslst(row: &'static str, text: &str) -> Result<Setting, BoxError> {
     let file = tolman_maze::read(text)?;
     let furniture = OfficeConfig {

@@ -6,21 +6,20 @@ use tolman_experiment::BoxError;
 
 use super::search_space::Parameters;
 
-/// The window is that share of the search space at the last step: "to less than 1 %".
+/// Width of the window at the last step, as a share of the search space: "to less than 1 %".
 const LAST: f64 = 0.0099;
 
-/// One map of a search.
+/// A map of a search.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tried<T> {
     pub(super) parameters: Parameters,
-    /// Result of the step.
+    /// The map.
     pub(super) map: T,
-    /// Its score, 0 of a useless map.
+    /// Its score; 0 for a useless map.
     pub(super) score: f64,
 }
 
-/// A search under way: map after map, each with parameters near those of the better of the two
-/// before.
+/// A search in progress. Each map has parameters near those of the better of the two before.
 #[derive(Debug)]
 pub(super) struct Annealing<T> {
     /// Number of maps over which the window shrinks.
@@ -36,8 +35,8 @@ impl<T: Copy> Annealing<T> {
         }
     }
 
-    /// Returns the map of a number, making those before it if need be. `rng` gives the random
-    /// numbers of a map's parameters, and `learn` makes the map of a number with parameters.
+    /// Returns the map with this number, after learning those before it. `rng` returns the
+    /// generator for a map's parameters, and `learn` makes the map of a number with parameters.
     pub(super) fn map<R: Rng>(
         &mut self,
         number: u32,
@@ -56,7 +55,7 @@ impl<T: Copy> Annealing<T> {
         Ok(self.tried[number as usize])
     }
 
-    /// Draws the parameters of the next map.
+    /// Returns the parameters of the next map.
     fn next(&self, rng: &mut impl Rng) -> Parameters {
         let share = self.share(self.tried.len() as u32);
         match self.tried.as_slice() {
@@ -72,7 +71,7 @@ impl<T: Copy> Annealing<T> {
         }
     }
 
-    /// Returns the width of a step's window, as a share of the search space: each step narrows it
+    /// Returns the width of a step's window, as a share of the search space. Each step narrows it
     /// by the same factor.
     fn share(&self, step: u32) -> f64 {
         let last = self.steps.saturating_sub(1).max(1);
@@ -91,7 +90,7 @@ mod tests {
         ChaCha8Rng::seed_from_u64(u64::from(step))
     }
 
-    /// Returns a score that is best with all parameters in the middle of their search space.
+    /// Returns a score that is highest with all parameters in the middle of their search space.
     fn learn(_: u32, parameters: &Parameters) -> Result<((), f64), BoxError> {
         let aim = Parameters([500.0, 500.0, 0.45, 0.5, 5000.0, 0.45, 0.45, 0.5, 0.5, 0.5]);
         let off = parameters.0.iter().zip(aim.0);

@@ -26,7 +26,7 @@ pub fn places_over_world(course: &Course, map: &MapView) -> Drawing {
         let node = graph.node(GraphNode::at(at).mark(mark).series(Series(0)));
         drawn.insert(place.id, node);
     }
-    // Every way leads back, too; once is enough to draw.
+    // Every way also leads back, so it is drawn only once.
     for link in map.links.iter().filter(|link| link.from < link.to) {
         if let (Some(from), Some(to)) = (drawn.get(&link.from), drawn.get(&link.to)) {
             graph.edge(GraphEdge::between(*from, *to));

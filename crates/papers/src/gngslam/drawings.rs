@@ -1,4 +1,4 @@
-//! Maps with each node's image at its place: figures 4.3, A.1 and A.2.
+//! Maps with each node's image at its place, like figures 4.3, A.1 and A.2.
 
 use tolman_arena::gngslam::{CellGrid, FieldFromMap, GoalNodes};
 use tolman_draw::{
@@ -16,24 +16,25 @@ use super::search_space::{COUNT, LAMBDA, Parameters, WINNER_RATE};
 use super::searches::Searches;
 use super::sets::{Setting, TABLE, settings};
 
-/// Differences of the appendix from the best parameters: the middle of "200 and 250", and 0.052.
+/// Values of the appendix that differ from the best parameters: the middle of "200 and 250", and
+/// 0.052.
 const MORE_NODES: f64 = 225.0;
 const SLOW: f64 = 0.052;
 
-/// The rows of figure 4.3, from 0. The text calls the second set 5, the caption 6.
+/// Rows of figure 4.3, from 0. The text calls the second one set 5, the caption set 6.
 const SHOWN: [usize; 2] = [0, 5];
 
 /// Maximum number of maps tried for a figure until one can be turned.
 const TRIED: usize = 40;
 
-/// The most nodes of a map that is shown: of more, no image can be made out.
+/// Maximum number of nodes of a map that is shown. With more, no image can be made out.
 const MOST_NODES: usize = 40;
 
 /// Width of a map and of a node's image, user units.
 const WIDTH: f64 = 460.0;
 const IMAGE: f64 = 76.0;
 
-/// A row's best map of at most [`MOST_NODES`]: all that it takes to learn it again.
+/// The best map of a row with at most [`MOST_NODES`] nodes: what is needed to learn it again.
 struct Best {
     setting: Setting,
     parameters: Parameters,
@@ -43,7 +44,7 @@ struct Best {
 }
 
 impl Searches {
-    /// Returns the maps of the best runs; a row without a map that has a score is left out.
+    /// Returns the maps of the best runs. A row in which no map has a score is left out.
     pub(super) fn drawings(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let mut figures = vec![self.best_maps(runs)?];
         let setting = settings()[SHOWN[1]];
@@ -100,7 +101,7 @@ impl Searches {
         Ok(figure.caption(caption).table(TABLE))
     }
 
-    /// Learns a map and draws it; `None` of a useless one.
+    /// Learns a map and draws it; `None` for a useless map.
     fn drawing(
         &self,
         setting: &Setting,
@@ -152,23 +153,24 @@ impl Best {
     }
 }
 
-/// Explanation of the maps.
-const READ: &str = "Each node's image has its middle where the node lies, in cells, turned so that the yellow goal is straight \
-                    above the blue one; lines are links. On the pitch the windows are on the right. Images were converted to red, \
-                    green and blue. Of each set the best map of at most 40 nodes, whose images can be made out.";
+/// Caption that explains the maps.
+const READ: &str = "Each node's image has its middle at the node, in cells, turned so that the yellow goal is straight \
+ above the blue one. Lines are links. On the pitch the windows are on the right. Images were \
+ converted to red, green and blue. Shown is each set's best map of at most 40 nodes, so that the \
+ images can be made out.";
 
 /// Returns an axis over the field, with room for the images and the names of the goals.
 fn axis(title: &str) -> Axis {
     Axis::linear(title).between(-0.5, 9.5)
 }
 
-/// Turns the pitch, whose yellow goal lies in the west, as the paper draws it: the yellow goal up,
-/// the windows on the right.
+/// Turns the pitch as the paper draws it: the yellow goal, in the west, is up, and the windows are
+/// on the right.
 fn upright(at: Point) -> Point {
     Point::new(at.y, f64::from(CellGrid::SIDE) - at.x)
 }
 
-/// Returns a map, with its blue and its yellow goal.
+/// Returns the picture of a map, with its blue and its yellow goal.
 fn drawn(
     map: &PlaceMap,
     field_from_map: &FieldFromMap,
@@ -184,7 +186,7 @@ fn drawn(
         .filter_map(|node| Some((node, place(node)?)))
         .collect();
     chart.graph(links(map, &nodes));
-    // Many nodes want small images.
+    // With many nodes the images are smaller.
     let width = IMAGE.min(IMAGE * libm::sqrt(10.0 / nodes.len().max(1) as f64));
     for (node, at) in &nodes {
         if let Some(picture) = map.picture(*node) {

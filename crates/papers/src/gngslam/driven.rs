@@ -1,4 +1,4 @@
-//! The paper's map driven by: section 3.4, "find a path".
+//! Drives by the paper's map (section 3.4, "find a path").
 
 use tolman_arena::gngslam::{DrivenMap, Pitch, PlaceDrive, drive_place_map};
 use tolman_draw::{Figure, FloorPlan, GraphEdge, GraphNode, GraphPicture, NodeMark, Series};
@@ -9,35 +9,36 @@ use tolman_robot::Standing;
 /// The name of the table.
 const DRIVEN: &str = "driven";
 
-/// The rows, with λ: the middle of the paper's range, and as many nodes as our best maps have.
+/// The rows with λ: the middle of the paper's range, and a value that gives as many nodes as our
+/// best maps have.
 const ROWS: [(&str, u32); 2] = [("λ 575, as in Table 3.1", 575), ("λ 60", 60)];
 
-/// Runs of a row unless the caller asks for others, and in a quick look.
+/// Default number of runs of a row, and that for a first look.
 const RUNS: u32 = 40;
 const QUICK_RUNS: u32 = 2;
 
-/// The paper's number of records, and the drives by each map.
+/// Number of records in the paper, and number of drives by each map.
 const RECORDS: usize = 1006;
 const DRIVES: u32 = 10;
 
-/// A drive ends near its goal within this distance, m.
+/// Distance from the goal within which a drive ends near it, m.
 const NEAR: f64 = 1.0;
 
 record! {
     /// Drives by one map.
     struct DrivenFields {
-        /// Mean distance from where the record was truly taken to where the robot truly was at the
-        /// end of a drive.
+        /// Mean distance at the end of a drive between the robot's true position and that of the
+        /// record.
         error_m: f64 => lower("error at the goal").unit("m").decimals(2),
-        /// The same at the beginning of a drive.
+        /// Mean distance at the beginning of a drive.
         start_m: f64 => neither("distance at the start").unit("m").decimals(2),
-        /// Drives that ended truly within 1 m of where the record was taken.
+        /// Share of drives that truly ended within 1 m of where the record was taken.
         near_percent: f64 => higher("within 1 m").percent(),
-        /// Drives that began within 1 m of it.
+        /// Share of drives that began within 1 m of it.
         near_at_start_percent: f64 => neither("within 1 m at the start").percent(),
-        /// Drives at whose end the wheels had the robot at the goal's node.
+        /// Share of drives at whose end the robot was at the goal's node, by its wheels.
         done_percent: f64 => higher("arrived, by its wheels").percent(),
-        /// Pieces of the way of a drive, each a turn and a leg of 0.4 m at most.
+        /// Number of pieces of a drive, each a turn and a leg of at most 0.4 m.
         pieces: f64 => lower("pieces of the way").decimals(1),
         /// Nodes of the map.
         nodes: usize => neither("nodes"),
@@ -61,9 +62,10 @@ pub(super) fn table(options: &Options) -> Table {
         .metric(Metric::mean(DrivenFields::nodes))
         .rows(ROWS.map(|(row, _)| Row::new(row).runs(runs)))
         .note(format!(
-            "Each run gathers {RECORDS} records, learns a map of image (40 × 30, hsv) and odometry, and drives by it to where {DRIVES} of the \
-             records were taken, drawn at random, each time from where it is. Wheels slip and count rightly but for that. Not in the \
-             paper, which plans ways and drives none."
+            "Each run gathers {RECORDS} records, and learns a map of image (40 × 30, hsv) and \
+             odometry. It drives by the map to where {DRIVES} random records were taken, each time \
+             from where it is. Wheels slip and otherwise count rightly. The paper plans ways and \
+             drives none."
         ))
 }
 
@@ -106,10 +108,10 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
 /// Width of a plan, user units.
 const WIDTH: f64 = 460.0;
 
-/// The drives that the picture shows.
+/// Number of drives in the picture.
 const SHOWN: usize = 3;
 
-/// Returns the map of the first run of the last row over the pitch, with the first drives by it.
+/// Returns the map of the last row's first run over the pitch, with the first drives by it.
 pub(super) fn figures(runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let (row, _) = ROWS[1];
     let mut of_row = runs

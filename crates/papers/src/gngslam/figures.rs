@@ -1,4 +1,4 @@
-//! Figures 4.1 and 4.2: how scores are distributed, and their bootstrapped means.
+//! Figures 4.1 and 4.2: distributions of scores, and their bootstrapped means.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -10,21 +10,21 @@ use tolman_stats::{ConfidenceInterval, bootstrap_means, mean, percentile_interva
 use super::sets::{RANDOM, SETS, TABLE};
 use super::{MapRun, guesses};
 
-/// The paper's number of bins, from 0 to 1.
+/// Number of bins from 0 to 1 in the paper.
 const BINS: usize = 150;
 
-/// The most that a histogram shows: beyond lie guesses alone.
+/// Maximum score that a histogram shows. Only guesses are beyond.
 const SHOWN: f64 = 0.6;
 
-/// Guesses of the baseline.
+/// Number of guesses of the baseline.
 const GUESSES: usize = 1_000_000;
 
-/// Points and repetitions of the bootstrap, and the confidence.
+/// Number of points and of repetitions of the bootstrap, and its confidence.
 const POINTS: u32 = 10_000;
 const RESAMPLES: u32 = 1000;
 const LEVEL: f64 = 0.999;
 
-/// Scores of each row, without useless maps; the last row has single guesses.
+/// Scores of each row, without useless maps. The last row has single guesses.
 struct Scores {
     rows: Vec<(&'static str, Vec<f64>)>,
 }
@@ -47,7 +47,7 @@ impl Scores {
         Ok(Self { rows })
     }
 
-    /// Returns figure 4.1: the best sets with the baseline, and the worst with the best one.
+    /// Returns figure 4.1: the best sets with the baseline, and the worst set with the best one.
     fn histograms(&self) -> Figure {
         let mut tiles = Tiles::new(1);
         tiles.tile(
@@ -103,9 +103,10 @@ impl Scores {
         let drawing = chart.drawing("Bootstrapped means of the scores of each set.");
         Ok(Figure::new("figure-4-2", "Bootstrapped mean scores", drawing)
             .caption(format!(
-                "Figure 4.2: means of {POINTS} scores drawn from each set, {RESAMPLES} times; set 0 are guesses. Bars hold {} % of \
-                 the means: {}. More scores are drawn than there are maps, as in the paper, so the bars are \
-                 narrower than what is unknown of a search's mean.",
+                "Figure 4.2: means of {POINTS} scores drawn from each set, {RESAMPLES} times; set 0 \
+                 are guesses. Bars hold {} % of the means: {}. As in the paper, more scores are \
+                 drawn than there are maps. So the bars are narrower than the uncertainty of a \
+                 search's mean.",
                 100.0 * LEVEL,
                 said.join("; ")
             ))
@@ -113,12 +114,12 @@ impl Scores {
     }
 }
 
-/// Returns the colour of a row; guesses have that of the last.
+/// Returns the colour of a row; guesses have the last colour.
 const fn series(row: usize) -> Series {
     Series(row as u32)
 }
 
-/// Returns the percentage of values in each bin, as a stair.
+/// Returns the percentage of values in each bin, as a step curve.
 fn histogram(values: &[f64]) -> Vec<LinePoint> {
     let mut counts = [0_u32; BINS];
     for value in values {
@@ -132,7 +133,7 @@ fn histogram(values: &[f64]) -> Vec<LinePoint> {
     stairs.take_while(|point| point.x <= SHOWN + 1e-9).collect()
 }
 
-/// Returns the mean of bootstrapped means and the interval that holds them; `None` of no scores.
+/// Returns the mean of bootstrapped means and its interval; `None` without scores.
 fn bootstrapped(scores: &[f64], seed: u64) -> Result<Option<(f64, ConfidenceInterval)>, BoxError> {
     if scores.is_empty() {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! The baseline: positions and cells drawn at random.
+//! The baseline: random positions for random cells.
 
 use crate::tolerances::{AREA, MAP_SCORE};
 use rand_chacha::ChaCha8Rng;
@@ -13,7 +13,8 @@ pub(super) const NAME: &str = "guesses";
 const BY_CENTRE: &str = "to the centre";
 const BY_BORDER: &str = "to the border";
 
-/// Guesses of a run, and the paper's number of runs of that size: ten million together.
+/// Number of guesses of a run, and the number of runs: ten million guesses together, as in the
+/// paper.
 const GUESSES: usize = 1_000_000;
 const RUNS: u32 = 10;
 
@@ -26,7 +27,7 @@ record! {
         median: f64 => higher("median").share().decimals(3).tolerance(MAP_SCORE),
         /// Standard deviation of the scores of guesses.
         sd: f64 => neither("standard deviation").share().decimals(3).tolerance(MAP_SCORE),
-        /// Guesses inside the cell.
+        /// Share of the guesses inside the cell.
         inside_percent: f64 => higher("inside").percent().tolerance(AREA),
     }
 }
@@ -68,7 +69,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(run.fields()?)
 }
 
-/// Scores of guesses.
+/// Returns the scores of random guesses.
 pub(super) fn guesses(seed: u64, count: usize) -> impl Iterator<Item = PointScore> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     (0..count).map(move |_| PointScore::random(&mut rng))

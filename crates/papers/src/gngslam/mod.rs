@@ -1,5 +1,7 @@
-//! GNG-SLAM: Tables 3.1 and 4.1 with their figures. Place maps are learned from six sets of
-//! features, their parameters annealed; and the system that corrects its pose while it learns.
+//! GNG-SLAM: Tables 3.1 and 4.1 with their figures.
+//!
+//! Place maps are learned from six sets of features with annealed parameters. Further tables are of
+//! the system that corrects its pose while it learns.
 
 mod annealing;
 pub mod drawing;
@@ -28,10 +30,10 @@ use search_space::TABLE_3_1;
 use searches::{MAPS, Searches};
 use sets::{RANDOM, RANDOM_SCORE, SETS, TABLE, VARIANTS, settings};
 
-/// Guesses of a random map: as many as a map of 1006 records is asked about.
+/// Number of guesses of a random map: as many as a map of 1006 records is asked for.
 const ASKED: usize = 201;
 
-/// Runs of each variant at most.
+/// Maximum number of runs of each variant.
 const VARIANT_RUNS: u32 = 200;
 
 /// Entry in the catalogue.
@@ -49,7 +51,7 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// The experiment, ready to run.
+/// The prepared experiment.
 #[derive(Debug)]
 struct GngSlam {
     /// The master seed.
@@ -67,10 +69,10 @@ struct Config {
     sources: Vec<places::Config>,
 }
 
-/// Sets the tables up. Records are gathered when the first run needs them.
+/// Returns the experiment with its tables. Records are gathered when the first run needs them.
 ///
 /// # Errors
-/// If the caller names mazes, which have no place here.
+/// If the caller names mazes, which this experiment does not use.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
     if !options.mazes.is_empty() {
         return Err("the tables are of the paper's pitch: leave --maze out".into());
@@ -102,12 +104,12 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
 record! {
     /// A map, or as many guesses as a map is asked for.
     pub(super) struct MapRun {
-        /// Mean over a random fifth of the records (equation 3.2). A record scores 1 if the nearest
-        /// node lies in its cell, else 0.5 / distance to the cell's middle, in cells. A map with
-        /// one node for both goals has no score: it counts as 0 in the search and is left out here,
-        /// as in the paper.
+        /// Mean score over a random fifth of the records (equation 3.2). A record scores 1 if the
+        /// nearest node is in its cell; otherwise 0.5 / distance to the cell's middle, in cells. A
+        /// map with one node for both goals has no score. It counts as 0 in the search and is left
+        /// out here, as in the paper.
         score: Option<f64> => higher("score").share().decimals(3).tolerance(MAP_SCORE),
-        /// The same with 0.5 / (0.5 + distance to the cell), which the paper wishes for.
+        /// Mean of 0.5 / (0.5 + distance to the cell), the score that the paper would prefer.
         border_score: Option<f64> => higher("score to the border").share().decimals(3),
         /// Whether both goals are nearest to one node, so that the map cannot be turned and has no
         /// score.
@@ -115,14 +117,14 @@ record! {
         /// Whether the map is a mirror image of the pitch, with counter-clockwise and clockwise
         /// exchanged.
         mirrored: Option<bool> => lower("mirrored maps"),
-        /// Nodes of the map.
+        /// Number of nodes of the map.
         nodes: Option<usize> => neither("nodes").decimals(1),
-        /// Values of a_max, λ, α, d, n_max, ε_b, ε_n, w_image, w_odo, w_sonar; none of guesses.
+        /// Values of a_max, λ, α, d, n_max, ε_b, ε_n, w_image, w_odo, w_sonar; empty for guesses.
         parameters: Vec<f64> => neither("parameters"),
     }
 }
 
-/// Returns a table of maps without rows.
+/// Returns a table of maps, without rows.
 fn of_maps(name: &str, title: &str) -> Table {
     let best = Metric::greatest("best_score", MapRun::score).titled("best map");
     Table::of::<MapRun>(name, title)
@@ -149,9 +151,10 @@ fn paper() -> Table {
             paper: vec![(SETS[1].row.to_owned(), SETS[4].row.to_owned(), 0.22)],
         })
         .note(format!(
-            "Each {MAPS} maps of a row are one search by simulated annealing, in which a map has parameters near those of the \
-             better of the two before. So maps depend on each other; p-values take them for independent, as the paper does. n counts \
-             the maps with a score. A random map is {ASKED} guesses. The paper has {} to {} maps a row.",
+            "Each {MAPS} maps of a row are one search by simulated annealing, in which a map has \
+             parameters near those of the better of the two before. So maps depend on each other; \
+             p-values treat them as independent, as in the paper. n counts the maps with a score. A \
+             random map is {ASKED} guesses. The paper has {} to {} maps a row.",
             SETS[2].samples, SETS[0].samples
         ))
 }
@@ -167,7 +170,7 @@ fn variants(runs: u32) -> Table {
         )
 }
 
-/// Returns a random map: as many guesses as records that a map is asked for.
+/// Returns the record of a random map: as many guesses as a map is asked for records.
 fn random_map(seed: u64) -> MapRun {
     let (mut centre, mut border) = (0.0, 0.0);
     for guess in guesses::guesses(seed, ASKED) {
@@ -181,7 +184,7 @@ fn random_map(seed: u64) -> MapRun {
     }
 }
 
-/// Returns which setting a job's row is, if it is one.
+/// Returns the index of a job's row among the settings; `None` if it is not one.
 fn place_of(job: &Job<'_>) -> Option<usize> {
     let is_row = |setting: &sets::Setting| (setting.table, setting.row) == (job.table, job.row);
     settings().iter().position(is_row)

@@ -1,4 +1,4 @@
-//! The system that corrects its pose while it learns: what the paper's sections 5 and 6 ask for.
+//! The system that corrects its pose while it learns, as sections 5 and 6 of the paper ask for.
 
 use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
@@ -26,7 +26,7 @@ const WHEELS: &str = "wheels wrong by up to 10 %";
 const TAKEN_FOR_GOOD: &str = "taken for 3 %";
 const KNOWN_TO_BE_BAD: &str = "known to be 10 %";
 
-/// Seed of the first arena of that table, and the calibration error of the wheels in its arenas.
+/// Seed of the first arena of that table, and the wheels' calibration error in its arenas.
 const FIRST_BAD: u64 = 101;
 const BAD_RUNS: u32 = 5;
 const BADLY: f64 = 0.1;
@@ -35,42 +35,42 @@ const BETTER: &str = "better";
 const RAW: &str = "raw odometry";
 const CORRECTED: &str = "corrected";
 
-/// The arenas beside the paper's pitch.
+/// Arenas other than the paper's pitch.
 const OTHER_ARENAS: [&str; 2] = ["hall", "l-room"];
 
-/// Runs of a row unless the caller asks for others, and in a quick look.
+/// Default number of runs of a row, and that for a first look.
 const RUNS: u32 = 20;
 const QUICK_RUNS: u32 = 2;
 
-/// Looks of a run that learns: the paper's number of records.
+/// Number of looks of a run that learns: the paper's number of records.
 const LEARNED: u32 = 1006;
 
 /// Factor of the long runs' length.
 const LONGER: u32 = 10;
 
-/// Looks of a run that finds itself on a map that another run has learned.
+/// Number of looks of a run that localizes on a map learned by another run.
 const TRIED: u32 = 500;
 
-/// Wheels are out of calibration by up to this share, each its own.
+/// Maximum calibration error of the wheels, as a share; each wheel has its own.
 const CALIBRATION: f64 = 0.03;
 
 record! {
     /// A run in an arena.
     struct OnlineFields {
         /// Mean of 0.5 / (0.5 + distance to the true cell), in cells of 8 × 8, over the looks of a
-        /// run from which the map was not learned.
+        /// run that the map was not learned from.
         score: Option<f64> => higher("score to the border").share().decimals(3),
-        /// Root-mean-square distance of that run's positions from the true ones.
+        /// Root-mean-square distance between that run's believed and true positions.
         tried_error_m: Option<f64> => lower("error on a run not learned from").unit("m").decimals(3),
-        /// Looks of that run after which it knew where it was, or `None` if it never did.
+        /// Number of that run's looks after which it knew where it was; no value if it never did.
         looks_to_localize: Option<u32> => lower("looks until localized"),
-        /// Root-mean-square distance from the true position over the last tenth of a run.
+        /// Root-mean-square error of the position over the last tenth of a run.
         position_error_m: Option<f64> => lower("error, last tenth").unit("m").decimals(3),
-        /// The same over the second tenth.
+        /// The same error over the second tenth.
         second_tenth_error_m: Option<f64> => lower("error, second tenth").unit("m").decimals(3),
-        /// The same over each tenth, m.
+        /// The same error over each tenth, m.
         errors_m: Vec<f64> => neither("errors").unit("m"),
-        /// Way rolled at the end of each tenth, m.
+        /// Distance rolled at the end of each tenth, m.
         rolled_m: Vec<f64> => neither("way").unit("m"),
         /// Places of the map.
         places: Option<usize> => neither("places"),
@@ -79,11 +79,11 @@ record! {
     }
 }
 
-/// The long runs, which two rows look at.
+/// The long runs, which two rows share.
 #[derive(Debug, Default)]
 pub(super) struct LongRuns(Mutex<BTreeMap<u32, Shared>>);
 
-/// A run that the first caller makes, while the others wait.
+/// A run that the first caller makes while the others wait.
 type Shared = Arc<Mutex<Option<Arc<OnlineRun>>>>;
 
 /// Returns the tables.
@@ -92,9 +92,10 @@ pub(super) fn tables(options: &Options) -> Vec<Table> {
     let row = |name: &str| Row::new(name).runs(runs);
     let badly = options.runs_else(BAD_RUNS, QUICK_RUNS);
     let long = format!(
-        "Learned from {LEARNED} looks on the paper's pitch, tried by another robot for {TRIED} looks, which is put down anywhere; wheels wrong by \
-         up to {CALIBRATION} each. The last two rows are runs of {LONGER} times as many looks; the map lies over the world as fits the first tenth best, \
-         the odometry begins at the true pose."
+        "Learned from {LEARNED} looks on the paper's pitch. Another robot, put down anywhere, tries \
+         the map for {TRIED} looks. Wheels are off by up to {CALIBRATION} each. The last two rows \
+         are runs with {LONGER} times as many looks. The map is laid over the world by the best fit \
+         of the first tenth; the odometry begins at the true pose."
     );
     vec![
         learned(ONLINE, "A pose corrected while the map is learned")
@@ -126,7 +127,7 @@ fn learned(name: &str, title: &str) -> Table {
         .metric(Metric::mean(OnlineFields::bumps))
 }
 
-/// Returns whether a table is one of these.
+/// Returns whether a table belongs here.
 pub(super) fn has(table: &str) -> bool {
     [ONLINE, OTHERS, BY_SEED, WHEELS].contains(&table)
 }
@@ -157,7 +158,7 @@ pub(super) fn run(long: &LongRuns, job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(fields.fields()?)
 }
 
-/// Returns the score of as many guesses as records that a map of the paper is asked for.
+/// Returns the record of as many guesses as the paper's map is asked for records.
 fn guessed(seed: u64) -> OnlineFields {
     let scores = guesses::guesses(seed, ASKED).map(|score| score.by_border);
     OnlineFields {
@@ -171,7 +172,7 @@ fn tried(pitch: &Pitch, seed: u64) -> Result<OnlineFields, BoxError> {
     tried_with(pitch, OnlineSlamConfig::pioneer_2dx(), CALIBRATION, seed)
 }
 
-/// Returns the same by other settings, with wheels that are wrong by up to `calibration`.
+/// Like [`tried`], with other settings and wheels that are off by up to `calibration`.
 fn tried_with(
     pitch: &Pitch,
     config: OnlineSlamConfig,
@@ -192,7 +193,7 @@ fn tried_with(
     })
 }
 
-/// Returns the score of a look by the border of the true cell.
+/// Returns the score of a look, by the distance to the border of the true cell.
 fn score(pitch: &Pitch, look: &LookedFrom) -> f64 {
     let (cells, size) = (pitch.cells(), pitch.cells().size());
     let off = look.corrected.position - cells.bounds().min;
@@ -221,7 +222,7 @@ fn trajectory(run: &OnlineRun, position: impl Fn(&LookedFrom) -> Point) -> Onlin
     }
 }
 
-/// Returns the root-mean-square distance from the truth, m.
+/// Returns the root-mean-square error, m.
 fn error(looks: &[LookedFrom], position: impl Fn(&LookedFrom) -> Point) -> f64 {
     let off = |look: &LookedFrom| (position(look) - look.truth.position).norm_squared();
     let sum: f64 = looks.iter().map(off).sum();
@@ -229,7 +230,7 @@ fn error(looks: &[LookedFrom], position: impl Fn(&LookedFrom) -> Point) -> f64 {
 }
 
 impl LongRuns {
-    /// Returns the long run of a job's number, which is made once.
+    /// Returns the long run with a job's number. Each is made once.
     fn run(&self, job: &Job<'_>) -> Result<Arc<OnlineRun>, BoxError> {
         let shared = {
             let mut started = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -249,7 +250,7 @@ impl LongRuns {
     }
 }
 
-/// Returns how the error grows with the way.
+/// Returns the figure of the error over the driven way.
 pub(super) fn figures(runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let error = Axis::log("error, m");
     let mut chart = Chart::new(Axis::linear("way, m").from_zero(), error);

@@ -1,4 +1,4 @@
-//! Table 3.1: where the searches end.
+//! Table 3.1: the parameters at which the searches end.
 
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 
@@ -10,15 +10,15 @@ use super::sets::SETS;
 pub(super) const NAME: &str = "3.1";
 
 record! {
-    /// End of a search.
+    /// The end of a search.
     struct OptimumRun {
-        /// Value of the parameter at the search's last map, or `None` of a weight that does not
-        /// count.
+        /// Value of the parameter at the search's last map; no value for a weight that has no
+        /// effect.
         value: Option<f64> => neither("value").at_least(0).decimals(3),
     }
 }
 
-/// Returns the table of as many whole searches as `runs` of each set make.
+/// Returns the table. It has as many searches as `runs` of each set complete.
 pub(super) fn table(runs: u32) -> Table {
     let searches = SETS.len() as u32 * (runs / MAPS);
     let rows = TABLE_3_1.iter().map(|parameter| {
@@ -38,12 +38,12 @@ pub(super) fn table(runs: u32) -> Table {
         ))
 }
 
-/// Returns the set and the number of the search that a run looks at.
+/// Returns the set and the number of the search that a run uses.
 pub(super) const fn search_of(job: &Job<'_>) -> (usize, u32) {
     (job.run as usize % SETS.len(), job.run / SETS.len() as u32)
 }
 
-/// Tells the parameter of a row at the end of a search.
+/// Returns the value of a row's parameter at the end of a search.
 pub(super) fn run(searches: &Searches, job: &Job<'_>) -> Result<Fields, BoxError> {
     let row = TABLE_3_1
         .iter()

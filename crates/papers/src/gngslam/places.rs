@@ -1,4 +1,4 @@
-//! The records of the pitch and their features, gathered when they are needed first.
+//! The records of the pitch and their features, gathered when they are first needed.
 
 use std::sync::OnceLock;
 
@@ -13,7 +13,7 @@ use super::sets::{IMAGES, Source, Stretch};
 /// The paper's number of records.
 const RECORDS: usize = 1006;
 
-/// Images are stored as coordinates in their span, with nothing left out.
+/// Form of the images: coordinates in their span, with nothing left out.
 const FORM: ImageForm = ImageForm::Span { left_out: 0.0 };
 
 /// One data run of the robot: "for the experiments, one data run was used".
@@ -22,7 +22,7 @@ pub(super) struct Places {
     seed: u64,
     source: Source,
     gathered: Once<Gathered>,
-    /// By image.
+    /// Tables of features, by image.
     tables: [Once<FeatureTable>; IMAGES.len()],
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Config {
     robot: Pioneer2dxConfig,
 }
 
-/// A value made once, or the reason why it could not be made.
+/// A value that is made once, or the reason why it could not be made.
 type Once<T> = OnceLock<Result<T, String>>;
 
 fn once<T>(cell: &Once<T>, make: impl FnOnce() -> Result<T, BoxError>) -> Result<&T, BoxError> {
@@ -59,7 +59,7 @@ impl Places {
         }
     }
 
-    /// Returns what the records depend on but the seed.
+    /// Returns what the records depend on, except the seed.
     pub(super) fn config(&self) -> Result<Config, BoxError> {
         let pitch = Pitch::paper()?;
         Ok(Config {
@@ -84,7 +84,7 @@ impl Places {
         Ok(self.gathered()?.data.records.len())
     }
 
-    /// Returns the features of all records with the image of a place among [`IMAGES`].
+    /// Returns the features of all records, with the image of this index among [`IMAGES`].
     pub(super) fn table(&self, image: usize) -> Result<&FeatureTable, BoxError> {
         once(&self.tables[image], || {
             let records = self.gathered()?.data.records.iter();
@@ -95,7 +95,7 @@ impl Places {
         })
     }
 
-    /// Returns who scores maps of these records.
+    /// Returns the scorer for maps of these records.
     pub(super) fn scorer(&self, stretch: Stretch) -> Result<PlaceScorer, BoxError> {
         let Gathered { pitch, data } = self.gathered()?;
         let scorer = PlaceScorer::paper(data, pitch);

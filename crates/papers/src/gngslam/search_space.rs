@@ -1,13 +1,13 @@
-//! Table 3.1: the parameters of a place map and where they are searched for.
+//! Table 3.1: the parameters of a place map and their search spaces.
 
 use rand::{Rng, RngExt};
 use tolman_maps::place_map::{FeatureWeights, PlaceMapConfig};
 use tolman_quantizers::GngConfig;
 
-/// One parameter.
+/// A parameter.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parameter {
-    /// The name it has in the paper.
+    /// Its name in the paper.
     pub(super) name: &'static str,
     /// Its search space.
     pub(super) space: (f64, f64),
@@ -40,7 +40,7 @@ pub(super) const TABLE_3_1: [Parameter; COUNT] = [
     parameter("w_sonar", (0.0, 0.5), (0.0, 1.0)),
 ];
 
-/// λ and ε_b among the parameters.
+/// Indices of λ and ε_b among the parameters.
 pub(super) const LAMBDA: usize = 1;
 pub(super) const WINNER_RATE: usize = 5;
 
@@ -49,7 +49,7 @@ pub(super) const WINNER_RATE: usize = 5;
 pub(super) struct Parameters(pub(super) [f64; COUNT]);
 
 impl Parameters {
-    /// Draws values from anywhere in the search space.
+    /// Draws values from the whole search space.
     pub(super) fn anywhere(rng: &mut impl Rng) -> Self {
         Self(TABLE_3_1.map(|parameter| {
             let (low, high) = parameter.space;
@@ -57,8 +57,8 @@ impl Parameters {
         }))
     }
 
-    /// Draws values from a window around these, `share` of the search space wide and cut off where
-    /// that ends.
+    /// Draws values from a window around these. Its width is `share` of the search space, and it is
+    /// cut off at the ends.
     pub(super) fn near(&self, share: f64, rng: &mut impl Rng) -> Self {
         let mut drawn = *self;
         for (value, parameter) in drawn.0.iter_mut().zip(TABLE_3_1) {
@@ -69,13 +69,13 @@ impl Parameters {
         drawn
     }
 
-    /// Returns the same values with another one for a parameter.
+    /// Returns the same values with another one for `parameter`.
     pub(super) fn with(mut self, parameter: usize, value: f64) -> Self {
         self.0[parameter] = value;
         self
     }
 
-    /// Returns the map's configuration; counts are rounded. The sonar has weight 0 if it is not a
+    /// Returns the map's configuration, with rounded counts. The sonar has weight 0 if it is not a
     /// feature.
     pub(super) fn config(&self, with_sonar: bool) -> PlaceMapConfig {
         let [

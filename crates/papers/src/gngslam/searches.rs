@@ -1,4 +1,5 @@
-//! All searches for parameters, kept while the experiment runs: a map follows from those before it.
+//! All searches for parameters. They are kept while the experiment runs, because each map depends
+//! on those before it.
 
 use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
@@ -15,8 +16,8 @@ use super::places::Places;
 use super::search_space::Parameters;
 use super::sets::{SETTINGS, SOURCES, Setting, settings};
 
-/// Maps of a search: the paper's n. Runs 0 to 99 of a row are its first search, runs 100 to 199 its
-/// second, and so on.
+/// Number of maps of a search: the paper's n. Runs 0 to 99 of a row are its first search, runs 100
+/// to 199 its second, and so on.
 pub(super) const MAPS: u32 = 100;
 
 /// The searches of all rows.
@@ -24,19 +25,19 @@ pub(super) const MAPS: u32 = 100;
 pub(super) struct Searches {
     /// The master seed.
     seed: u64,
-    /// By source.
+    /// Records by source.
     places: [Places; SOURCES.len()],
-    /// By row and number. Whoever needs a search waits for who is at it.
+    /// Searches by row and number. A caller waits while another one works on the search it needs.
     started: Mutex<BTreeMap<(usize, u32), Shared>>,
 }
 
 type Shared = Arc<Mutex<Annealing<Learned>>>;
 
-/// Result of a map.
+/// A learned map and its scores.
 #[derive(Clone, Copy, Debug)]
 struct Learned {
     nodes: usize,
-    /// `None` of a useless map.
+    /// Scores; `None` for a useless map.
     scores: Option<Scores>,
 }
 
@@ -57,7 +58,7 @@ impl Searches {
         }
     }
 
-    /// Returns where the records of a row come from.
+    /// Returns the records of a row.
     pub(super) fn places(&self, setting: &Setting) -> &Places {
         &self.places[setting.source]
     }
@@ -88,7 +89,7 @@ impl Searches {
         Arc::clone(search.or_insert_with(|| Arc::new(Mutex::new(Annealing::new(MAPS)))))
     }
 
-    /// Learns a map and scores it.
+    /// Learns a map and returns it with its scores.
     fn scored(
         &self,
         setting: &Setting,
@@ -137,8 +138,8 @@ fn record(tried: &Tried<Learned>) -> MapRun {
     }
 }
 
-/// Returns one of the streams of random numbers of a run: 0 for parameters, 1 for learning, 2 for
-/// the records that are asked about.
+/// Returns a stream of random numbers of a run: 0 for parameters, 1 for learning, 2 for the records
+/// that are asked about.
 fn stream(seed: u64, number: u64) -> ChaCha8Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(number);

@@ -1,4 +1,4 @@
-//! The rows of Table 4.1, and variants of its first.
+//! The rows of Table 4.1, and variants of its first row.
 
 use tolman_maps::place_map::{ColourSpace, FeatureScaling, ImageFeature};
 
@@ -6,22 +6,22 @@ use tolman_maps::place_map::{ColourSpace, FeatureScaling, ImageFeature};
 pub(super) const TABLE: &str = "4.1";
 pub(super) const VARIANTS: &str = "variants";
 
-/// The row of guesses.
+/// Name of the row of guesses.
 pub(super) const RANDOM: &str = "random";
 
-/// The paper's mean score of guesses.
+/// Mean score of guesses in the paper.
 pub(super) const RANDOM_SCORE: f64 = 0.175;
 
-/// One set of features.
+/// A set of features.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Set {
-    /// The name of its row.
+    /// Name of its row.
     pub(super) row: &'static str,
     image: ImageFeature,
     pub(super) with_sonar: bool,
-    /// The paper's mean score.
+    /// Mean score in the paper.
     pub(super) score: f64,
-    /// The paper's number of maps with a score.
+    /// Number of maps with a score in the paper.
     pub(super) samples: u32,
 }
 
@@ -29,8 +29,7 @@ const SMALL_HSV: ImageFeature = ImageFeature::small(ColourSpace::Hsv);
 const SMALL_RGB: ImageFeature = ImageFeature::small(ColourSpace::Rgb);
 const LARGE_HSV: ImageFeature = ImageFeature::large(ColourSpace::Hsv);
 
-/// The images of the sets, and so the tables of features: a set without sonar is one with a weight
-/// of 0.
+/// The images of the sets, one for each table of features. A set without sonar has weight 0 for it.
 pub(super) const IMAGES: [ImageFeature; 3] = [SMALL_HSV, SMALL_RGB, LARGE_HSV];
 
 /// Sets 1 to 6.
@@ -60,7 +59,7 @@ const fn set(
 }
 
 impl Set {
-    /// Returns the place of its image among [`IMAGES`].
+    /// Returns the index of its image among [`IMAGES`].
     pub(super) fn image(&self) -> usize {
         let place = IMAGES.iter().position(|image| *image == self.image);
         place.unwrap_or(0)
@@ -75,8 +74,8 @@ pub(super) struct Source {
     pub(super) scaling: FeatureScaling,
 }
 
-/// Wheels that slip by 2 % a step, and count rightly but for that. The paper says that its odometry
-/// "suffers from an accumulated noise", not how much.
+/// Records with wheels that slip by 2 % a step and otherwise count rightly. The paper says only
+/// that its odometry "suffers from an accumulated noise".
 const PAPER: Source = Source {
     calibration: 0.0,
     scaling: FeatureScaling::Group,
@@ -104,25 +103,25 @@ pub(super) const SOURCES: [Source; 4] = [
 pub(super) enum Stretch {
     /// The cells where records were taken.
     Visited,
-    /// All cells.
+    /// All cells of the field.
     Field,
 }
 
-/// A row whose maps are learned.
+/// A row with learned maps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Setting {
     pub(super) table: &'static str,
     pub(super) row: &'static str,
     pub(super) set: Set,
-    /// Its place among [`SOURCES`].
+    /// Index among [`SOURCES`].
     pub(super) source: usize,
     pub(super) stretch: Stretch,
 }
 
-/// Number of rows with maps.
+/// Number of rows with learned maps.
 pub(super) const SETTINGS: usize = 10;
 
-/// Returns all rows whose maps are learned, those of Table 4.1 first.
+/// Returns all rows with learned maps, those of Table 4.1 first.
 pub(super) const fn settings() -> [Setting; SETTINGS] {
     [
         of_paper(SETS[0]),

@@ -1,4 +1,5 @@
-//! The paper's comparisons in words (section 3.2): the ways to search a known maze, and Q-learning.
+//! Comparisons that the paper only describes (section 3.2): ways to search a known maze, and
+//! Q-learning.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -16,9 +17,9 @@ pub(super) const PLANNERS: &str = "planners";
 /// The table of Q-learning.
 pub(super) const Q_LEARNING: &str = "q-learning";
 
-/// When to give up on Q-learning, steps.
+/// Maximum number of steps of Q-learning.
 const MOST_STEPS: u32 = 1_000_000;
-/// Number of steps between two tests of what it has learned.
+/// Number of steps between two tests of what was learned.
 const LOOK: u32 = 100;
 
 const ROWS: [&str; 4] = ["breadth-first", "Dijkstra", "A*", "best-first"];
@@ -26,9 +27,9 @@ const ROWS: [&str; 4] = ["breadth-first", "Dijkstra", "A*", "best-first"];
 record! {
     /// A search in a known maze.
     struct PlannerRun {
-        /// Steps from cell to cell of the path found.
+        /// Length of the path that was found, in steps from cell to cell.
         path_cells: u32 => lower("path").unit("cells").at_least(1),
-        /// Cells whose neighbours were looked at, where the search counts them.
+        /// Number of cells whose neighbours were listed, if the search counts them.
         expanded: Option<u32> => lower("expanded").unit("cells"),
     }
 }
@@ -37,11 +38,11 @@ record! {
     /// Q-learning in a known maze.
     #[check(LearningRun::relations)]
     struct LearningRun {
-        /// Whether a shortest path was learned within the time of a mouse.
+        /// Whether a shortest path was learned within a mouse's time limit.
         learned_in_time: bool => higher("learned in time"),
         /// Whether a shortest path was learned at all.
         learned: bool => higher("learned"),
-        /// Steps until a shortest path was learned.
+        /// Number of steps until a shortest path was learned.
         steps: Option<u32> => lower("steps to learn").at_most(MOST_STEPS),
     }
 }
@@ -55,7 +56,7 @@ impl LearningRun {
     }
 }
 
-/// Returns the tables, where the paper's mazes are.
+/// Returns the tables, if the paper's mazes are here.
 pub(super) fn tables(paper: &[PaperTable]) -> Vec<Table> {
     let mazes = mazes(paper);
     if mazes.is_empty() {
@@ -94,7 +95,7 @@ fn mazes(paper: &[PaperTable]) -> Vec<(&'static str, &Maze)> {
         .collect()
 }
 
-/// Cells as nodes, by [`tolman_maze::Grid::index`].
+/// The cells of a maze as nodes, by [`tolman_maze::Grid::index`].
 struct Cells<'a>(&'a Maze);
 
 impl Graph for Cells<'_> {
@@ -113,7 +114,7 @@ impl Graph for Cells<'_> {
     }
 }
 
-/// Searches in one maze.
+/// Plays a run: searches one maze.
 pub(super) fn plan(paper: &[PaperTable], job: &Job<'_>) -> Result<Fields, BoxError> {
     let mazes = mazes(paper);
     let (_, maze) = mazes.get(job.run as usize).ok_or("there is no such maze")?;
@@ -150,7 +151,7 @@ pub(super) fn plan(paper: &[PaperTable], job: &Job<'_>) -> Result<Fields, BoxErr
     Ok(run.fields()?)
 }
 
-/// Learns one maze.
+/// Plays a run: learns one maze.
 pub(super) fn learn(paper: &[PaperTable], job: &Job<'_>) -> Result<Fields, BoxError> {
     let mut mazes = mazes(paper).into_iter();
     let found = mazes.find(|(name, _)| *name == job.row);

@@ -1,4 +1,4 @@
-//! The competition model: sets of mazes explored for the speed run. Not in the paper.
+//! The competition model, which is not in the paper: sets of mazes explored for the speed run.
 
 use tolman_maze::Maze;
 use tolman_planners::speed_run::SpeedRunConfig;
@@ -17,9 +17,9 @@ record! {
     struct CompetitionRun {
         /// Name of the maze.
         maze: String => neither("maze"),
-        /// Whether the known speed run is proved to be the fastest.
+        /// Whether the known speed run is proven to be the fastest.
         certified: bool => higher("certified"),
-        /// Cells driven until the mouse is back at the start.
+        /// Number of cells driven until the mouse is back at the start.
         cells: Option<u32> => lower("cells").at_least(2),
         /// Time of the speed run.
         run_ms: Option<u32> => neither("speed run").unit("ms"),
@@ -40,15 +40,16 @@ impl CompetitionRun {
     }
 }
 
-/// Returns the table; a run is a maze of the set.
+/// Returns the table; each run is a maze of the set.
 pub(super) fn table(sets: &[MazeSet]) -> Table {
     Table::of::<CompetitionRun>(COMPETITION, "Explorations for the speed run")
         .metrics_from(CompetitionRun::certified)
         .rows(sets.iter().map(MazeSet::row))
         .note(
-            "One run a maze. Cells are all that the mouse drives from the start until it is back there with a speed \
-             run that is certified to be the fastest; it has been at a goal then. Sets with mazes of more than 16 cells \
-             a side are driven as half-size ones, all others as classic ones.",
+            "One run per maze. Cells are all that the mouse drives from the start until it is back \
+             there with a speed run that is certified to be the fastest. It has been at a goal then. \
+             Sets with mazes of more than 16 cells a side are driven as half-size ones, all others \
+             as classic ones.",
         )
 }
 
@@ -62,7 +63,7 @@ fn drive(set: &MazeSet) -> SpeedRunConfig {
     }
 }
 
-/// Explores one maze of a set.
+/// Explores one maze of a set and returns the record.
 pub(super) fn run(set: &MazeSet, number: u32) -> Result<Fields, BoxError> {
     let (name, maze) = set.maze(number)?;
     let run = CompetitionRun {
@@ -76,7 +77,7 @@ pub(super) fn run(set: &MazeSet, number: u32) -> Result<Fields, BoxError> {
             run_ms: Some(exploration.certificate.time_ms),
             ..run
         },
-        // Such as a start that is open to the sides only.
+        // An example is a start that is open only to the sides.
         Err(ExploreError::NoWay { .. }) => run,
         Err(error) => return Err(error.into()),
     };

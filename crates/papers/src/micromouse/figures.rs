@@ -19,7 +19,7 @@ use tolman_systems::micromouse::{
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
 
-/// The table whose maze the pictures are of, as in the paper.
+/// Table whose maze is shown, as in the paper.
 const TABLE: &str = "2";
 
 pub(super) fn of(experiment: &Micromouse, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
@@ -35,7 +35,7 @@ pub(super) fn of(experiment: &Micromouse, runs: &[Run]) -> Result<Vec<Figure>, B
         uncertainty(&known_after(maze, &mut target()?, 1)?, 1),
         uncertainty(&known_after(maze, &mut target()?, 60)?, 60),
     ];
-    // The first counter search of the table, as it was played.
+    // The first counter search of the table, with its original seed.
     let seed = runs.iter().find(|run| {
         run.table == TABLE
             && table
@@ -97,7 +97,7 @@ fn dead_ends(map: &WallMap<SIDE>) -> Figure {
         .table(TABLE)
 }
 
-/// Returns the moment in our search when the open path and the closed path differ most.
+/// Returns the moment of our search at which open path and closed path differ most.
 fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     let Some((start, _)) = maze.start() else {
         return Ok(None);
@@ -133,7 +133,7 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     Ok(None)
 }
 
-/// Returns the stops of the best run, if there is one.
+/// Returns the stops of the best run; `None` if there is no run.
 fn run(
     map: &WallMap<SIDE>,
     unknown: Unknown,

@@ -1,9 +1,9 @@
 //! The micromouse of "Plot and Navigate a Virtual Maze" (Wang): its tables 1 to 4, and our search
 //! on whole sets of mazes.
 //!
-//! Random searches of tables 1 to 3 have as many runs as the caller asks for. All others make the
-//! same run each time and have one. In the tables `sets` and `competition` a run is a maze of the
-//! set. The latter is of the competition model, which the paper does not have. The table `noise` is
+//! Random searches of tables 1 to 3 have as many runs as the caller asks for. All other rows are
+//! deterministic and have one run. In the tables `sets` and `competition` a run is a maze of the
+//! set. The latter uses the competition model, which the paper does not have. The table `noise` is
 //! the paper's outlook.
 
 mod comparisons;
@@ -50,7 +50,7 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// The experiment, ready to run.
+/// The prepared experiment.
 #[derive(Debug)]
 struct Micromouse {
     paper: Vec<PaperTable>,
@@ -67,13 +67,13 @@ struct Config {
     mazes: BTreeMap<String, String>,
 }
 
-/// The name of the table of sets.
+/// Name of the table of sets.
 const SETS: &str = "sets";
 
-/// The same, every stop chosen by the base policy.
+/// Name of the same table with every stop chosen by the base policy.
 const WITHOUT_ROLLOUTS: &str = "sets-without-rollouts";
 
-/// Reads the mazes and sets the tables up.
+/// Returns the experiment with its mazes and tables.
 ///
 /// # Errors
 /// If a maze that the caller names cannot be read, or is too large.
@@ -140,33 +140,33 @@ record! {
     struct MouseRun {
         /// Whether the mouse reached the goal in both runs within its steps.
         finished: bool => higher("finished"),
-        /// Whether the second run is proved to be the best.
+        /// Whether the second run is proven to be the best.
         certified: bool => higher("certified"),
-        /// Steps of the best second run.
+        /// Number of steps of the best second run.
         optimum: u32 => neither("optimum").unit("steps"),
-        /// Steps of the first run.
+        /// Number of steps of the first run.
         run_1: Option<u32> => lower("first run").unit("steps"),
-        /// Steps of the second run.
+        /// Number of steps of the second run.
         move_length: Option<u32> => lower("move length").tolerance(MOVES),
     }
 }
 
 record! {
-    /// The same in a maze of the paper.
+    /// Both runs in a maze of the paper.
     #[check(PaperRun::relations)]
     struct PaperRun {
         ..run: MouseRun,
-        /// A thirtieth of the first run's steps and all of the second's.
+        /// A thirtieth of the first run's steps plus those of the second run.
         score: Option<f64> => lower("score").tolerance(MOUSE_SCORE),
     }
 }
 
 record! {
-    /// The same in a maze of a set.
+    /// Both runs in a maze of a set.
     #[check(SetRun::relations)]
     struct SetRun {
         ..run: MouseRun,
-        /// Score above that of a mouse that knows the maze.
+        /// Score minus that of a mouse that knows the maze.
         score: Option<f64> => lower("score − floor"),
         /// Name of the maze.
         maze: String => neither("maze"),
@@ -200,7 +200,7 @@ impl MouseRun {
         require(best, "what is certified is the optimum")
     }
 
-    /// Refuses a score that, with `subtracted`, is not that of the runs.
+    /// Refuses a score that, after adding `subtracted`, does not follow from the runs.
     fn check_score(&self, score: Option<f64>, subtracted: f64) -> Result<(), String> {
         let finished = "a run that finished has a score, another has none";
         require(self.finished == score.is_some(), finished)?;
@@ -246,14 +246,14 @@ impl Micromouse {
         set.ok_or_else(|| format!("there is no set {name:?}").into())
     }
 
-    /// Returns a run in a maze of a set.
+    /// Plays a run in a maze of a set.
     fn run_on_set(&self, job: &Job<'_>, searcher: Searcher) -> Result<Fields, BoxError> {
         let (maze, walls) = self.set(job.row)?.maze(job.run)?;
         let judgement = try_on(walls, searcher, job.seed)?.1;
         Ok(SetRun::of(&judgement, maze).fields()?)
     }
 
-    /// Returns a run in the maze of a table of the paper.
+    /// Plays a run in the maze of a table of the paper.
     fn run_of_paper(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let table = self.paper.iter().find(|table| table.name == job.table);
         let row = table.and_then(|table| table.row(job.row));
@@ -262,7 +262,8 @@ impl Micromouse {
     }
 }
 
-/// Refuses a score that is not that of its runs, and runs that no mouse has the time for.
+/// Refuses a score that does not follow from its runs, and runs that take longer than a mouse's
+/// time limit.
 fn check_score(run_1: Option<u32>, run_2: Option<u32>, score: Option<f64>) -> Result<(), String> {
     let (Some(run_1), Some(run_2), Some(score)) = (run_1, run_2, score) else {
         return Ok(());

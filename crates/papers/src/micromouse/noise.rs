@@ -1,5 +1,5 @@
-//! The paper's outlook (section 6): the same search, without rollouts, with thick walls, wheels
-//! that slip and noisy sensors.
+//! The paper's outlook (section 6): the same search, without rollouts, with thick walls, slipping
+//! wheels and noisy sensors.
 
 use tolman_maze::{Braided, Maze};
 
@@ -13,7 +13,7 @@ use tolman_systems::stream;
 /// The name of the table.
 pub(super) const NOISE: &str = "noise";
 
-/// Multiples of ordinary noise.
+/// Noise levels, as multiples of ordinary noise.
 const LEVELS: [f64; 7] = [0.0, 0.25, 1.0, 2.0, 4.0, 5.0, 6.0];
 
 const LOCALIZATIONS: [(PoseSource, &str); 2] = [
@@ -21,33 +21,33 @@ const LOCALIZATIONS: [(PoseSource, &str); 2] = [
     (PoseSource::DeadReckoning, "12x12, dead reckoning"),
 ];
 
-/// Levels at which larger mazes are tried, by particle filter.
+/// Noise levels at which larger mazes are tried, with the particle filter.
 const LARGER: [u32; 4] = [1, 2, 4, 6];
 
-/// Mazes of each row, the same in all of a size, unless the caller asks for more or fewer.
+/// Default number of mazes of each row, the same for all rows of a size.
 const MAZES: u32 = 200;
 
-/// The same for a first look.
+/// Number of mazes for a first look.
 const QUICK: u32 = 20;
 
-/// The stream of a run's seed that its maze is drawn by.
+/// Stream of a run's seed from which its maze is drawn.
 const MAZE_STREAM: u64 = 41;
 
 record! {
-    /// A maze that the mouse solved, or not, among thick walls.
+    /// A mouse's runs in a maze with thick walls.
     #[check(NoiseRun::relations)]
     struct NoiseRun {
         /// Time steps in which the mouse touched a wall.
         bumps: u32 => lower("bumps"),
         /// Whether the mouse arrived in both runs.
         arrived: bool => higher("arrived"),
-        /// Steps of the first run, where it arrived.
+        /// Number of steps of the first run, if it arrived.
         run_1: Option<u32> => lower("first run").unit("steps"),
-        /// Steps of the second run, where it arrived.
+        /// Number of steps of the second run, if it arrived.
         run_2: Option<u32> => lower("second run").unit("steps"),
-        /// A thirtieth of the first run's steps and all of the second's.
+        /// A thirtieth of the first run's steps plus those of the second run.
         score: Option<f64> => lower("score"),
-        /// Mean distance between where the mouse thinks it is and where it is, at stops.
+        /// Mean distance between the believed and the true position at stops.
         error_mm: f64 => lower("error at stops").unit("mm").at_least(0),
     }
 }
@@ -71,10 +71,11 @@ pub(super) fn table(options: &Options) -> Table {
         .metrics_from(NoiseRun::arrived)
         .rows(mice().map(|mouse| Row::new(mouse.row).runs(runs)))
         .note(
-            "One run a maze, half-braided, drawn by the run's seed, on the continuous simulator. Rows are named by its cells and by how many times \
-             ordinary noise there is; without more the mouse has a particle filter. Noise 1: wheels slip by up to \
-             10 % and drift by 0.2 rad/m; three range sensors are off by 3 mm and 2 %. Steps and score are of the runs that \
-             arrived, the error is where the mouse thinks it is against where it is.",
+            "One run per maze, half-braided, drawn by the run's seed, on the continuous simulator. A \
+             row's name has the maze's cells and the multiple of ordinary noise. Unless it says \
+             otherwise the mouse has a particle filter. Noise 1: wheels slip by up to 10 % and drift \
+             by 0.2 rad/m; three range sensors are off by 3 mm and 2 %. Steps and score are of the \
+             runs that arrived. The error is the distance between believed and true position.",
         )
 }
 
@@ -85,7 +86,7 @@ fn row(name: &str, level: f64) -> String {
 /// A mouse, and the mazes that it is sent into.
 struct Mouse {
     row: String,
-    /// Cells a side.
+    /// Number of cells along a side.
     side: u16,
     config: NoisyConfig,
 }
@@ -118,7 +119,7 @@ fn maze(seed: u64, side: u16) -> Result<Maze, BoxError> {
     Ok(maze)
 }
 
-/// Returns one maze.
+/// Plays a run in one maze.
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let mouse = mice()
         .find(|mouse| mouse.row == job.row)
@@ -139,7 +140,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(run.fields()?)
 }
 
-/// Returns how often the mouse arrives, by noise.
+/// Returns the figure of how often the mouse arrives, by noise.
 pub(super) fn figure(runs: &[Run]) -> Figure {
     let mut chart = Chart::new(
         Axis::linear("noise").from_zero(),

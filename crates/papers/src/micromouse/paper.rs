@@ -1,4 +1,4 @@
-//! The paper's tables: which maze, which search, which values.
+//! The paper's tables: their mazes, searches and values.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::{data, maze_file};
 use tolman_experiment::BoxError;
 use tolman_systems::micromouse::Searcher;
 
-/// One of the paper's tables.
+/// A table of the paper.
 #[derive(Debug)]
 pub(super) struct PaperTable {
     /// Its number.
@@ -24,9 +24,9 @@ struct PaperRow {
     name: &'static str,
     searcher: Searcher,
     maze: Option<Maze>,
-    /// Its file below the folder of data.
+    /// Path of its maze below the folder of external data.
     file: &'static str,
-    /// Move length and average score.
+    /// Move length and average score in the paper.
     paper: Option<(f64, f64)>,
 }
 
@@ -54,7 +54,7 @@ const COUNTER_50: &str = "counter_search (at least 50%)";
 const COUNTER_75: &str = "counter_search (at least 75%)";
 const TARGET: &str = "target_search";
 const OURS: &str = "certifying search";
-/// Not in the paper's tables; section 3.2 says that it "does not work well".
+/// Row that is not in the paper's tables; section 3.2 says that it "does not work well".
 const RANDOM: &str = "random exploration";
 
 const MAZE_1: &str = "udacity/test_maze_01.txt";

@@ -1,4 +1,4 @@
-//! Sets of mazes: those of others where they are found, ours, and those the caller names.
+//! Sets of mazes: external ones if they are here, our own, and those that the caller names.
 
 use std::path::{Path, PathBuf};
 
@@ -12,18 +12,18 @@ use tolman_experiment::files::files_in;
 use tolman_experiment::{BoxError, Row};
 use tolman_systems::micromouse::SIDE;
 
-/// Mazes under one name.
+/// A set of mazes with a name.
 #[derive(Debug)]
 pub(super) struct MazeSet {
-    /// The name of its row.
+    /// Name of its row.
     pub(super) name: String,
-    /// Names of files and mazes, by name.
+    /// Mazes with the names of their files, sorted by name.
     pub(super) mazes: Vec<(String, Maze)>,
-    /// Number of files left out, by the reason.
+    /// Numbers of files left out, by reason.
     pub(super) left_out: LeftOut,
 }
 
-/// Files of a folder that no mouse can have a score in.
+/// Files of a folder in which no mouse can have a score.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct LeftOut {
     no_maze: usize,
@@ -41,7 +41,7 @@ impl MazeSet {
         }
     }
 
-    /// Mazes with a few loops, the same ones every time.
+    /// Returns our mazes with a few loops, the same ones every time.
     fn ours() -> Result<Self, BoxError> {
         let braided = Braided {
             width: 16,
@@ -56,7 +56,7 @@ impl MazeSet {
         Ok(Self::of("braided 16".to_owned(), mazes))
     }
 
-    /// Returns all mazes of a folder that can be solved and fit a mouse, by name.
+    /// Returns all mazes of a folder that can be solved and fit a mouse, sorted by name.
     fn in_folder(name: String, folder: &Path) -> Result<Self, BoxError> {
         let files = files_in(folder)
             .map_err(|error| format!("the folder {} cannot be read: {error}", folder.display()))?;
@@ -73,8 +73,8 @@ impl MazeSet {
             match tolman_maze::read(&text) {
                 Ok(file) if fits(&file.maze) => set.mazes.push((maze_file::stem(path), file.maze)),
                 Ok(_) => set.left_out.no_fit += 1,
-                // A maze nobody can solve is in many collections, as a test of the mouse; it has no
-                // score.
+                // Many collections have a maze without a way to the goal, as a test of the mouse.
+                // It has no score.
                 Err(_) if tolman_maze::parse(&text).is_ok() => set.left_out.no_way += 1,
                 Err(_) => set.left_out.no_maze += 1,
             }
@@ -93,7 +93,7 @@ impl MazeSet {
         maze.ok_or_else(|| "there is no such run".into())
     }
 
-    /// Returns what was left out, for people, or `None` if nothing was.
+    /// Returns a sentence about what was left out; `None` if nothing was.
     pub(super) fn complaint(&self) -> Option<String> {
         let LeftOut {
             no_maze,
@@ -124,10 +124,10 @@ impl MazeSet {
     }
 }
 
-/// The set that is for the competition model alone.
+/// Name of the set that is only for the competition model.
 pub(super) const HALF_SIZE: &str = "half-size";
 
-/// The sets of others, below the folder of data.
+/// External sets, below the folder of external data.
 const OTHERS: [(&str, &str); 7] = [
     ("classic", "mazes/classic"),
     (HALF_SIZE, "mazes/halfsize"),
@@ -138,7 +138,7 @@ const OTHERS: [(&str, &str); 7] = [
     ("generated 20", "mazes/generated/20"),
 ];
 
-/// Number of mazes that we make ourselves.
+/// Number of our own mazes.
 const OURS: u64 = 20;
 
 pub(super) fn all(folder: Option<&Path>, named: &[PathBuf]) -> Result<Vec<MazeSet>, BoxError> {

@@ -1,5 +1,5 @@
-//! The classic set, three seeds a maze, by when the mouse stops to explore: with a proof, or when
-//! looking on no longer pays.
+//! The classic set, with three seeds per maze, for two ways to stop exploring: with a proof, or
+//! when further looks no longer pay.
 
 use tolman_arena::micromouse::{Judgement, MouseTrial, brief};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table};
@@ -10,7 +10,7 @@ use tolman_systems::micromouse::{Certify, Driver, MouseError, RunTwo, Until};
 use super::SetRun;
 use super::sets::MazeSet;
 
-/// The set whose mazes they are.
+/// Name of the set.
 pub(super) const SET: &str = "classic";
 
 /// Number of runs in each maze, with different random numbers.
@@ -21,7 +21,7 @@ const ROWS: [(&str, Until); 2] = [
     ("classic · worth", Until::Worth),
 ];
 
-/// Adds the rows, where the set is.
+/// Adds the rows, if the set is here.
 pub(super) fn rows(table: Table, sets: &[MazeSet]) -> Table {
     let Some(set) = sets.iter().find(|set| set.name == SET) else {
         return table;
@@ -35,13 +35,13 @@ pub(super) fn rows(table: Table, sets: &[MazeSet]) -> Table {
     table.rows(rows).note(note)
 }
 
-/// Returns when the mouse of a row stops, if the row says so.
+/// Returns when the mouse of a row stops; `None` for other rows.
 pub(super) fn of_row(row: &str) -> Option<Until> {
     let found = ROWS.into_iter().find(|(name, _)| *name == row);
     found.map(|(_, until)| until)
 }
 
-/// Returns one run in a maze of the set.
+/// Plays a run in a maze of the set.
 pub(super) fn run(set: &MazeSet, until: Until, job: &Job<'_>) -> Result<Fields, BoxError> {
     let count = set.mazes.len().max(1) as u32;
     let (name, maze) = set.maze(job.run % count)?;
@@ -49,7 +49,7 @@ pub(super) fn run(set: &MazeSet, until: Until, job: &Job<'_>) -> Result<Fields, 
     Ok(SetRun::of(&judgement, name).fields()?)
 }
 
-/// Returns a mouse whose random numbers follow from `seed`.
+/// Returns the judgement of a mouse whose random numbers follow from `seed`.
 fn judged(maze: &Maze, until: Until, seed: u64) -> Result<Judgement, BoxError> {
     let brief = brief(maze)?;
     let explorer = MoveExplorerConfig::tuned();

@@ -1,4 +1,4 @@
-//! Deviations of a robot or its world.
+//! How a robot or its world differs from how it is made.
 
 use tolman_arena::episode::{Lifted, random_start};
 use tolman_arena::pioneer::{ENCODER_SD, body, with_sensor_noise};
@@ -8,8 +8,8 @@ use tolman_sim::robots::{LaserPioneerConfig, StuckBeam};
 
 use crate::venue::Venue;
 
-/// Deviation of a robot or its world while the better system drives. All but the last two also hold
-/// while it learns.
+/// What differs while the better system drives. All but the last two conditions also hold while it
+/// learns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Condition {
     AsJudged,
@@ -66,8 +66,8 @@ impl Condition {
             .find(|condition| condition.name() == name)
     }
 
-    /// Returns the robot: with the noise that the better system is judged with, and what is wrong
-    /// beside.
+    /// Returns the robot: with the noise that the better system is judged with, and with this
+    /// condition's errors.
     pub(super) fn robot(self, calibrated: &LaserPioneerConfig) -> LaserPioneerConfig {
         let mut robot = with_sensor_noise(calibrated, ENCODER_SD);
         let faults = &mut robot.faults;
@@ -110,7 +110,7 @@ impl Condition {
         robot
     }
 
-    /// Returns when a run's robot is lifted and where it is put, if it is.
+    /// Returns when a run's robot is lifted and where it is put down; `None` if it is not lifted.
     pub(super) fn lifted(self, venue: &Venue, seed: u64) -> Option<Lifted> {
         (self == Self::Lifted).then(|| Lifted {
             after: LIFTED_AFTER,
@@ -118,7 +118,7 @@ impl Condition {
         })
     }
 
-    /// Returns how the door stands that was open when the robot learned.
+    /// Returns the state of the door, which was open while the robot learned.
     pub(super) const fn door(self) -> DoorState {
         match self {
             Self::DoorShut => DoorState::Shut,
@@ -127,5 +127,5 @@ impl Condition {
     }
 }
 
-/// Time steps after which a robot is lifted: about half of what it needs to the goal.
+/// Number of time steps after which a robot is lifted: about half of what it needs to the goal.
 const LIFTED_AFTER: u32 = 30;

@@ -1,4 +1,4 @@
-//! Tables 2 and 3: the brains against each other in one world.
+//! Tables 2 and 3: all brains in one world.
 
 use alloc::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -25,7 +25,7 @@ record! {
     #[check(ContestRun::relations)]
     pub(super) struct ContestRun {
         ..run: MazeRun,
-        /// Actions that take back the one before, soon after another such.
+        /// Number of actions that take back the one before, soon after another such action.
         bounces: u32 => lower("bounces"),
         /// Number of the map with which a learner navigates.
         map: Option<u32> => neither("map").at_most(MAPS - 1),
@@ -51,14 +51,14 @@ pub(super) struct ContestConfig<'a> {
     learners: BTreeMap<&'a str, LearnerConfig>,
 }
 
-/// One world, the brains that compete in it, and what they share.
+/// A world, the brains that compete in it, and what they share.
 #[derive(Debug)]
 pub(super) struct Contest {
     pub(super) venue: Venue,
     pub(super) competitors: Vec<Competitor>,
     /// Number of maps of each learner.
     pub(super) maps: u32,
-    /// Runs of each row, whatever the caller asks for.
+    /// Fixed number of runs of each row; `None` leaves it to the caller.
     runs: Option<u32>,
 }
 
@@ -67,12 +67,12 @@ pub(super) struct Contest {
 pub(super) struct Competitor {
     pub(super) row: String,
     entrant: Entrant,
-    /// The seed of each map, the same for every learner; a single one of who learns none.
+    /// Seed of each map, the same for every learner; a single one for a brain that learns none.
     seeds: Vec<u64>,
     ready: Vec<OnceLock<Ready>>,
 }
 
-/// Runs of each of the paper's rows.
+/// Number of runs of each of the paper's rows.
 const PAPER_RUNS: u32 = 25;
 
 /// The significant differences that the paper reports, by row of MSLST and other row.
@@ -91,7 +91,8 @@ impl Contest {
         Self::with_maps(venue, master_seed, MAPS, None)
     }
 
-    /// Returns the contest with 25 runs by one map, as the paper's own table must have been made.
+    /// Returns the contest with 25 runs by one map, which is how the paper's own table must have
+    /// been made.
     pub(super) fn with_one_map(venue: Venue, master_seed: u64) -> Self {
         let table = format!("{}, one map", venue.table);
         let title = format!("{}, 25 runs by one map", venue.title);
@@ -134,7 +135,7 @@ impl Contest {
     pub(super) fn table(&self) -> Table {
         let table = self.measured();
         let competitors = self.competitors.iter().filter(|one| one.entrant.competes());
-        // Of rows that do not compete nobody asks.
+        // Rows that do not compete have no tests of significance.
         let paper: &[_] = if self.venue.is_papers() {
             &PAPER_P
         } else {
@@ -169,7 +170,7 @@ impl Contest {
             .note(note)
     }
 
-    /// Returns the table with what is measured in it, without its rows.
+    /// Returns the table with its metrics, without rows.
     fn measured(&self) -> Table {
         let over = |name, agent: Agent| {
             let title = format!("steps / {}'s", agent.name());
@@ -205,7 +206,7 @@ impl Contest {
             .metric(Metric::mean(ContestRun::bounces))
     }
 
-    /// Returns what the runs depend on.
+    /// Returns the configuration that the runs depend on.
     pub(super) fn config(&self) -> ContestConfig<'_> {
         let learners = self.competitors.iter();
         let width = self.venue.course.corridor_width;
@@ -260,7 +261,7 @@ impl Contest {
         Ok((trial, ready.mind(&self.venue)?, ready))
     }
 
-    /// Returns one run and how often the robot bounced in it.
+    /// Plays one run, and returns it with its number of bounces.
     pub(super) fn episode(&self, job: &Job<'_>) -> Result<(Episode, u32), BoxError> {
         let (trial, mut mind, _) = self.cast(job)?;
         let mut bounces = Bounces::default();
@@ -272,7 +273,7 @@ impl Contest {
         Ok((episode, bounces.count))
     }
 
-    /// Returns one run as it can be watched.
+    /// Returns the replay of one run.
     pub(super) fn replay(&self, job: &Job<'_>) -> Result<Replay, BoxError> {
         let (trial, mut mind, ready) = self.cast(job)?;
         Ok(venue::replay(job, &trial, &mut mind, ready.nodes())?)
@@ -280,7 +281,7 @@ impl Contest {
 }
 
 impl Competitor {
-    /// Returns what it has learned for this run; the first caller lets it learn.
+    /// Returns what it has learned for this run. The first caller lets it learn.
     pub(super) fn ready(&self, venue: &Venue, run: u32) -> Result<&Ready, BoxError> {
         let number = run as usize % self.ready.len();
         let cell = &self.ready[number];
@@ -289,11 +290,11 @@ impl Competitor {
         }
         let seed = self.seeds[number];
         let ready = self.entrant.ready(venue, seed)?;
-        // Two threads may learn it at once; they learn the same.
+        // If two threads learn it at once, they learn the same.
         Ok(cell.get_or_init(|| ready))
     }
 
-    /// Returns map 0 of MSLST, or `None` for those that learn none.
+    /// Returns map 0 of MSLST; `None` for brains that learn none.
     pub(super) fn first_map(&self, venue: &Venue) -> Result<Option<&Learned>, BoxError> {
         if !self.entrant.learns() {
             return Ok(None);
@@ -305,8 +306,8 @@ impl Competitor {
 /// Counts how often a robot goes back and forth between two ways ("this process of bouncing between
 /// two possible routes").
 ///
-/// To turn back once is not bouncing, as every dead end requires it. An action counts if it takes
-/// back the one before it, at most [`Bounces::SOON`] completed actions after the last such.
+/// Turning back once is not bouncing: every dead end requires it. An action counts if it takes back
+/// the one before, at most [`Bounces::SOON`] completed actions after the last such action.
 #[derive(Debug, Default)]
 struct Bounces {
     last: Option<Direction>,

@@ -10,8 +10,7 @@ use tolman_systems::mslst::Learned;
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
 
-/// Returns the paper's figure 3: every model scan, north upwards, with the number of nodes that
-/// have it.
+/// Returns the paper's figure 3: every model scan, with north up, and the number of its nodes.
 #[must_use]
 pub fn states(learned: &Learned) -> Drawing {
     let mut tiles = Tiles::new(6);
@@ -25,11 +24,11 @@ pub fn states(learned: &Learned) -> Drawing {
     tiles.drawing(format!("The {count} states of a map."))
 }
 
-/// Number of actions of Phase II in the paper's picture of the graph.
+/// Number of Phase II actions in the paper's picture of the graph.
 pub const SHOWN_ACTIONS: u32 = 500;
 
-/// Returns the paper's figure 4, over the maze: each node of the first [`SHOWN_ACTIONS`] at the
-/// robot's true position when it was made. Nodes of the destination are filled.
+/// Returns the paper's figure 4, over the maze: the nodes of the first [`SHOWN_ACTIONS`] actions.
+/// Each is at the robot's true position when it was made. Nodes in the destination are filled.
 #[must_use]
 pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
     let made_by = learned.survey.made_by.iter();
@@ -39,7 +38,7 @@ pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
 }
 
 /// Returns the whole graph over the maze, each node at the robot's true position when it was made.
-/// Nodes of the destination are filled and in a colour of their own.
+/// Nodes in the destination are filled and have their own colour.
 #[must_use]
 pub fn whole_graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
     over_maze(course, learned, learned.map.graph.len(), 1.1)
@@ -57,7 +56,7 @@ fn over_maze(course: &Course, learned: &Learned, shown: usize, radius: f64) -> D
         });
     }
     for (from, node) in nodes.iter().enumerate() {
-        // Every edge is entered both ways; once is enough to draw.
+        // Every edge is stored both ways, so it is drawn only once.
         let heads = node.edges.iter().filter_map(|edge| edge.head);
         let heads = heads.map(|head| head as usize);
         for head in heads.filter(|head| (from..nodes.len()).contains(head)) {

@@ -1,4 +1,5 @@
-//! Starts from which the better system drives by one map, each beside the Unlocalized oracle.
+//! Drives of the better system from several starts by one map, each compared with the Unlocalized
+//! oracle.
 
 use alloc::sync::Arc;
 
@@ -13,12 +14,12 @@ use tolman_systems::mslst::better::{BetterMap, BetterNavigator};
 record! {
     /// A world and some starts in it.
     pub(super) struct DrivenRun {
-        /// Starts from which the destination is reached within the time limit.
+        /// Share of starts from which the destination is reached within the time limit.
         success_percent: f64 => higher("success").unit("%").percent(),
-        /// Mean time steps; a run that does not arrive counts its limit.
+        /// Mean number of time steps. A run that does not arrive counts as its limit.
         steps: f64 => lower("steps").at_least(0),
-        /// Mean time steps of the Unlocalized oracle from the same starts, whose robot is as
-        /// calibrated.
+        /// Mean number of time steps of the Unlocalized oracle from the same starts. Its robot has
+        /// the same calibration.
         oracle_steps: f64 => neither("Unlocalized oracle's steps").at_least(0),
     }
 }
@@ -40,29 +41,29 @@ impl DrivenRun {
     }
 }
 
-/// Starts by a map at least.
+/// Minimum number of starts by a map.
 const LEAST_STARTS: u32 = 5;
 
-/// Divides `runs` starts: returns the number of maps that are learned, at most `most`, and the
-/// number of starts of each.
+/// Divides `runs` starts among maps. Returns the number of maps, at most `most`, and the number of
+/// starts by each.
 pub(super) fn shared_out(runs: u32, most: u32) -> (u32, u32) {
     let maps = (runs / LEAST_STARTS).clamp(1, most);
     (maps, (runs / maps).max(LEAST_STARTS))
 }
 
-/// Who drives, where, and from how many starts.
+/// A system that drives, its world and its starts.
 pub(super) struct Driver<'a> {
     pub(super) venue: &'a Venue,
     pub(super) robot: &'a LaserPioneerConfig,
     pub(super) map: &'a Arc<BetterMap>,
     pub(super) starts: u32,
-    /// The seed of starts and noise.
+    /// Seed of starts and noise.
     pub(super) seed: u64,
 }
 
 impl Driver<'_> {
-    /// Drives from every start and returns the result. `lifted` returns for each start whether the
-    /// robot is put elsewhere on the way. `watch` gets each episode and the oracle's.
+    /// Drives from every start and returns the result. `lifted` says for each start whether the
+    /// robot is put elsewhere on the way. `watch` is called with each episode and the oracle's.
     pub(super) fn drive(
         &self,
         lifted: impl Fn(u32) -> Option<Lifted>,

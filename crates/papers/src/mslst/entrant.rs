@@ -1,4 +1,4 @@
-//! Who competes. Whoever is to stand in every table of this experiment is one more entrant here.
+//! The entrants of this experiment's tables. A new one is added here.
 
 use alloc::sync::Arc;
 
@@ -16,14 +16,14 @@ use tolman_sim::robots::LaserPioneerConfig;
 use tolman_systems::mslst::better::{BetterConfig, BetterNavigator};
 use tolman_systems::mslst::{Learned, MslstConfig, Navigator};
 
-/// Who competes.
+/// A brain that competes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Entrant {
-    /// Somebody who learns nothing before.
+    /// An agent that learns nothing before.
     Agent(Agent),
     /// MSLST, which learns a map first.
     Mslst(MslstConfig),
-    /// The better system, whose sensors err.
+    /// The better system, whose sensors have errors.
     Better,
 }
 
@@ -67,7 +67,7 @@ impl Entrant {
         }
     }
 
-    /// Returns whether it is there to be compared with the others, and is not a baseline.
+    /// Returns whether it is compared with the others: whether it is not a baseline.
     pub(super) const fn competes(self) -> bool {
         !matches!(self, Self::Agent(Agent::Oracle | Agent::UnlocalizedOracle))
     }
@@ -77,8 +77,7 @@ impl Entrant {
         !matches!(self, Self::Agent(_))
     }
 
-    /// Returns what its runs depend on beside the world, where corridors are `corridor_width` m
-    /// wide.
+    /// Returns what its runs depend on beside the world; corridors are `corridor_width` m wide.
     pub(super) fn config(self, corridor_width: f64) -> Option<LearnerConfig> {
         match self {
             Self::Agent(_) => None,
@@ -91,7 +90,7 @@ impl Entrant {
         }
     }
 
-    /// Returns the robot that it has: a better system is one that stands sensors that err.
+    /// Returns its robot. That of the better system has sensors with errors.
     pub(super) fn robot(self, venue: &Venue) -> LaserPioneerConfig {
         match self {
             Self::Agent(_) | Self::Mslst(_) => venue.robot.clone(),
@@ -99,7 +98,7 @@ impl Entrant {
         }
     }
 
-    /// Lets it learn in a world, by chance of this seed.
+    /// Lets it learn in a world; `seed` seeds all random numbers.
     pub(super) fn ready(self, venue: &Venue, seed: u64) -> Result<Ready, BoxError> {
         Ok(match self {
             Self::Agent(agent) => Ready::Agent(agent),
@@ -116,7 +115,7 @@ impl Entrant {
 }
 
 impl Ready {
-    /// Returns a mind for one run, which remembers no other.
+    /// Returns a mind for one run, without memory of other runs.
     pub(super) fn mind(&self, venue: &Venue) -> Result<Mind, EpisodeError> {
         Ok(match self {
             Self::Agent(agent) => venue.mind(*agent)?,
@@ -130,7 +129,7 @@ impl Ready {
         })
     }
 
-    /// Returns where the nodes of its map truly lie, by id.
+    /// Returns the true positions of its map's nodes, by id, m.
     pub(super) fn nodes(&self) -> &[Point] {
         match self {
             Self::Agent(_) => &[],
@@ -139,7 +138,7 @@ impl Ready {
         }
     }
 
-    /// Returns what MSLST has learned, or `None` for others.
+    /// Returns what MSLST has learned; `None` for others.
     pub(super) fn learned(&self) -> Option<&Learned> {
         match self {
             Self::Agent(_) | Self::Better(_) => None,

@@ -1,6 +1,6 @@
-//! Every entrant over many mazes: drawings of Large by the rule, and random mazes of other kinds.
+//! Every entrant in many mazes: drawings of Large by the rule, and random mazes of other kinds.
 //!
-//! A run of these tables is a maze with some starts, so that their spread is that between mazes.
+//! A run of these tables is a maze with several starts, so the spread is between mazes.
 
 use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
@@ -23,36 +23,36 @@ use tolman_experiment::{
 use tolman_systems::mslst::MslstConfig;
 
 record! {
-    /// A maze and some starts in it.
+    /// A maze and several starts in it.
     pub(super) struct FamilyRun {
-        /// Starts from which the destination is reached within the time limit.
+        /// Share of starts from which the destination is reached within the time limit.
         success_percent: f64 => higher("success").unit("%").percent(),
-        /// Mean actions.
+        /// Mean number of actions.
         actions: f64 => lower("actions").at_least(0),
-        /// Mean time steps; a run that does not arrive counts its limit.
+        /// Mean number of time steps. A run that does not arrive counts as its limit.
         steps: f64 => lower("steps").at_least(0),
-        /// Mean time steps of the starts that arrive, if any does.
+        /// Mean number of time steps over the starts that arrive, if any does.
         steps_arrived: Option<f64> => lower("steps, arrived").at_least(0),
     }
 }
 
-/// Mazes of one kind, with who runs in them.
+/// Mazes of one kind, and their entrants.
 #[derive(Debug)]
 pub(super) struct Family {
     kind: Kind,
-    /// Starts in each maze.
+    /// Number of starts in each maze.
     starts: u32,
     /// Number of mazes.
     mazes: u32,
     limit: Option<u32>,
     entrants: Vec<Entrant>,
-    /// Mazes that one baseline has planned in and the last has not run in yet, by number.
+    /// Mazes, by number, in which one baseline has planned and the last has not run yet.
     planned: Mutex<BTreeMap<u32, Arc<Venue>>>,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Kind {
-    /// The first drawings of the sequence that are kept.
+    /// The first kept drawings of the sequence.
     Drawings,
     /// Perfect and braided mazes in turn.
     Random,
@@ -71,14 +71,14 @@ pub(super) struct FamilyConfig {
 const LEAST_SIDE: u32 = 10;
 const MOST_SIDE: u32 = 20;
 
-/// Random mazes, where enough runs are asked for.
+/// Maximum number of random mazes.
 const RANDOM_MAZES: u32 = 200;
 
-/// The share of dead ends that are opened in a braided maze.
+/// Share of dead ends that are opened in a braided maze.
 const BRAIDED: f64 = 0.5;
 
 impl Family {
-    /// Returns the drawings of Large that are kept, with at least 20 starts each; `runs` starts in
+    /// Returns the kept drawings of Large. Each has at least 20 starts, of `runs` starts in
     /// all.
     pub(super) fn drawings(runs: u32, limit: Option<u32>) -> Self {
         let [twenty, fifty] =
@@ -94,8 +94,8 @@ impl Family {
         )
     }
 
-    /// Returns perfect and braided mazes, new ones for every master seed, with at least five starts
-    /// each.
+    /// Returns perfect and braided mazes, new ones for every master seed. Each has at least five
+    /// starts.
     pub(super) fn random(runs: u32, limit: Option<u32>) -> Self {
         let learner = Entrant::Mslst(MslstConfig::large(50.0));
         Self::new(
@@ -187,7 +187,7 @@ impl Family {
             ))
     }
 
-    /// Plays a maze: all its starts.
+    /// Plays a maze from all its starts.
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let mut entrants = self.entrants.iter();
         let entrant = entrants.find(|entrant| entrant.row() == job.row);
@@ -216,8 +216,8 @@ impl Family {
         Ok(run.fields()?)
     }
 
-    /// Returns the world of a run; of a baseline that of the baseline before, which has planned in
-    /// it.
+    /// Returns the world of a run. A baseline gets that of the baseline before, which has planned
+    /// in it.
     fn venue_of(&self, entrant: &Entrant, job: &Job<'_>) -> Result<Arc<Venue>, BoxError> {
         if entrant.competes() {
             return Ok(Arc::new(self.venue(job)?));
@@ -285,7 +285,7 @@ fn spread(name: &str, field: &str, unit: &str) -> [Metric; 5] {
     ]
 }
 
-/// Returns how many times a baseline's steps, as a ratio of sums.
+/// Returns the metric of steps as a multiple of a baseline's, a ratio of sums.
 fn over(name: &str, baseline: Agent) -> Metric {
     let title = format!("steps / {}'s", baseline.name());
     Metric::multiple(name, FamilyRun::steps, baseline.name()).titled(title)

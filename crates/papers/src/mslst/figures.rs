@@ -1,5 +1,4 @@
-//! The states of Phase I, the graph of Phase II over its maze, and where the runs of Phase III
-//! went.
+//! The states of Phase I, the graph of Phase II over its maze, and the ways of Phase III.
 
 use tolman_geom::Point;
 use tolman_maps::mslst_graph::Node;
@@ -47,7 +46,7 @@ pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxErr
     Ok(figures)
 }
 
-/// Returns the paper's figure 3: every model scan, north upwards, with the nodes that have it.
+/// Returns the paper's figure 3: every model scan, with north up, and its nodes.
 fn states(learned: &Learned, at: &str, here: &str) -> Figure {
     let title = format!("{here}: states of map 0");
     Figure::new(format!("states-{at}"), title, drawing::states(learned)).caption(
@@ -55,7 +54,7 @@ fn states(learned: &Learned, at: &str, here: &str) -> Figure {
     )
 }
 
-/// Returns the paper's figure 4, over the maze: each node where the robot truly was when it was
+/// Returns the paper's figure 4, over the maze: each node at the robot's true position when it was
 /// made.
 fn graph(contest: &Contest, learned: &Learned, at: &str, here: &str) -> Figure {
     let nodes = learned.map.graph.nodes();
@@ -67,22 +66,22 @@ fn graph(contest: &Contest, learned: &Learned, at: &str, here: &str) -> Figure {
         drawing::graph_over_maze(&contest.venue.course, learned),
     )
     .caption(format!(
-        "The nodes of the first {SHOWN_ACTIONS} actions where the robot truly was when it made them; those in the \
-         destination are filled. Of all {} nodes {percent:.0} % have no more than two ways on: the graph is highly \
-         linear, as the paper found.",
+        "The nodes of the first {SHOWN_ACTIONS} actions at the robot's true positions when they were \
+         made. Those in the destination are filled. Of all {} nodes {percent:.0} % have no more than \
+         two ways on: the graph is highly linear, as the paper found.",
         nodes.len()
     ))
 }
 
-/// Returns how many edges lead to other nodes.
+/// Returns the number of edges that lead to other nodes.
 fn ways_from(node: &Node) -> usize {
     node.edges.iter().filter(|edge| edge.head.is_some()).count()
 }
 
-/// Minimum number of runs of a map for its success to be drawn.
+/// Minimum number of runs by a map for its success to be drawn.
 const LEAST_RUNS: u64 = 5;
 
-/// Returns how success differs from map to map, or `None` while the maps have too few runs to tell.
+/// Returns the figure of success by map; `None` if the maps have too few runs.
 fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<Figure>, BoxError> {
     let ranks = Axis::linear("maps, from the worst to the best");
     let mut chart = Chart::new(
@@ -124,7 +123,7 @@ fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<F
     Ok((drawn > 0).then(figure))
 }
 
-/// Returns where the first runs went.
+/// Returns the ways of the first runs.
 fn ways(contest: &Contest, runs: &[&Run], at: &str, here: &str) -> Result<Figure, BoxError> {
     let mut plan = crate::plan_of_course(&contest.venue.course, WIDTH);
     for run in runs {

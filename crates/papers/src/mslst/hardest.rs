@@ -1,4 +1,4 @@
-//! Four worlds that look alike, the hardest for the better system of those that were searched.
+//! Four worlds that look alike: the hardest for the better system among those searched.
 
 use alloc::collections::BTreeMap;
 
@@ -21,7 +21,7 @@ use tolman_experiment::{BoxError, Fields, Job, Record, Row, Run, Table};
 /// Name of the table.
 pub(super) const HARDEST: &str = "hardest";
 
-/// The worlds: family and seed, all of middle size.
+/// The worlds, as family and seed; all have middle size.
 const WORLDS: [(&str, u64); 4] = [
     ("wings", 501),
     ("wings", 503),
@@ -29,13 +29,13 @@ const WORLDS: [(&str, u64); 4] = [
     ("ladder", 501),
 ];
 
-/// Maps of each world at most.
+/// Maximum number of maps of each world.
 const MOST_MAPS: u32 = 50;
 
-/// An episode is drawn as a detour from this multiple of the Unlocalized oracle's time on.
+/// Multiple of the Unlocalized oracle's time from which an episode is drawn as a detour.
 const DETOUR: u32 = 2;
 
-/// The worlds, and the numbers of maps and starts for each.
+/// The worlds, and the numbers of maps and starts in each.
 #[derive(Debug)]
 pub(super) struct Hardest {
     maps: u32,
@@ -85,14 +85,15 @@ impl Hardest {
         DrivenRun::table(HARDEST, "The worlds that are hardest for the better system")
             .rows(rows)
             .note(format!(
-                "A run is a map with {} starts. In wings everything off the spine is there twice: where it takes one wing for the other, it leaves the \
-                 goal's, and goes to and fro until the spine tells the wings apart. Blocks has crossing after equal crossing, and the loops of \
-                 ladder are the same from both ends.",
+                "A run is a map with {} starts. In wings everything off the spine exists twice. If \
+                 the robot takes one wing for the other, it leaves the goal's wing, and goes to and \
+                 fro until the spine tells the wings apart. Blocks has many equal crossings, and the \
+                 loops of ladder are the same from both ends.",
                 self.starts
             ))
     }
 
-    /// Learns a world and drives in it.
+    /// Plays a run: learns a world and drives in it.
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let world = self
             .worlds

@@ -1,4 +1,5 @@
-//! Size of the better system's map relative to the true places, and whether it stops growing.
+//! Size of the better system's map relative to the number of true places, and whether it stops
+//! growing.
 
 use super::families::random;
 use tolman_arena::mslst::learn_better;
@@ -12,15 +13,16 @@ record! {
     pub(super) struct MapSizeRun {
         /// Whether the robot says that it has been everywhere and knows the goal.
         finished: bool => higher("says finished"),
-        /// Places of the map.
+        /// Number of places on the map.
         nodes: u32 => neither("nodes"),
-        /// Positions where actions ended, as many as lie a robot's diameter apart.
+        /// Number of positions where actions ended, not counting those within a robot's diameter of
+        /// another.
         true_places: u32 => neither("true places").at_least(1),
-        /// Places over true places.
+        /// Number of places over that of true places.
         nodes_over_true_places: f64 => neither("nodes / true places").at_least(0),
-        /// Cells in which an action ended, as a share of all.
+        /// Share of cells in which an action ended.
         covered_percent: f64 => higher("covered").unit("%").percent(),
-        /// Actions until the robot had been everywhere, for each robot unit of corridor.
+        /// Number of actions until the robot had been everywhere, per robot unit of corridor.
         actions_per_unit: f64 => lower("actions / unit of corridor").at_least(0),
     }
 }
@@ -28,15 +30,15 @@ record! {
 /// Name of the table.
 pub(super) const MAP_SIZE: &str = "map size";
 
-/// The rows, and how many times as long as exploring takes each of them goes on.
+/// The rows, with the duration of each as a multiple of the time that exploring takes.
 const ROWS: [(&str, u32); 3] = [
     ("Better", 1),
     ("Better, twice as long", 2),
     ("Better, ten times as long", 10),
 ];
 
-/// Random mazes, where enough runs are asked for: one for every this many runs, since each is
-/// learned thirteen times over.
+/// Maximum number of random mazes. Each is learned thirteen times over, so there is only one for
+/// several runs.
 const MOST_MAZES: u32 = 100;
 const RUNS_A_MAZE: u32 = 10;
 
@@ -52,12 +54,13 @@ pub(super) fn table(runs: u32) -> Table {
         .metric(Metric::mean(MapSizeRun::actions_per_unit).decimals(2))
         .rows(ROWS.map(|(row, _)| Row::new(row).runs(mazes)))
         .note(format!(
-            "{mazes} mazes. True places are the positions where actions ended, as many as lie a robot's diameter apart, first come first \
-             counted. After exploring, the robot wanders on like Avoid."
+            "{mazes} mazes. True places are the positions where actions ended, not counting those \
+             within a robot's diameter of an earlier one. After exploring, the robot wanders on like \
+             Avoid."
         ))
 }
 
-/// Learns a maze.
+/// Plays a run: learns a maze.
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let times = ROWS.iter().find(|(row, _)| *row == job.row);
     let (_, times) = times.ok_or_else(|| format!("there is no row {:?}", job.row))?;

@@ -2,9 +2,9 @@
 //! significance.
 //!
 //! In a paper's world every brain meets the same starts and the same noise. MSLST learns `MAPS`
-//! maps of each world and navigates by map number (run mod `MAPS`): a thousand runs by each map
-//! twenty times. The tables *one map* are the paper's 25 runs. One drawing says little of what the
-//! paper's would have shown: `families` plays all entrants over many.
+//! maps of each world. Run number n navigates by map n mod `MAPS`, so a thousand runs use each map
+//! twenty times. The tables *one map* are the paper's 25 runs. One drawing says little about what
+//! the paper's maze would have shown. So `families` plays all entrants in many drawings.
 
 mod condition;
 mod contest;
@@ -47,17 +47,17 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// The experiment, ready to run.
+/// The prepared experiment.
 #[derive(Debug)]
 struct Mslst {
     contests: Vec<Contest>,
     families: Vec<Family>,
     robustness: Robustness,
-    /// None beside mazes that the caller names.
+    /// The hardest worlds; `None` if the caller names mazes.
     hardest: Option<Hardest>,
 }
 
-/// Reads the worlds and sets the tables up.
+/// Returns the experiment with its worlds and tables.
 ///
 /// # Errors
 /// If a maze cannot be read, or the robot does not fit its corridors.

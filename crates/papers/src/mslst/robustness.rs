@@ -1,7 +1,6 @@
-//! The better system where something is wrong, and without each of its parts, over drawings of
-//! Large.
+//! The better system with faults, and without each of its parts, in drawings of Large.
 //!
-//! A run is a drawing with some starts, so that the spread is that between mazes.
+//! A run is a drawing with several starts, so the spread is between mazes.
 
 use alloc::sync::Arc;
 use std::sync::OnceLock;
@@ -26,7 +25,7 @@ use tolman_systems::stream;
 pub(super) const ROBUSTNESS: &str = "robustness";
 pub(super) const ABLATION: &str = "ablation";
 
-/// The rows of the ablation, and what each goes without.
+/// Rows of the ablation, with the part that each leaves out.
 const PARTS: [(&str, Option<BetterPart>); 7] = [
     ("Better", None),
     ("positions by wheels alone", Some(BetterPart::Fit)),
@@ -37,10 +36,10 @@ const PARTS: [(&str, Option<BetterPart>); 7] = [
     ("scans as sensed", Some(BetterPart::Straightening)),
 ];
 
-/// Stream of where doors shut.
+/// Stream of random numbers for the position of doors.
 const DOOR_STREAM: u64 = 4;
 
-/// The drawings, and what is planned in them.
+/// The drawings, and the plans made in them.
 #[derive(Debug)]
 pub(super) struct Robustness {
     mazes: u32,
@@ -55,13 +54,12 @@ pub(super) struct Robustness {
 pub(super) struct RobustnessConfig {
     starts: u32,
     limit: Option<u32>,
-    /// Configuration of the better system in all rows; rows of the ablation leave out a part each.
+    /// Configuration of the better system in all rows. Each row of the ablation leaves out a part.
     better: Option<LearnerConfig>,
 }
 
 impl Robustness {
-    /// Returns the experiment with `runs` starts in all, in drawings with at least five starts
-    /// each.
+    /// Returns the experiment with `runs` starts in all; each drawing has at least five.
     pub(super) fn new(runs: u32, limit: Option<u32>) -> Self {
         let (mazes, starts) = shared_out(runs, LARGE_DRAWINGS.len() as u32);
         Self {
@@ -107,13 +105,14 @@ impl Robustness {
         DrivenRun::table(name, title)
             .rows(rows.into_iter().map(|row| Row::new(row).runs(self.mazes)))
             .note(format!(
-                "A run is a drawing of Large with {} starts, by one map that was learned in it. The Unlocalized oracle's robot is as \
-                 calibrated, with sensors that do not err; where a door has shut since, it knows that.",
+                "A run is a drawing of Large with {} starts, by one map that was learned in it. The \
+                 Unlocalized oracle's robot has the same calibration, with sensors without errors. \
+                 It knows of a door that was shut since.",
                 self.starts
             ))
     }
 
-    /// Plays a drawing.
+    /// Plays a run: a drawing.
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let (condition, without) = row(job)?;
         let learned_in = self.venue(job.run, DoorState::Open)?;
@@ -132,7 +131,8 @@ impl Robustness {
         Ok(run.fields()?)
     }
 
-    /// Returns a drawing as it was learned, or with a door shut since, with what was planned there.
+    /// Returns a drawing as it was learned, or with a door shut afterwards, with the plans made
+    /// there.
     fn venue(&self, number: u32, door: DoorState) -> Result<Arc<Venue>, BoxError> {
         let cell = &self.venues[number as usize][usize::from(door == DoorState::Shut)];
         if let Some(venue) = cell.get() {
@@ -144,12 +144,12 @@ impl Robustness {
             DoorState::Shut => with_a_door_shut(drawing)?,
         };
         let venue = Arc::new(venue.limited(self.limit));
-        // Two threads may make it at once; they make the same.
+        // If two threads make it at once, they make the same.
         Ok(Arc::clone(cell.get_or_init(|| venue)))
     }
 }
 
-/// Returns a drawing in which the way is shut between two cells of its loop, any of them.
+/// Returns a drawing in which the way between two random cells of its loop is shut.
 fn with_a_door_shut(drawing: u32) -> Result<Venue, BoxError> {
     let maze = Drawing::Large.maze(drawing)?;
     let mut shut: Vec<Maze> = Vec::new();

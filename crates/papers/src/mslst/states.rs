@@ -1,4 +1,4 @@
-//! Table 1: how many states Phase I makes.
+//! Table 1: the number of states that Phase I learns.
 
 use super::contest::Contest;
 use crate::tolerances::PROTOTYPES;
@@ -10,7 +10,7 @@ use tolman_systems::mslst::{MslstConfig, States};
 record! {
     /// A run of Phase I.
     struct StatesRun {
-        /// Model scans of the equilibrium GNG.
+        /// Number of model scans of the equilibrium GNG.
         states: usize => neither("states").at_least(1).tolerance(PROTOTYPES),
     }
 }
@@ -27,7 +27,7 @@ pub(super) fn table() -> Table {
         )
 }
 
-/// Returns one run: Phase I.
+/// Plays one run: Phase I.
 pub(super) fn run(job: &Job<'_>, contests: &[Contest]) -> Result<Fields, BoxError> {
     let row = states_row(job.row)?;
     let mut venues = contests.iter().map(|contest| &contest.venue);

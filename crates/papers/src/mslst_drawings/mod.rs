@@ -1,7 +1,7 @@
-//! The drawings of MSLST's mazes: which ones of a seeded sequence are kept, and why the others are
-//! rejected.
+//! The drawings of MSLST's mazes: which ones of a seeded sequence are kept, and why the others
+//! are rejected.
 //!
-//! Run n is drawing n of the sequence, whatever the master seed. MSLST has no part in it.
+//! Run n is drawing n of the sequence, whatever the master seed. MSLST plays no part in it.
 
 use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row, Table,
@@ -21,14 +21,15 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// The most drawings of a sequence that are judged before the rule counts as one that yields none.
+/// Maximum number of drawings of a sequence that are judged. If none is kept by then, the rule
+/// has no result.
 const MOST_DRAWINGS: u32 = 2000;
 
 const DRAWINGS: [Drawing; 2] = [Drawing::J, Drawing::Large];
 
 record! {
-    /// A drawing, and why it is kept or not. Values without a run are missing, if the loop alone
-    /// rules a drawing out.
+    /// A drawing, and why it is kept or not. If the loop alone rules it out, it is not played,
+    /// and its other values are missing.
     #[check(DrawingRun::relations)]
     struct DrawingRun {
         /// Whether it meets all conditions.
@@ -45,21 +46,21 @@ record! {
         misses_wall_follow_success: bool => neither("× Wall-follow %"),
         /// Whether Wall-follow's steps lie outside the paper's interval.
         misses_wall_follow_steps: bool => neither("× Wall-follow steps"),
-        /// Whether the lists in the source say of it what was found; none beyond their end.
+        /// Whether the lists in the source agree with this result; no value beyond their end.
         as_listed: Option<bool> => neither("as listed"),
-        /// Sum of the excesses over the conditions' bounds, in shares of the bounds.
+        /// Sum of the excesses over the conditions' bounds, as shares of the bounds.
         excess: Option<f64> => lower("excess").at_least(0),
-        /// Starts from which an exact right-hand tour never arrives.
+        /// Share of starts from which an exact right-hand tour never arrives.
         trapped_percent: Option<f64> => neither("trapped").percent(),
-        /// Runs of Avoid that arrive.
+        /// Share of Avoid's runs that arrive.
         avoid_success_percent: Option<f64> => neither("Avoid arrives").percent(),
-        /// Mean steps of Avoid.
+        /// Mean number of steps of Avoid.
         avoid_steps: Option<f64> => neither("Avoid's steps").at_least(0),
-        /// Runs of Wall-follow that arrive.
+        /// Share of Wall-follow's runs that arrive.
         wall_follow_success_percent: Option<f64> => neither("Wall-follow arrives").percent(),
-        /// Mean steps of Wall-follow.
+        /// Mean number of steps of Wall-follow.
         wall_follow_steps: Option<f64> => neither("Wall-follow's steps").at_least(0),
-        /// Mean steps of the Oracle.
+        /// Mean number of steps of the Oracle.
         oracle_steps: Option<f64> => neither("Oracle's steps").at_least(0),
     }
 }
@@ -80,7 +81,7 @@ impl DrawingRun {
     }
 }
 
-/// The experiment, ready to run.
+/// The prepared experiment.
 #[derive(Debug)]
 struct Drawings;
 
@@ -115,8 +116,9 @@ fn table(drawing: Drawing, judged: u32) -> Table {
         .metrics_from(DrawingRun::as_listed)
         .row(Row::new("drawings"))
         .note(
-            "Run n is drawing n of a sequence with a seed of its own. A drawing is rejected (×) for each condition that it misses; \
-             one whose loop rules it out is not played. Each is judged by 1000 runs of Avoid, Wall-follow and the Oracle.",
+            "Run n is drawing n of a sequence with its own seed. A drawing is rejected (×) for each \
+             condition that it misses. One that its loop rules out is not played. Each is judged by \
+             1000 runs of Avoid, Wall-follow and the Oracle.",
         )
 }
 

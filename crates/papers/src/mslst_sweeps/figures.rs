@@ -1,4 +1,4 @@
-//! One curve for each sweep: how often MSLST arrives, with the spread between maps.
+//! A curve for each sweep: how often MSLST arrives, with the spread between maps.
 
 use super::SweepRun;
 use super::settings::Sweep;

@@ -1,8 +1,8 @@
-//! Sweeps that the paper had no time for: MSLST with other thresholds, training times, memories and
+//! Sweeps that the paper does not have: MSLST with other thresholds, training times, memories and
 //! noises, and in other worlds.
 //!
-//! A run learns a map of its own and plays [`STARTS`] starts by it. The spread over runs is
-//! therefore that between maps. All rows of a table share the seeds of maps and starts.
+//! A run learns its own map and plays [`STARTS`] starts by it, so the spread over runs is between
+//! maps. All rows of a table share the seeds of maps and starts.
 
 mod figures;
 mod settings;
@@ -24,7 +24,7 @@ use tolman_systems::mslst::Navigator;
 
 use settings::{Setting, Sweep};
 
-/// Starts for each map.
+/// Number of starts for each map.
 const STARTS: u32 = 10;
 
 /// Entry in the catalogue.
@@ -38,13 +38,13 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// The experiment, ready to run.
+/// The prepared experiment.
 #[derive(Debug)]
 struct Sweeps {
     sweeps: Vec<Sweep>,
 }
 
-/// Sets the tables up. Maze files have no part in it: `mslst` takes them.
+/// Returns the experiment with its tables. Maze files are not used; `mslst` takes them.
 ///
 /// # Errors
 /// If a world cannot be built.
@@ -64,17 +64,17 @@ fn open(_options: &Options) -> Result<Experiment, BoxError> {
 record! {
     /// A map and [`STARTS`] starts by it.
     pub(super) struct SweepRun {
-        /// States of the map.
+        /// Number of states of the map.
         states: usize => neither("states").at_least(1),
-        /// Nodes of the map.
+        /// Number of nodes of the map.
         nodes: usize => neither("nodes"),
-        /// Starts from which MSLST reaches the destination within the time limit.
+        /// Share of starts from which MSLST reaches the destination within the time limit.
         success_percent: f64 => higher("MSLST arrives").percent(),
-        /// Mean time steps of MSLST.
+        /// Mean number of time steps of MSLST.
         steps: f64 => lower("steps").at_least(0),
-        /// Mean time steps of Wall-follow from the same starts.
+        /// Mean number of time steps of Wall-follow from the same starts.
         wall_follow_steps: f64 => neither("steps of Wall-follow").at_least(0),
-        /// Mean time steps of the Oracle from the same starts.
+        /// Mean number of time steps of the Oracle from the same starts.
         oracle_steps: f64 => neither("steps of Oracle").at_least(0),
     }
 }
@@ -122,7 +122,7 @@ impl Procedure for Sweeps {
             };
             Ok(episode::run(&trial, mind, |_| {})?)
         };
-        // The share of the starts from which a mind arrives, and its mean time steps.
+        // Share of the starts from which a mind arrives, and its mean number of time steps.
         let played = |mind: &dyn Fn() -> Result<Mind, BoxError>| -> Result<[f64; 2], BoxError> {
             let (mut reached, mut steps) = (0_u32, 0_u32);
             for start in 0..STARTS {

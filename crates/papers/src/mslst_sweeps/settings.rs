@@ -1,4 +1,4 @@
-//! Varied parameters: one at a time around MSLST 50 in the Large maze, then the worlds.
+//! Varied parameters: each alone around MSLST 50 in the Large maze, and then the worlds.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -14,18 +14,18 @@ use tolman_experiment::BoxError;
 use tolman_systems::mslst::MslstConfig;
 use tolman_systems::mslst::ROBOT_UNIT;
 
-/// One table.
+/// A table.
 #[derive(Debug)]
 pub(super) struct Sweep {
     pub(super) name: &'static str,
     pub(super) title: &'static str,
-    /// The varied parameter with its unit, or `None` if the settings have no order.
+    /// The varied parameter with its unit; `None` if the settings have no order.
     pub(super) axis: Option<&'static str>,
     pub(super) settings: Vec<Setting>,
     pub(super) note: &'static str,
 }
 
-/// One row.
+/// A row.
 #[derive(Debug)]
 pub(super) struct Setting {
     pub(super) row: String,
@@ -39,7 +39,7 @@ pub(super) struct Setting {
 /// World of a run.
 #[derive(Clone, Debug)]
 pub(super) enum World {
-    /// The same for all runs, with a step limit of its own.
+    /// The same world for all runs, with its own step limit.
     Fixed { course: Box<Course>, steps: u32 },
     /// A random maze for each run, without loops.
     Perfect { side: u16 },
@@ -89,7 +89,7 @@ impl World {
 }
 
 impl Setting {
-    /// Returns what its runs depend on.
+    /// Returns the configuration that its runs depend on.
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
         struct Config<'a> {
@@ -246,7 +246,8 @@ fn worlds(j: World, large: &World) -> Result<Vec<Setting>, BoxError> {
     Ok(rows)
 }
 
-/// Returns a ring of eight beams in place of the laser's 72, as the sonars of a Khepera.
+/// Returns a robot with a ring of eight beams instead of the laser's 72, like the sonars of a
+/// Khepera.
 fn with_sonars() -> LaserPioneerConfig {
     let laser = pioneer::calibrated();
     LaserPioneerConfig {
@@ -255,7 +256,7 @@ fn with_sonars() -> LaserPioneerConfig {
     }
 }
 
-/// Returns the same maze with corridors of another width, robot units.
+/// Returns the same maze with corridors `units` robot units wide.
 fn widened(world: &World, units: f64) -> Result<World, BoxError> {
     let World::Fixed { course, steps } = world else {
         return Ok(world.clone());
@@ -272,7 +273,7 @@ fn widened(world: &World, units: f64) -> Result<World, BoxError> {
     })
 }
 
-/// Returns a square without walls inside, the destination in its south-east corner.
+/// Returns a square without inner walls, with the destination in its south-east corner.
 fn room(side: u16) -> Result<World, BoxError> {
     let mut maze = Maze::open(Grid::new(side, side));
     maze.set_goals(vec![Cell::new(side - 1, 0)]);

@@ -1,4 +1,4 @@
-//! The quantizers side by side.
+//! The quantizers that tables compare.
 
 use tolman_quantizers::{
     Gng, GngConfig, GrowthGate, Quantizer, Removal, Soinn, SoinnConfig, Utility,
@@ -6,10 +6,10 @@ use tolman_quantizers::{
 
 use tolman_experiment::BoxError;
 
-/// The rows of tables that compare quantizers.
+/// Rows of the tables that compare quantizers.
 pub(super) const ROWS: [&str; 4] = ["GNG", "GNG-U", "equilibrium GNG", "SOINN"];
 
-/// Returns one of [`ROWS`] for inputs of `dimension` features. GNG grows to `units`; the
+/// Returns one of [`ROWS`] for inputs of `dimension` features. GNG grows to `units`. The
 /// equilibrium GNG grows until the mean error of its units is below `threshold`.
 pub(super) fn quantizer(
     row: &str,

@@ -1,4 +1,4 @@
-//! Networks over their data, model scans, and how errors fall.
+//! Networks over their data, model scans, and errors over time.
 
 use alloc::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ use tolman_stats::{ConfidenceInterval, quantile};
 /// Maximum number of data points in a picture.
 const SHOWN: usize = 700;
 
-/// The colour of data, the last one, which no cluster has.
+/// Colour of data: the last one, which no cluster has.
 const DOTS: u32 = Series::COLOURS - 1;
 
 pub(super) fn of(mazes: &Mazes, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
@@ -68,7 +68,7 @@ pub(super) fn of(mazes: &Mazes, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     Ok(figures)
 }
 
-/// Returns every state of a run as a scan, north up.
+/// Returns every state of a run as a scan, with north up.
 fn model_scans(mazes: &Mazes, run: &Run, name: &str) -> Result<Figure, BoxError> {
     let (gng, scans) = mazes.learn(&run.job())?;
     let network = gng.network();
@@ -116,7 +116,7 @@ fn layers(run: &Run, name: &str) -> Result<Figure, BoxError> {
         .table(&run.table))
 }
 
-/// Returns a network in the plane over what it learnt, each cluster in its colour.
+/// Returns a network in the plane over its data, each cluster in its own colour.
 fn over_data(data: &[[f64; 2]], network: &Network<f64>) -> Drawing {
     let mut chart = Chart::new(
         Axis::linear("").between(0.0, 10.0),
@@ -148,7 +148,7 @@ fn over_data(data: &[[f64; 2]], network: &Network<f64>) -> Drawing {
     chart.drawing(format!("{} units over their data.", network.len()))
 }
 
-/// Returns the error of each quantizer after more and more inputs.
+/// Returns the error of each quantizer by the number of inputs.
 fn errors(runs: &[Run]) -> Result<Figure, BoxError> {
     let mut chart = Chart::new(Axis::log("inputs"), Axis::log("RMS error"));
     for (series, row) in (0_u32..).zip(ROWS) {

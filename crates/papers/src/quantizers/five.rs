@@ -7,21 +7,21 @@ use tolman_quantizers::{Quantizer, SecondLayerConfig, Soinn, SoinnConfig};
 use super::streams::{self, Order, Point, REGIONS};
 use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
 
-/// The table that the paper's own experiment makes; further ones vary it.
+/// Name of the table with the paper's own experiment; further ones vary it.
 pub(super) const NAME: &str = "five clusters";
 pub(super) const ONE_AFTER_ANOTHER: &str = "five clusters, one region after another";
 const OTHER_STREAMS: &str = "five clusters, other streams";
 
-/// The paper's parameters, its text taken literally.
+/// Row with the paper's parameters, its text taken literally.
 pub(super) const LITERAL: &str = "SOINN literal";
-/// The documented choice.
+/// Row with the documented choice of parameters.
 pub(super) const CHOSEN: &str = "SOINN";
 
-/// The paper's number of points and its share of noise.
+/// Number of points and share of noise in the paper.
 const POINTS: u32 = 100_000;
 const NOISE: f64 = 0.1;
 
-/// Other streams than the paper's: the row, the order of the regions, the share of noise, the
+/// Variants of the paper's stream: the row, the order of the regions, the share of noise, the
 /// number of points.
 const STREAMS: [(&str, Order, f64, u32); 6] = [
     ("no noise", Order::Stationary, 0.0, POINTS),
@@ -34,7 +34,7 @@ const STREAMS: [(&str, Order, f64, u32); 6] = [
 
 const IN_TURN: &str = "20 % noise, one region after another";
 
-/// Points of each region that are held against the clusters.
+/// Number of points of each region that are compared with the clusters.
 const PROBES: u32 = 200;
 
 pub(super) fn tables() -> Vec<Table> {
@@ -43,10 +43,11 @@ pub(super) fn tables() -> Vec<Table> {
         measured(NAME, "Five clusters in 10 % noise, points drawn from all")
         .rows(rows.clone())
         .note(format!(
-            "{POINTS} points a run. A run is right if each region's own points fall, but for 5 %, into a cluster of \
-             their own. SOINN literal: Shen and Hasegawa 2006, λ = age_dead = 100, c = 1, second layer's threshold by \
-             algorithm 3.3. SOINN: units judged by their age and age_dead = 20 in the first layer, λ = 500 and a \
-             threshold of four mean edges of the first layer in the second."
+            "{POINTS} points per run. A run is right if the points of each region, except for 5 %, \
+             are in a cluster of their own. SOINN literal: Shen and Hasegawa 2006, λ = age_dead = \
+             100, c = 1, second layer's threshold by algorithm 3.3. SOINN: units judged by their age \
+             and age_dead = 20 in the first layer; in the second, λ = 500 and a threshold of four \
+             mean edges of the first layer."
         )),
         measured(
             ONE_AFTER_ANOTHER,
@@ -60,20 +61,20 @@ pub(super) fn tables() -> Vec<Table> {
 }
 
 record! {
-    /// A SOINN of two layers and what it found.
+    /// A SOINN of two layers and its result.
     #[check(FiveRun::relations)]
     struct FiveRun {
         /// Whether the second layer has five clusters.
         five: bool => higher("five clusters"),
-        /// Whether each of them holds the points of one region, but for 5 %.
+        /// Whether each of these holds the points of one region, except for 5 %.
         right: bool => higher("each cluster in its region"),
-        /// Clusters of the second layer.
+        /// Number of clusters of the second layer.
         clusters: usize => neither("clusters").decimals(1),
-        /// Clusters of the first layer.
+        /// Number of clusters of the first layer.
         first_clusters: usize => neither("clusters, first layer").decimals(1),
-        /// Units of the second layer.
+        /// Number of units of the second layer.
         units: usize => neither("units").decimals(0),
-        /// Units of the first layer.
+        /// Number of units of the first layer.
         first_units: usize => neither("units, first layer").decimals(0),
     }
 }
@@ -109,7 +110,7 @@ pub(super) struct Learned {
     pub(super) second: Soinn<f64>,
 }
 
-/// Returns whether the table is one of these.
+/// Returns whether the table belongs here.
 pub(super) fn has(table: &str) -> bool {
     [NAME, ONE_AFTER_ANOTHER, OTHER_STREAMS].contains(&table)
 }

@@ -1,5 +1,5 @@
-//! The quantizers by themselves: table 1 of MSLST, SOINN's five clusters, and what else tells them
-//! apart.
+//! The quantizers alone: table 1 of MSLST, SOINN's five clusters, and other differences between
+//! them.
 
 mod any;
 mod figures;
@@ -39,7 +39,7 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// The experiment, ready to run.
+/// The prepared experiment.
 #[derive(Debug)]
 struct Quantizers {
     mazes: Mazes,
@@ -64,7 +64,7 @@ struct Parameters {
     second_layer: SecondLayerConfig,
 }
 
-/// Returns the same with the greatest integer of TOML for a number of units without a bound.
+/// Returns the same configuration. A number of units without bound becomes TOML's largest integer.
 fn unbounded(config: GngConfig) -> GngConfig {
     let max_units = config.max_units.min(i64::MAX as usize);
     GngConfig {
@@ -73,10 +73,11 @@ fn unbounded(config: GngConfig) -> GngConfig {
     }
 }
 
-/// Reads what it needs and sets the tables up.
+/// Returns the experiment with its data and tables.
 ///
 /// # Errors
-/// If the log of sonars cannot be read, or the caller names mazes, which have no place here.
+/// If the log of sonars cannot be read, or the caller names mazes, which this experiment does not
+/// use.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
     if !options.mazes.is_empty() {
         return Err("table 1 is of the J and the Large maze: leave --maze out".into());

@@ -1,4 +1,4 @@
-//! A robot's stream is no shuffled one: what the order of inputs does to GNG.
+//! A robot's stream of scans is not shuffled: the effect of the order of inputs on GNG.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -38,8 +38,9 @@ pub(super) fn table() -> Table {
         .metrics_from(OrderRun::mean_squared_error)
         .rows([SHUFFLED, IN_TIME, REPLAYED].map(Row::new))
         .note(format!(
-            "The 4000 scans of a run of table 1, {PASSES} times over, to a GNG of at most {UNITS} units; the error is \
-             that of all those scans. Replayed: eight remembered scans are learnt for each that comes."
+            "The 4000 scans of a run of table 1, {PASSES} times over, to a GNG of at most {UNITS} \
+             units. The error is over all those scans. Replayed: eight remembered scans are learned \
+             for each new one."
         ))
 }
 
@@ -75,7 +76,7 @@ pub(super) fn run(mazes: &Mazes, job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(fields)
 }
 
-/// Returns what a quantizer makes of a stream, measured by all scans.
+/// Returns the record of a quantizer that learned a stream, measured on all scans.
 fn learn<'a>(
     mut quantizer: impl Quantizer<f64>,
     stream: impl Iterator<Item = &'a Vec<f64>>,

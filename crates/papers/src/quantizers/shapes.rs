@@ -1,4 +1,4 @@
-//! Rings and squares: the quantizers side by side, error against inputs.
+//! Rings and squares: error by inputs for each quantizer.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -11,16 +11,16 @@ use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 /// The table's name.
 pub(super) const NAME: &str = "rings and squares";
 
-/// Inputs after which the error is measured; the last is the length of a run.
+/// Numbers of inputs after which the error is measured; the last is the length of a run.
 pub(super) const MARKS: [u32; 6] = [100, 300, 1000, 3000, 10_000, 30_000];
 
-/// Points that the error is measured on, which are not learnt.
+/// Number of points on which the error is measured. They are not learned.
 const PROBES: usize = 2000;
 
 /// Number of units that GNG grows to.
 const UNITS: usize = 100;
 
-/// In squared units of the data: about 100 units in equilibrium.
+/// Threshold in squared units of the data, which gives about 100 units in equilibrium.
 const THRESHOLD: f64 = 0.05;
 
 record! {

@@ -1,4 +1,4 @@
-//! A real ring of 24 sonars: what units say of what the robot did.
+//! A real ring of 24 sonars: what its units say about the robot's action.
 
 use std::path::Path;
 
@@ -14,19 +14,19 @@ use tolman_formats::SonarTable;
 /// The table's name.
 pub(crate) const NAME: &str = "sonar ring";
 
-/// Path of the log in the folder of data.
+/// Path of the log below the folder of external data.
 const FILE: &str = "logs/scitos-sonar24/sensor_readings_24.data.gz";
 
 const SONARS: usize = 24;
 const UNITS: usize = 100;
 
-/// In squared metres.
+/// Threshold of the equilibrium GNG, m².
 const THRESHOLD: f64 = 10.0;
 
 /// Number of times that the readings are shown, each time in another order.
 const PASSES: u32 = 5;
 
-/// The log: readings in metres, each with what the wall-following robot did, in the order of time.
+/// The log: readings in metres, each with the wall-following robot's action, in order of time.
 #[derive(Debug)]
 pub(crate) struct Log {
     readings: Vec<([f64; SONARS], usize)>,
@@ -35,7 +35,7 @@ pub(crate) struct Log {
 }
 
 impl Log {
-    /// Returns the log, if it is there.
+    /// Returns the log; `None` if it is not here.
     pub(crate) fn find() -> Result<Option<Self>, BoxError> {
         let path = data::folder().map(|folder| folder.join(FILE));
         match path {
@@ -63,7 +63,7 @@ impl Log {
     }
 
     pub(crate) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        // Four laps: three to learn, one to be asked about.
+        // There are four laps: three to learn, one to be asked about.
         let (learnt, asked) = self.readings.split_at(self.readings.len() * 3 / 4);
         let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
         let mut order: Vec<usize> = (0..learnt.len()).collect();
@@ -77,7 +77,7 @@ impl Log {
             }
         }
         let network = quantizer.network();
-        // Ids are given in order, so the greatest is the last.
+        // Ids ascend, so the largest is the last.
         let ids = network.ids().last().map_or(0, |id| id.0 as usize + 1);
         let mut votes = vec![vec![0_u32; self.actions.len()]; ids];
         for (ranges, action) in learnt {
@@ -106,7 +106,7 @@ record! {
         rms_error: f64 => lower("RMS error").unit("m").at_least(0),
         /// Units of the network.
         units: usize => neither("units").decimals(0),
-        /// Asked scans whose nearest unit tells the robot's action.
+        /// Share of asked scans whose nearest unit tells the robot's action.
         right_percent: f64 => higher("action predicted").percent().decimals(1),
     }
 }
@@ -116,7 +116,8 @@ pub(crate) fn table() -> Table {
         .metrics_from(SonarRun::rms_error)
         .rows(ROWS.map(Row::new))
         .note(
-        "A log of four laps (Freire and Barreto 2010). Three are learnt, in random orders; of each scan of the fourth, the unit \
-         nearest to it tells the action that was most frequent with that unit before.",
+        "A log of four laps (Freire and Barreto 2010). Three are learned, in random orders. For each \
+         scan of the fourth, the nearest unit predicts the action that was most frequent with that \
+         unit before.",
     )
 }

@@ -1,4 +1,4 @@
-//! Table 1 of MSLST: how many states the equilibrium GNG makes of a maze.
+//! Table 1 of MSLST: the number of states that the equilibrium GNG learns of a maze.
 
 use tolman_quantizers::{Gng, GngConfig, Quantizer};
 
@@ -12,13 +12,13 @@ use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, recor
 /// The table's name in `summary.json`.
 pub(super) const NAME: &str = "1";
 
-/// Phase I: "approximately 4000 time steps".
+/// Number of time steps of phase I: "approximately 4000 time steps".
 pub(super) const STEPS: u32 = 4000;
 
 record! {
     /// An equilibrium GNG that learned the scans of phase I.
     struct NetworkRun {
-        /// Units of the network, each a state.
+        /// Number of units of the network, each a state.
         states: usize => neither("states").decimals(1).tolerance(PROTOTYPES),
         /// Root of the mean squared distance of a scan from the nearest state.
         rms_error: f64 => lower("RMS error").unit("robot units").at_least(0),
@@ -89,28 +89,28 @@ impl Mazes {
     }
 }
 
-/// The name of the table of decays.
+/// Name of the table of decays.
 pub(super) const DECAY: &str = "decay of errors";
 
-/// The decays that are tried; Fritzke's is 0.995.
+/// Decays that are tried; Fritzke's is 0.995.
 const DECAYS: [f64; 9] = [
     0.99, 0.993, 0.995, 0.996, 0.997, 0.9975, 0.998, 0.999, 0.9995,
 ];
 
 record! {
-    /// The networks of table 1 with another decay of errors, each from scans of its own.
+    /// The networks of table 1 with another decay of errors, each from its own scans.
     struct DecayRun {
-        /// States of the Large maze at threshold 50, from which the decay is chosen.
+        /// Number of states of the Large maze at threshold 50, by which the decay is chosen.
         large_50: usize => neither("Large 50").decimals(1),
-        /// States of the J maze at threshold 100.
+        /// Number of states of the J maze at threshold 100.
         j_100: usize => neither("J 100").decimals(1),
-        /// States of the Large maze at threshold 20.
+        /// Number of states of the Large maze at threshold 20.
         large_20: usize => neither("Large 20").decimals(1),
     }
 }
 
-/// Returns the table from which the decay is chosen: it gives the paper's 26 states in Large 50,
-/// the median of runs. The other mazes are predictions.
+/// Returns the table by which the decay is chosen: the one that gives the paper's 26 states in
+/// Large 50, as the median of runs. The other mazes are predictions.
 pub(super) fn decay_table() -> Table {
     let fields = [DecayRun::large_50, DecayRun::j_100, DecayRun::large_20];
     let table = Table::of::<DecayRun>(DECAY, "Table 1 by the decay of errors, medians")
@@ -134,7 +134,7 @@ impl Mazes {
     }
 }
 
-/// Returns how many states scans make.
+/// Returns the number of states that are learned from scans.
 fn states(scans: &[Vec<f64>], threshold: f64, decay: f64) -> Result<usize, BoxError> {
     let config = GngConfig {
         decay,

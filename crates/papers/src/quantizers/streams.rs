@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 /// A point of the plane.
 pub(super) type Point = [f64; 2];
 
-/// In which order the regions of [`five_clusters`] come.
+/// The order of the regions of [`five_clusters`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
     /// Each point from a region drawn at random.
@@ -20,7 +20,7 @@ pub(super) enum Order {
 /// Number of regions.
 pub(super) const REGIONS: u32 = 5;
 
-/// The sides of the square that the regions and the noise lie in.
+/// Side of the square that holds the regions and the noise.
 const SIDE: f64 = 10.0;
 
 /// Returns the artificial data of Shen and Hasegawa 2006: two Gaussians, two concentric rings and a
@@ -55,7 +55,7 @@ pub(super) fn of_region(region: u32, rng: &mut ChaCha8Rng) -> Point {
     in_region(region, 0.0, 1.0, rng)
 }
 
-/// Returns the same, of the sine curve only what lies between two shares of its length.
+/// Returns a point of a region; for the sine curve, only from between two shares of its length.
 fn in_region(region: u32, from: f64, to: f64, rng: &mut ChaCha8Rng) -> Point {
     match region {
         0 => gaussian([1.6, 8.2], 0.35, rng),
@@ -94,7 +94,7 @@ fn on_ring(centre: Point, radius: f64, half_width: f64, rng: &mut ChaCha8Rng) ->
     ]
 }
 
-/// Returns two rings and two full squares, as GNG is usually shown on.
+/// Returns a point of two rings and two full squares, which are common in demonstrations of GNG.
 pub(super) fn rings_and_squares(rng: &mut ChaCha8Rng) -> Point {
     match rng.random_range(0..4_u32) {
         0 => on_ring([2.5, 7.5], 1.8, 0.1, rng),

@@ -1,4 +1,4 @@
-//! Audits of pose graphs to which false closures were added, beside graduated non-convexity.
+//! Audits of pose graphs with added false closures, compared with graduated non-convexity.
 
 use std::io::Read;
 use std::path::Path;
@@ -23,13 +23,13 @@ use crate::data;
 /// The table's name.
 pub(super) const NAME: &str = "audit";
 
-/// Number of false closures added to the graphs of others.
+/// Number of false closures added to external graphs.
 const MANY: usize = 1000;
 
 /// Number of false closures added to the project's own small graph.
 const FEW: usize = 40;
 
-/// The project's own graph and where its poses really are.
+/// The project's own graph and its true poses.
 const ROOMS: &str = include_str!("../../mazes/graphs/rooms.g2o");
 const ROOMS_TRUTH: &str = include_str!("../../mazes/graphs/rooms-truth.g2o");
 
@@ -37,14 +37,14 @@ const ROOMS_TRUTH: &str = include_str!("../../mazes/graphs/rooms-truth.g2o");
 #[derive(Debug)]
 struct Known {
     name: &'static str,
-    /// Factor of the stated standard deviations.
+    /// Factor for the stated standard deviations.
     scale: f64,
     false_closures: usize,
-    /// The right part of the file, and its true poses.
+    /// The right part of the file, and its true poses; `None` if it is not here.
     graph: Option<(GraphFile, Vec<Pose>)>,
 }
 
-/// The graphs, as far as they are here.
+/// The graphs that are here.
 #[derive(Debug)]
 pub(super) struct Graphs {
     known: Vec<Known>,
@@ -52,30 +52,30 @@ pub(super) struct Graphs {
 }
 
 record! {
-    /// An audit of a graph to which false closures were added.
+    /// An audit of a graph with added false closures.
     #[check(AuditRun::relations)]
     struct AuditRun {
-        /// False closures that are said to be supported.
+        /// Number of false closures that are called supported.
         false_supported: u32 => lower("false supported").decimals(2),
-        /// Right closures that are said to be refuted.
+        /// Number of right closures that are called refuted.
         true_refuted: u32 => lower("right refuted").decimals(2),
-        /// Certificates whose cycle exceeds its bound even if the closure in question is the only
-        /// one that is not replaced by the truth. These are refuted right closures, and witnesses
-        /// that err by more than their bounds.
+        /// Number of certificates whose bound is broken by others than the closure in question:
+        /// their cycle exceeds its bound even if all other closures are replaced by the truth.
+        /// These are refuted right closures, and witnesses with errors beyond their bounds.
         bounds_broken: u32 => lower("bounds broken").decimals(2),
-        /// False closures that are refuted.
+        /// Share of false closures that are refuted.
         false_refuted_percent: f64 => higher("false refuted").percent().decimals(1),
-        /// Right closures that are supported, or `None` where there are none.
+        /// Share of right closures that are supported; no value if there are none.
         true_supported_percent: Option<f64> => higher("right supported").percent().decimals(1),
-        /// Time of the audit over that of GTSAM's graduated non-convexity on the same graph, with
-        /// the same standard deviations, in the same run. GTSAM is ended after ten minutes, or when
-        /// it has taken 40 times as long and a minute: the ratio is at most this then.
+        /// Time of the audit over that of GTSAM's graduated non-convexity, on the same graph with
+        /// the same standard deviations. GTSAM is stopped after ten minutes, or after a minute plus
+        /// 40 times as long as the audit. The ratio is then an upper bound.
         seconds_over_gtsam: Option<f64> => lower("time over GTSAM's").at_least(0).decimals(3),
-        /// False closures that GTSAM keeps, or `None` where it did not end.
+        /// Number of false closures that GTSAM keeps; no value if it was stopped.
         gtsam_false_kept: Option<u32> => lower("GTSAM keeps false").decimals(2),
-        /// Right closures that GTSAM drops, or `None` where it did not end.
+        /// Number of right closures that GTSAM drops; no value if it was stopped.
         gtsam_true_dropped: Option<u32> => lower("GTSAM drops right").decimals(2),
-        /// False closures that were added: fewer where the graph has no room for them.
+        /// Number of false closures that were added; fewer if the graph has no room for them.
         added: u32 => neither("added").decimals(0),
     }
 }
@@ -111,9 +111,12 @@ pub(super) fn table(graphs: &Graphs, options: &Options) -> Table {
         .metric(Metric::greatest("worst_false_supported", AuditRun::false_supported).titled("false supported, worst run"))
         .rows(rows)
         .note(format!(
-            "{MANY} false closures of each kind are added to a graph, {FEW} to the project's own `rooms`. A closure is false that is off by more than 1 m or 20°; those of the kind near are off \
-             by less, but beyond five standard deviations. Groups are 10 to 20 consecutive pairs that agree with each other. Stated standard deviations × {MANHATTAN_SCALE} for manhattan, whose file \
-             understates its information, × 1 for the others.{gtsam}"
+            "{MANY} false closures of each kind are added to a graph, {FEW} to the project's own \
+             `rooms`. A closure is false if it is off by more than 1 m or 20°. Those of the kind \
+             near are off by less, but beyond five standard deviations. Groups are 10 to 20 \
+             consecutive pairs that agree with each other. Stated standard deviations are multiplied \
+             by {MANHATTAN_SCALE} for manhattan, whose file understates its information, and by 1 \
+             for the others.{gtsam}"
         ))
 }
 
@@ -122,7 +125,7 @@ const MANHATTAN_SCALE: f64 = 0.16;
 const MISSING: &str = "it is a pose graph of the Vertigo project (OpenSLAM); put it into `graphs` of the folder that TOLMAN_DATA names";
 
 impl Graphs {
-    /// Reads the graphs that are here.
+    /// Returns the graphs that are here.
     ///
     /// # Errors
     /// If one that is here cannot be read.
@@ -144,7 +147,7 @@ impl Graphs {
                 name: "intel",
                 scale: 1.0,
                 false_closures: MANY,
-                // Its closures are right, and its poses optimized by them.
+                // All its closures are right, and its poses are optimized with them.
                 graph: of_others(folder, "intel.g2o.gz", |_, graph| Ok(graph.poses()))?,
             },
             Known {
@@ -168,7 +171,7 @@ impl Graphs {
         })
     }
 
-    /// Returns the message about missing data, if anything is left out.
+    /// Returns the message about missing data; `None` if nothing is missing.
     pub(super) fn missing(&self) -> Option<String> {
         let missing = self.known.iter().any(|known| known.graph.is_none());
         missing.then(|| data::missing("the pose graphs of the Vertigo project"))
@@ -225,7 +228,7 @@ impl Graphs {
             added: added.len() as u32,
             ..AuditRun::default()
         };
-        // The project's own graph is too small to be timed.
+        // The project's own graph is too small to measure times.
         if let Some(gnc) = self.gnc.as_ref().filter(|_| known.false_closures == MANY) {
             let found = gnc.run(&g2o_of(file, &graph), right, known.scale, seconds)?;
             run.seconds_over_gtsam = Some(seconds / found.seconds);
@@ -269,7 +272,7 @@ fn percent(part: u32, whole: u32) -> Option<f64> {
     (whole > 0).then(|| 100.0 * f64::from(part) / f64::from(whole))
 }
 
-/// Returns a graph with its false closures as a file says it.
+/// Returns a graph with its false closures as the contents of a file.
 fn g2o_of(file: &GraphFile, graph: &PoseGraph) -> G2o {
     let id = |pose: u32| file.file.poses[pose as usize].id;
     let edges = graph.edges().iter().map(|edge| G2oEdge {
@@ -285,7 +288,7 @@ fn g2o_of(file: &GraphFile, graph: &PoseGraph) -> G2o {
     }
 }
 
-/// Returns a graph of others with its truth, if both are here.
+/// Returns an external graph with its true poses, if both are here.
 fn of_others(
     folder: Option<&Path>,
     name: &str,
@@ -331,7 +334,7 @@ fn poses_of_lines(text: &str) -> Result<Vec<Pose>, BoxError> {
         .collect()
 }
 
-/// Returns the project's own graph without the false closures that it comes with.
+/// Returns the project's own graph without the false closures in its file.
 fn rooms() -> Result<(GraphFile, Vec<Pose>), BoxError> {
     let of = |text: &str| {
         GraphFile::of(G2o::parse(text)?)

@@ -1,4 +1,4 @@
-//! Pictures of what was found in a log.
+//! Pictures of what was found from a log.
 
 use tolman_draw::{Drawing, FloorPlan, Image, ImageError, Series};
 use tolman_formats::MapCell;
@@ -24,17 +24,17 @@ pub struct MapPicture {
 
 /// Side of a cell of the occupancy, m.
 const CELL: f64 = 0.05;
-/// Longer beams are not drawn, m.
+/// Maximum length of a beam that is drawn, m.
 const FARTHEST: f64 = 20.0;
-/// More occupied than that is a wall, less is floor.
+/// Occupancy above which a cell is a wall; below, it is floor.
 const WALL: f64 = 0.25;
-/// A map is doubtful if a larger share of its beams end on floor.
+/// Share of beams ending on floor above which a map is doubtful.
 const DOUBT: f64 = 0.12;
-/// Scans are drawn that lie at least so far from the last that was, m and rad.
+/// Minimum distance between two scans that are drawn, m and rad.
 const APART: (f64, f64) = (0.1, 0.1);
 
 impl MapPicture {
-    /// Draws the scans of a log from the poses found for them. O(scans · beams · range).
+    /// Draws the scans of a log at the poses found for them. O(scans · beams · range).
     #[must_use]
     pub fn of(log: &RobotLog, poses: &[Pose]) -> Self {
         let drawn = apart(poses);
@@ -74,8 +74,7 @@ impl MapPicture {
         }
     }
 
-    /// Returns what speaks against the map, in a sentence without a full stop; `None` if nothing
-    /// does.
+    /// Returns why the map is doubtful, in a sentence without a full stop; `None` if it is not.
     #[must_use]
     pub fn doubt(&self) -> Option<String> {
         let percent = 100.0 * self.contradicted;
@@ -86,8 +85,8 @@ impl MapPicture {
         })
     }
 
-    /// Returns the picture, `width` user units wide: occupancy below, what the wheels say as a
-    /// dashed line, the way found above.
+    /// Returns the picture, `width` user units wide: the occupancy, over it the odometry as a
+    /// dashed line, and on top the way found.
     ///
     /// # Errors
     /// If the occupancy is larger than a picture can be.
@@ -135,7 +134,7 @@ fn shade(occupied: Option<f64>) -> u8 {
     })
 }
 
-/// Returns an occupancy as `map_server` of ROS knows it.
+/// Returns an occupancy grid in the form of ROS's `map_server`.
 #[must_use]
 pub fn ros_map(grid: &OccupancyGrid) -> RosMap {
     let cell = |occupied: Option<f64>| match occupied {
@@ -152,7 +151,7 @@ pub fn ros_map(grid: &OccupancyGrid) -> RosMap {
     }
 }
 
-/// Returns the scans that show something new.
+/// Returns the indices of the scans that show something new.
 fn apart(poses: &[Pose]) -> Vec<usize> {
     let mut drawn: Vec<usize> = Vec::new();
     for (index, pose) in poses.iter().enumerate() {

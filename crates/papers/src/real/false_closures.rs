@@ -1,8 +1,8 @@
-//! False loop closures of the kinds in the literature, each from its seed.
+//! False loop closures of the kinds in the literature, drawn from a seed.
 //!
-//! Source of the kinds: N. Sünderhauf, P. Protzel: Towards a Robust Back-End for Pose Graph
-//! SLAM, 2012. There are two deviations. Groups agree within themselves, since the pairs after the
-//! first follow from odometry. *Local* means near in the true map, not by number.
+//! Source of the kinds: N. Sünderhauf, P. Protzel: Towards a Robust Back-End for Pose Graph SLAM,
+//! 2012. There are two deviations. The closures of a group agree with each other, because the pairs
+//! after the first follow from odometry. *Local* means near in the true map, not by number.
 
 use alloc::collections::BTreeSet;
 
@@ -12,16 +12,16 @@ use tolman_geom::nalgebra::Matrix3;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
 
-/// Choice of the poses of a false closure.
+/// How the poses of a false closure are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// Any two poses.
     Random,
     /// Two poses within 5 m in the true map.
     Local,
-    /// 10 to 20 consecutive pairs from any two poses on, which agree with each other.
+    /// 10 to 20 consecutive pairs that agree with each other, beginning at any two poses.
     RandomGroups,
-    /// 10 to 20 consecutive pairs from two poses within 5 m on, which agree with each other.
+    /// 10 to 20 consecutive pairs that agree with each other, beginning at two poses within 5 m.
     LocalGroups,
     /// Two poses whose measurement is off by less than 1 m and 20°, but by more than its bound.
     Near,
@@ -30,15 +30,15 @@ pub(super) enum Kind {
 /// Maximum distance of a false closure's poses, m.
 const RADIUS: f64 = 5.0;
 
-/// A closure that is off by more is false, m and degrees.
+/// Error above which a closure is false, m and degrees.
 const FALSE_M: f64 = 1.0;
 const FALSE_DEG: f64 = 20.0;
 
-/// Spread of a place matcher's measurement near zero, m and degrees.
+/// Spread of a place matcher's measurements near zero, m and degrees.
 const JITTER_M: f64 = 0.3;
 const JITTER_DEG: f64 = 10.0;
 
-/// Spread of a group's measurements about those that follow from the first, m and rad.
+/// Spread of a group's measurements around those that follow from the first, m and rad.
 const GROUP_M: f64 = 0.02;
 const GROUP_RAD: f64 = 0.01;
 
@@ -76,13 +76,13 @@ pub(super) fn is_false(measured: Pose, truth: Pose) -> bool {
     off.position.coords.norm() > FALSE_M || off.heading.degrees().abs() > FALSE_DEG
 }
 
-/// A graph and its true poses, from which false closures are drawn.
+/// Draws false closures for a graph with known true poses.
 pub(super) struct Spoiler<'a> {
     graph: &'a PoseGraph,
     truth: &'a [Pose],
     /// Odometry from each pose to the next.
     steps: Vec<Option<Pose>>,
-    /// The information of the right closures.
+    /// Information matrices of the right closures.
     information: Vec<Matrix3<f64>>,
     taken: BTreeSet<(u32, u32)>,
 }
@@ -128,8 +128,7 @@ impl<'a> Spoiler<'a> {
         drawn
     }
 
-    /// Returns one false closure, or a group of them; `None` if chance chose poses that will not
-    /// do.
+    /// Returns one false closure, or a group of them; `None` if the random poses do not fit.
     fn group(&self, kind: Kind, rng: &mut ChaCha8Rng) -> Option<Vec<PoseEdge>> {
         let length = if kind.is_grouped() {
             rng.random_range(10..=20_u32)
@@ -157,7 +156,7 @@ impl<'a> Spoiler<'a> {
         for step in 0..length {
             let (from, to) = (first + step, second + step);
             if step > 0 {
-                // What follows from the pair before, by odometry on both sides.
+                // It follows from the previous pair, by odometry on both sides.
                 let [back, forth] = [from - 1, to - 1].map(|pose| self.steps[pose as usize]);
                 measured = back?.inverse().compose(measured).compose(forth?);
             }
@@ -188,7 +187,7 @@ impl<'a> Spoiler<'a> {
         }
     }
 
-    /// Returns a random pose within reach of another in the true map.
+    /// Returns a random pose near another one in the true map.
     fn near(&self, one: u32, rng: &mut ChaCha8Rng) -> Option<u32> {
         let place = self.truth[one as usize].position;
         let near = (0..)
@@ -200,7 +199,7 @@ impl<'a> Spoiler<'a> {
     }
 }
 
-/// Returns a pose moved by chance, in its own frame.
+/// Returns a pose moved at random, in its own frame.
 fn spread(pose: Pose, metres: f64, radians: f64, rng: &mut ChaCha8Rng) -> Pose {
     let (x, y) = gaussians(rng);
     let (turn, _) = gaussians(rng);

@@ -1,5 +1,4 @@
-//! The replay of a log: the way found beside what the wheels say, what the laser read, and the map
-//! as it grew.
+//! Replays of logs: the way found and the odometry, what the laser read, and the map as it grew.
 
 use tolman_geom::Point;
 use tolman_maps::scan_matching::OccupancyGrid;
@@ -10,15 +9,15 @@ use tolman_robot::{Body, Ring};
 
 use super::{FoundClosure, MapPicture, MappedLog, RobotLog};
 
-/// The robot is drawn so large, m: a log does not tell.
+/// Radius at which the robot is drawn, m; a log does not give it.
 const RADIUS: f64 = 0.25;
-/// Beams of a reading that are shown at most.
+/// Maximum number of beams shown of a reading.
 const SHOWN_BEAMS: u32 = 90;
-/// Keyframes that are nodes at most.
+/// Maximum number of keyframes shown as nodes.
 const MOST_NODES: usize = 400;
 
 impl MappedLog {
-    /// Returns the replay of a log. A step is a scan.
+    /// Returns the replay of a log, with one step per scan.
     #[must_use]
     pub fn replay(&self, log: &RobotLog, picture: &MapPicture, title: &str) -> Replay {
         let body = Body::Circle { radius: RADIUS };
@@ -57,7 +56,7 @@ impl MappedLog {
             spacing: of_first.spacing * f64::from(every),
             ..of_first
         };
-        // A log of two lasers shows the first.
+        // If a log has two lasers, the first is shown.
         let of_ring = |scan: &&usize| log.scans[**scan].scan.ring == of_first;
         let shown: Vec<usize> = self.keyframes.iter().filter(of_ring).copied().collect();
         let ranges = shown.iter().map(|scan| {
@@ -71,7 +70,7 @@ impl MappedLog {
         })
     }
 
-    /// Keyframes as nodes, one by one, and closures between them.
+    /// Returns the keyframes as nodes in order, and the closures between them.
     fn keyframe_map(&self) -> MapGrowth {
         let every = self.keyframes.len().div_ceil(MOST_NODES).max(1);
         let node = |number: usize| {
@@ -100,7 +99,7 @@ impl MappedLog {
         }
     }
 
-    /// Returns places and the ways between them.
+    /// Returns the places and the ways between them.
     fn place_map(&self) -> MapGrowth {
         let born = |id: u32| self.founded.get(&id).map_or(0, |scan| *scan as u32);
         let places = self.places.places.iter();
@@ -120,7 +119,7 @@ impl MappedLog {
     }
 }
 
-/// Returns the time between two scans in the mean, s.
+/// Returns the mean time between two scans, s.
 fn pace(log: &RobotLog) -> f64 {
     let ends = log.scans.first().zip(log.scans.last());
     let lasted = ends.map_or(0.0, |(first, last)| last.time - first.time);
@@ -152,7 +151,7 @@ fn walls(grid: &OccupancyGrid) -> Vec<[Point; 2]> {
     walls
 }
 
-/// Stretches of at least three in a row.
+/// Returns the runs of at least three consecutive cells.
 fn runs(count: usize, is: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut first = None;

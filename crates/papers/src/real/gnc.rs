@@ -1,4 +1,4 @@
-//! GTSAM's graduated non-convexity on the same graph, in a Python that has it.
+//! Runs GTSAM's graduated non-convexity on the same graph, in a Python that has it.
 //!
 //! Source: H. Yang, P. Antonante, V. Tzoumas, L. Carlone: Graduated Non-Convexity for Robust
 //! Spatial Perception, 2020.
@@ -16,11 +16,10 @@ use tolman_formats::G2o;
 
 const SCRIPT: &str = include_str!("gnc.py");
 
-/// When it is ended at the latest, s.
+/// Maximum duration, s.
 const CAP: f64 = 600.0;
 
-/// When it is stopped for being far slower: after this multiple of the audit's time, and at least
-/// the seconds below.
+/// Maximum duration as a multiple of the audit's time, and the minimum of that limit, s.
 const TIMES: f64 = 40.0;
 const LEAST: f64 = 60.0;
 
@@ -32,7 +31,7 @@ pub(super) struct Gnc {
 
 /// Result of the optimizer.
 pub(super) struct GncRun {
-    /// Duration, or the time limit if it was ended.
+    /// Duration, or the time limit if it was stopped, s.
     pub(super) seconds: f64,
     pub(super) false_kept: Option<u32>,
     pub(super) true_dropped: Option<u32>,
@@ -49,8 +48,8 @@ impl Gnc {
         found.then_some(Self { python })
     }
 
-    /// Runs it on a graph whose edges from `right` on are false, with standard deviations ×
-    /// `scale`. `ours` is what the audit took, s.
+    /// Runs it on a graph whose edges from `right` on are false, with standard deviations
+    /// multiplied by `scale`. `ours` is the duration of the audit, s.
     pub(super) fn run(
         &self,
         graph: &G2o,
@@ -71,7 +70,7 @@ impl Gnc {
             &scale.to_string(),
             &cap.to_string(),
         ]);
-        // What is left of it is of no use; the answer matters.
+        // A file left behind does no harm; the answer matters.
         let _ = fs::remove_file(&path);
         let Some(text) = out? else {
             return Ok(GncRun {
@@ -94,7 +93,7 @@ impl Gnc {
         })
     }
 
-    /// Returns the script's output; `None` if it had to be ended.
+    /// Returns the script's output; `None` if it had to be stopped.
     fn answer(&self, arguments: &[&str; 4]) -> Result<Option<String>, BoxError> {
         let mut command = Command::new(&self.python);
         command.args(["-c", SCRIPT]).args(arguments);
@@ -103,7 +102,7 @@ impl Gnc {
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()?;
-        // Its clock begins when the graph is read, which takes seconds.
+        // Its clock begins after the graph is read, which takes seconds.
         let cap = Duration::from_secs_f64(arguments[3].parse::<f64>()? + 30.0);
         let start = Instant::now();
         loop {

@@ -1,4 +1,4 @@
-//! Pose graphs of others as this project has them.
+//! Pose graphs from files.
 
 use std::path::{Path, PathBuf};
 
@@ -8,18 +8,18 @@ use tolman_formats::{G2o, G2oError};
 use tolman_geom::Pose;
 use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
 
-/// A pose graph with the file it was read from. Pose n of the graph is pose n of the file in the
-/// order of ids; edge n is edge n.
+/// A pose graph with the file it was read from. Pose n of the graph is pose n of the file, sorted
+/// by id. Edge n is edge n of the file.
 #[derive(Clone, Debug)]
 pub struct GraphFile {
     /// Contents of the file.
     pub file: G2o,
-    /// The same as a graph. The first edge of each pair of neighbours in the order of ids is
-    /// odometry; any other edge is a closure.
+    /// The graph. The first edge between neighbours in the order of ids is odometry; any other edge
+    /// is a closure.
     pub graph: PoseGraph,
 }
 
-/// Reason why a file is no pose graph.
+/// Reason why a file is not a pose graph.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GraphFileError {
@@ -28,10 +28,10 @@ pub enum GraphFileError {
     File {
         /// Path of the file.
         path: PathBuf,
-        /// Reason.
+        /// The underlying error.
         source: SourceError,
     },
-    /// It holds nothing of use.
+    /// It holds no pose graph.
     #[error("{}", path.display())]
     G2o {
         /// Path of the file.
@@ -72,7 +72,7 @@ impl GraphFile {
         })
     }
 
-    /// Returns the graph of what a file says; the error bears the line at fault.
+    /// Returns the graph of a file's contents. An error has the number of the line.
     pub(super) fn of(file: G2o) -> Result<Self, (usize, PoseGraphError)> {
         let mut graph = PoseGraph::new();
         for pose in &file.poses {
@@ -104,7 +104,7 @@ impl GraphFile {
         Ok(Self { file, graph })
     }
 
-    /// Returns where the file has the poses.
+    /// Returns the poses as the file has them.
     #[must_use]
     pub fn poses(&self) -> Vec<Pose> {
         self.file.poses.iter().map(|pose| pose.pose).collect()

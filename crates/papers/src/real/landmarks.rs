@@ -1,4 +1,4 @@
-//! A map of landmarks that a robot recognizes, made of dead reckoning and of how far and which way
+//! A map of recognized landmarks, from dead reckoning and from the ranges and bearings at which
 //! they were seen.
 
 use alloc::collections::BTreeMap;
@@ -11,30 +11,30 @@ use tolman_robot::{TimedPose, Trajectory};
 
 /// Time between two poses of the robot that are kept, s.
 const STEP_S: f64 = 1.0;
-/// Poses between two times that all are made to agree.
+/// Number of poses after which all are optimized.
 const ROUND: usize = 60;
 /// Standard deviations of a range, m, and of a bearing, rad.
 const RANGE_ERROR: f64 = 0.15;
 const BEARING_ERROR: f64 = 0.05;
-/// Standard deviations of dead reckoning in each step, m and rad, and as a share of the way and of
+/// Standard deviations of dead reckoning: in each step, m and rad; and as a share of the way and of
 /// the turn.
 const STEP_ERROR: [f64; 2] = [0.01, 0.01];
 const WAY_ERROR: f64 = 0.1;
-/// Information of a landmark's heading, which is meaningless.
+/// Information of a landmark's heading, which has no meaning.
 const NO_HEADING: f64 = 1e-6;
 
 /// Poses of a robot and positions of landmarks, in the frame of its first pose.
 #[derive(Clone, Debug)]
 pub(super) struct LandmarkMap {
-    /// The robot's poses, one a second.
+    /// The robot's poses, one per second.
     pub(super) way: Vec<TimedPose>,
     /// The landmarks.
     pub(super) landmarks: BTreeMap<u32, Point>,
 }
 
 impl LandmarkMap {
-    /// Returns the map of a robot's records: poses and landmarks of a pose graph that agree best
-    /// with wheels and sightings.
+    /// Returns the map of a robot's records: the poses and landmarks of a pose graph that agree
+    /// best with wheels and sightings.
     pub(super) fn of(
         odometry: &[LogVelocity],
         sightings: &[BarcodeSighting],
@@ -81,7 +81,7 @@ impl LandmarkMap {
     }
 }
 
-/// Returns how poses are made to agree while there are more to come: nearly.
+/// Returns the configuration of the optimizer while poses are still added; it is less exact.
 const fn on_the_way() -> OptimizerConfig {
     OptimizerConfig {
         most_steps: 4,
@@ -101,7 +101,7 @@ pub(super) fn steps_of(reckoned: &Trajectory) -> Vec<f64> {
         .collect()
 }
 
-/// Adds a pose that the wheels have led to, and returns its id.
+/// Adds a pose to which the wheels have led, and returns its id.
 fn step(graph: &mut PoseGraph, before: Option<u32>, moved: Pose) -> Result<u32, PoseGraphError> {
     let Some(before) = before else {
         return Ok(graph.add_pose(Pose::IDENTITY));
@@ -120,7 +120,7 @@ fn step(graph: &mut PoseGraph, before: Option<u32>, moved: Pose) -> Result<u32, 
     Ok(here)
 }
 
-/// Adds a landmark that was seen from where the robot had `moved` to since the pose `here`.
+/// Adds a landmark that was seen after the robot had moved by `moved` from the pose `here`.
 fn see(
     graph: &mut PoseGraph,
     here: u32,
@@ -128,7 +128,7 @@ fn see(
     moved: Pose,
     seen: &BarcodeSighting,
 ) -> Result<(), PoseGraphError> {
-    // The axes of the error are along the ray and across it.
+    // The error's axes are along the ray and across it.
     let bearing = moved.heading.turned(seen.bearing);
     let position = moved.position + seen.range * bearing.unit();
     let measured = Pose::new(position, bearing);

@@ -14,7 +14,7 @@ use tolman_systems::diktiometry::DiktiometryOfSites;
 use tolman_systems::gngslam::PlaceGraphOfSites;
 use tolman_systems::places::{OfSites, PlacesConfig, PlacesMapper, SiteMapper};
 
-/// Two places nearer than this are one, m: half a corridor's width.
+/// Distance below which two places are one, m: half a corridor's width.
 const DOUBLED_M: f64 = 1.0;
 
 /// The scans of a log, in the order of the file.
@@ -26,16 +26,16 @@ pub struct RobotLog {
     pub report: LogReport,
 }
 
-/// System that finds the way of a robot in its log.
+/// System that finds the way of a robot from its log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LogSystem {
     /// The wheels alone.
     Odometry,
-    /// Scans matched to those before.
+    /// Scans matched to earlier ones.
     Matching,
-    /// Scans matched to those before, and places seen again.
+    /// Scans matched to earlier ones, and to places seen before.
     ScanMatching,
-    /// Scans matched to those before; junctions, bends, dead ends and rooms recognized.
+    /// Scans matched to earlier ones; junctions, bends, dead ends and rooms recognized.
     Places,
     /// The same places, mapped by the diktiometry.
     Diktiometry,
@@ -57,7 +57,7 @@ impl LogSystem {
         Self::PlaceGraph,
     ];
 
-    /// Returns its name, as `tolman map --log` takes it.
+    /// Returns the name, as `tolman map --log` takes it.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -71,7 +71,7 @@ impl LogSystem {
         }
     }
 
-    /// Returns the one of a name.
+    /// Returns the system called `name`; `None` if there is none.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|system| system.name() == name)
@@ -81,38 +81,38 @@ impl LogSystem {
 /// Result of mapping a log.
 #[derive(Clone, Debug)]
 pub struct MappedLog {
-    /// The pose of each scan, in the order of the file.
+    /// Pose of each scan, in the order of the file.
     pub poses: Vec<Pose>,
-    /// Places seen again.
+    /// Number of places that were recognized again.
     pub closures: usize,
-    /// The numbers of the scans that the map keeps.
+    /// Indices of the scans that the map keeps.
     pub keyframes: Vec<usize>,
     /// The closures.
     pub closed: Vec<FoundClosure>,
-    /// The map of places, of a system that has one.
+    /// Map of places; empty for a system without one.
     pub places: MapView,
-    /// The scan at which each place was first come to, by its id.
+    /// Scan at which each place was first visited, by the place's id.
     pub founded: BTreeMap<u32, usize>,
-    /// The places that the robot came to, each by the keyframe in its middle and, if the map knows
-    /// it, its id.
+    /// Visits to places: the keyframe in the middle of the place, and the place's id if the map
+    /// knows it.
     pub visits: Vec<(usize, Option<u32>)>,
-    /// The mapper's probability that its map is right; `None` if it gives none.
+    /// Probability that the map is right, by the mapper's own estimate; `None` if it gives none.
     pub certainty: Option<f64>,
 }
 
-/// A place seen again.
+/// A loop closure: a place that was seen again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoundClosure {
-    /// The number of the earlier keyframe.
+    /// Index of the earlier keyframe.
     pub earlier: usize,
-    /// The number of the later one.
+    /// Index of the later keyframe.
     pub later: usize,
-    /// Measured pose of the later one relative to the earlier.
+    /// Measured pose of the later keyframe relative to the earlier one.
     pub measured: Pose,
 }
 
 impl RobotLog {
-    /// Reads a log of lines, plain or packed by gzip, or a bag of ROS 2.
+    /// Reads a log of lines, plain or gzipped, or a ROS 2 bag.
     ///
     /// # Errors
     /// If there is no such file, it has no scan, or it is a bag and the feature `mcap` is off.
@@ -148,7 +148,7 @@ impl RobotLog {
         Err(format!("{path} is a bag of ROS 2; build with `--features mcap` to read it").into())
     }
 
-    /// Reads a log of lines that lies in memory.
+    /// Reads a log of lines in memory.
     pub fn of_text(text: &[u8]) -> Self {
         let mut reader = LogReader::new(text);
         let scans = Self::of(&mut reader);
@@ -164,13 +164,13 @@ impl RobotLog {
         scans.collect()
     }
 
-    /// Returns what the wheels say, scan by scan.
+    /// Returns the odometry, one pose per scan.
     #[must_use]
     pub fn odometry(&self) -> Vec<Pose> {
         self.scans.iter().map(|scan| scan.odometry).collect()
     }
 
-    /// Returns what the wheels say, laid over the start of the way `found`.
+    /// Returns the odometry, aligned with the start of the way `found`.
     #[must_use]
     pub fn odometry_over(&self, found: &[Pose]) -> Vec<Pose> {
         let odometry = self.odometry();
@@ -181,7 +181,7 @@ impl RobotLog {
         odometry.iter().map(|pose| over.compose(*pose)).collect()
     }
 
-    /// Finds the way of the robot by `system`, with the poses of `odometry`, and returns it. Calls
+    /// Finds the way of the robot by `system`, from the poses of `odometry`, and returns it. Calls
     /// `see` after each scan with the number of scans so far.
     ///
     /// # Errors
@@ -230,7 +230,7 @@ impl RobotLog {
         Ok(MappedLog::of(&mapper))
     }
 
-    /// Tells a mapper of the places of the log.
+    /// Passes the places of the log to a mapper.
     fn map_sites<O>(
         &self,
         of_sites: O,
@@ -252,7 +252,7 @@ impl RobotLog {
         })
     }
 
-    /// Shows a mapper the log, step by step.
+    /// Passes the log to a mapper, step by step.
     pub(super) fn show<M: Mapper<Observation = ScanStep>>(
         &self,
         mapper: &mut M,
@@ -272,7 +272,7 @@ impl RobotLog {
         Ok(())
     }
 
-    /// Returns poses, one a scan, as a way in time.
+    /// Returns poses, one per scan, as a trajectory.
     #[must_use]
     pub fn trajectory(&self, poses: &[Pose]) -> Trajectory {
         let timed = self.scans.iter().zip(poses);
@@ -304,8 +304,8 @@ impl MappedLog {
         }
     }
 
-    /// Returns the keyframes of the last visit before and of each visit to a place where the robot
-    /// had been, by the map. O(visits · log places).
+    /// Returns, for each visit to a place that the map knows already, the keyframes of the previous
+    /// visit and of this one. O(visits · log places).
     #[must_use]
     pub fn recognized(&self) -> Vec<[usize; 2]> {
         let mut last = BTreeMap::new();
@@ -316,8 +316,8 @@ impl MappedLog {
             .collect()
     }
 
-    /// Counts the places that the way found has within 1 m of one that was founded before: the
-    /// same, met again and not recognized. O(places²).
+    /// Returns the number of places within 1 m of an earlier one: the same place, visited again and
+    /// not recognized. O(places²).
     #[must_use]
     pub fn doubled(&self) -> usize {
         let scans: BTreeSet<_> = self.founded.values().copied().collect();

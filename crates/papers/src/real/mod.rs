@@ -1,5 +1,5 @@
 //! Logs and graphs of real robots, and a small log of the project's own simulator. The tables show
-//! the errors of the ways found in logs, and audits of pose graphs with false closures.
+//! the errors of ways found from logs, and audits of pose graphs with false closures.
 
 mod audit;
 mod drawing;
@@ -48,7 +48,7 @@ pub(super) const ENTRY: Entry = Entry {
     open,
 };
 
-/// The experiment, ready to run.
+/// The prepared experiment.
 #[derive(Debug)]
 struct Real {
     small: small::Small,
@@ -65,11 +65,10 @@ struct Config {
     audit: AuditConfig,
 }
 
-/// Says which logs and graphs are here and sets the tables up.
+/// Returns the experiment with the logs and graphs that are here.
 ///
 /// # Errors
-/// If the caller names mazes, which have no place here, or a log or graph that is here cannot be
-/// read.
+/// If the caller names mazes, which this experiment does not use, or a log or graph cannot be read.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
     if !options.mazes.is_empty() {
         return Err("logs know no mazes: leave --maze out".into());
@@ -124,7 +123,7 @@ impl Procedure for Real {
         }
     }
 
-    /// Returns the name of the table, whose rows read the same log.
+    /// Returns the name of the table, whose rows use the same log.
     fn shares(&self, job: &Job<'_>) -> Option<String> {
         Some(job.table.to_owned())
     }

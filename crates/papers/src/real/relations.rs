@@ -1,4 +1,4 @@
-//! The Intel lab: errors of relative poses against those verified by hand.
+//! The Intel lab: errors of relative poses, compared with relations verified by hand.
 
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -19,15 +19,15 @@ const LOG: &str = "logs/mrpt-intel/intel_raw_every5th.clf.gz";
 const RELATIONS: &str = "logs/intel-relations/intel.relations.gz";
 const PUBLISHED: &str = "logs/radish/intel-corrected.log.gz";
 
-/// Difference between the times of the relations and those of the published log, s.
+/// Difference between the times of the relations and of the published log, s.
 const PUBLISHED_TIMES: f64 = 976_052_857.34;
 
-/// A closure is wrong if the dense map has it farther off, m.
+/// Error, by the dense map, above which a closure is wrong, m.
 const WRONG_M: f64 = 0.5;
-/// Distance in the dense map beyond which two visits are not to the same place, m. A room or a
-/// crossing of corridors is as wide, and a robot stands anywhere in it.
+/// Distance, by the dense map, above which two visits are not to the same place, m. A room or a
+/// crossing of corridors is this wide, and the robot may be anywhere in it.
 const ELSEWHERE_M: f64 = 4.0;
-/// The row whose wheels are made worse.
+/// Row whose wheels have added errors.
 const MADE_WORSE: &str = "intel dense, wheels made worse";
 
 pub(super) const ROWS: [(&str, Option<LogSystem>); 9] = [
@@ -50,7 +50,7 @@ pub(super) struct Intel {
     dense: OnceLock<MappedLog>,
 }
 
-/// Returns a file of the data, if it is here.
+/// Returns the path of a data file; `None` if it is not here.
 pub(super) fn file(name: &str) -> Option<PathBuf> {
     let path = data::folder()?.join(name);
     path.exists().then_some(path)
@@ -70,25 +70,25 @@ pub(super) fn missing() -> Option<String> {
 record! {
     /// A way through the Intel lab.
     struct RelationRun {
-        /// Mean distance of the second pose of a relation, seen from the first, from where it was
-        /// verified to be.
+        /// Mean error of a relation: the distance between the found and the verified position of
+        /// its second pose, seen from the first.
         error_m: f64 => lower("error, all relations").unit("m").at_least(0).decimals(3),
-        /// The same over relations whose times lie more than 30 s apart: the robot has come back in
-        /// between.
+        /// The same error over relations whose times are more than 30 s apart, so that the robot
+        /// has come back in between.
         error_over_30s_m: f64 => lower("error, over 30 s").unit("m").at_least(0).decimals(3),
-        /// Relations that lie on the way.
+        /// Number of relations on the way.
         relations: usize => neither("relations").decimals(0),
-        /// Places seen again.
+        /// Number of places that were recognized again.
         closures: usize => neither("closures").decimals(0),
-        /// Those of a map of places that the dense map has elsewhere.
+        /// For a map of places: number of closures that the dense map places elsewhere.
         wrong_closures: Option<usize> => lower("wrong closures").decimals(0),
-        /// Places of a map of places.
+        /// For a map of places: number of places.
         places: usize => neither("places").decimals(0),
         /// Number of visits to places.
         visits: usize => neither("visits").decimals(0),
-        /// Number of times that it took a place for a known one.
+        /// Number of times that it recognized a place.
         recognized: usize => neither("recognized").decimals(0),
-        /// Number of these at which the robot was elsewhere, by the dense map.
+        /// Number of these times at which the robot was elsewhere, by the dense map.
         wrongly_recognized: Option<usize> => lower("wrongly recognized").decimals(0),
     }
 }
@@ -101,18 +101,21 @@ pub(super) fn table() -> Table {
         None => Row::new(name).run_each(1),
     };
     let worst = Metric::greatest("worst_over_30s_m", RelationRun::error_over_30s_m);
-    Table::of::<RelationRun>(NAME, "The Intel lab, held against relations verified by hand")
+    Table::of::<RelationRun>(NAME, "The Intel lab, compared with relations verified by hand")
         .metrics_from(RelationRun::error_m)
         .metric(worst.titled("worst, over 30 s").unit("m").decimals(3))
         .rows(ROWS.map(row))
         .note(
-            "Every fifth scan of the raw log. Relations whose times lie within 30 s have a floor of 0.09 m, since their times lie between scans \
-             that are a second apart. Published: the corrected log that others map with, which went through a mapper of its authors. \
-             Matching: scans matched to those before, without closures. Places: with closures where a junction, a bend, a dead end or a room \
-             was recognized. Diktiometry, CPM, place graph: the same places, recognized by that mapper alone. Dense: with closures everywhere; wrong is a \
-             closure of a map of places that the dense map has more than half a metre elsewhere, and a place recognized that it has more than \
-             four metres from where the robot was before. Wheels made worse: all the way they turn 2° a metre to one side besides, and \
-             every way is 5 % too long or too short; the sides are drawn for each run.",
+            "Every fifth scan of the raw log. Relations within 30 s have a floor of 0.09 m, because \
+             their times are between scans that are a second apart. Published: the corrected log \
+             that others use, made by a mapper of its authors. Matching: scans matched to earlier \
+             ones, without closures. Places: with closures where a junction, a bend, a dead end or a \
+             room was recognized. Diktiometry, CPM, place graph: the same places, recognized by that \
+             mapper alone. Dense: with closures everywhere. A closure of a map of places is wrong if \
+             the dense map has it more than half a metre elsewhere. A place is wrongly recognized if \
+             the dense map has it more than four metres from the earlier visit. Wheels made worse: \
+             they also turn 2° a metre to one side all the way, and every way is 5 % too long or too \
+             short. The sides are drawn for each run.",
         )
 }
 
@@ -135,7 +138,7 @@ impl Intel {
         Ok(self.dense.get_or_init(|| dense))
     }
 
-    /// Returns the way that a row has.
+    /// Returns the way of a row.
     fn way(&self, job: &Job<'_>) -> Result<(Trajectory, MappedLog), BoxError> {
         let named = ROWS.iter().find(|(name, _)| *name == job.row);
         let (_, system) = named.ok_or_else(|| format!("there is no row {}", job.row))?;
@@ -160,7 +163,7 @@ impl Intel {
         Ok((log.trajectory(&mapped.poses), mapped))
     }
 
-    /// Counts closures that the dense map has elsewhere.
+    /// Returns the number of closures that the dense map places elsewhere.
     fn wrong(&self, mapped: &MappedLog) -> Result<usize, BoxError> {
         let dense = self.dense()?;
         let is_wrong = |closure: &&FoundClosure| {
@@ -172,7 +175,7 @@ impl Intel {
         Ok(mapped.closed.iter().filter(is_wrong).count())
     }
 
-    /// Counts places taken for one that the dense map has elsewhere.
+    /// Returns the number of recognized places that the dense map places elsewhere.
     fn elsewhere(&self, mapped: &MappedLog, recognized: &[[usize; 2]]) -> Result<usize, BoxError> {
         let dense = self.dense()?;
         let is_elsewhere = |pair: &&[usize; 2]| {

@@ -1,4 +1,4 @@
-//! A small log of the project's own simulator, which is always here.
+//! A small log of the project's own simulator, which is always available.
 
 use std::io::Read;
 
@@ -24,7 +24,7 @@ const ROWS: [(&str, LogSystem); 7] = [
     ("dense", LogSystem::ScanMatching),
 ];
 
-/// The log, whose noted poses are the true ones.
+/// The log; the poses noted in it are the true ones.
 #[derive(Debug)]
 pub(super) struct Small {
     pub(super) log: RobotLog,
@@ -33,16 +33,15 @@ pub(super) struct Small {
 record! {
     /// A way through the simulated office.
     struct SmallRun {
-        /// Root of the mean squared distance of a scan's position from the true one, once a turn
-        /// and a shift are undone.
+        /// Root-mean-square error of the scans' positions after the best rotation and shift.
         rms_m: f64 => lower("error, root mean square").unit("m").at_least(0).decimals(3),
-        /// Greatest of these distances.
+        /// Largest of these errors.
         largest_m: f64 => lower("largest error").unit("m").at_least(0).decimals(3),
-        /// Places seen again.
+        /// Number of places that were recognized again.
         closures: usize => neither("closures").decimals(0),
-        /// Places of the map.
+        /// Number of places on the map.
         places: usize => neither("places").decimals(0),
-        /// Places that lie within 1 m of one that was founded before.
+        /// Number of places within 1 m of an earlier one.
         doubled: usize => lower("doubled places").decimals(0),
     }
 }

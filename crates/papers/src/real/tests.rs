@@ -1,4 +1,4 @@
-//! The small log, which is always here.
+//! Tests on the small log, which is always available.
 
 use tolman_geom::Pose;
 
@@ -6,7 +6,7 @@ use super::small::Small;
 use super::trajectories::aligned;
 use super::{LogSystem, RobotLog};
 
-/// Returns every third scan of the small log, which is as far as a robot comes in a second.
+/// Returns every third scan of the small log: one per second.
 fn log() -> RobotLog {
     let log = Small::read().unwrap().log;
     RobotLog {
@@ -25,7 +25,7 @@ fn places_seen_again_are_recognized_and_none_that_were_not() {
     let rms = aligned(&found.poses, &truth).unwrap().rms;
     assert!(wheels > 2.0 && rms < 0.2, "{wheels} {rms}");
     assert!(found.closures > 1, "{}", found.closures);
-    // Fewer places than visits, since it went round twice.
+    // There are fewer places than visits, because the robot went round twice.
     assert!(found.places.places.len() > 3, "{:?}", found.places);
 }
 

@@ -1,4 +1,4 @@
-//! Other buildings: distances of positions from those of the corrected log.
+//! Other buildings: positions compared with those of the corrected log.
 
 use core::f64::consts::TAU;
 
@@ -16,7 +16,7 @@ use crate::data;
 /// The table's name.
 pub(super) const NAME: &str = "trajectories";
 
-/// A row with its log, and whether its odometry is raw.
+/// Rows with their logs, and whether the odometry is raw.
 pub(super) const ROWS: [(&str, &str, bool); 5] = [
     ("csail", "logs/csail-raw/csail_raw_odom.clf.gz", true),
     (
@@ -33,14 +33,14 @@ pub(super) const ROWS: [(&str, &str, bool); 5] = [
     ("edmonton", "logs/radish/edmonton-corrected.log.gz", false),
 ];
 
-/// Errors added to the wheels of a log.
+/// Errors that are added to a log's odometry.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wear {
-    /// A constant turn a metre to one side, drawn for each run, degrees.
+    /// Constant turn per metre to one side, drawn for each run, degrees.
     turn_a_metre_deg: f64,
-    /// A random turn each step, degrees (standard deviation).
+    /// Random turn per step, degrees (standard deviation).
     turn_a_step_deg: f64,
-    /// Constant share by which all ways are too long or too short, drawn for each run.
+    /// Constant share by which all distances are too long or too short, drawn for each run.
     length: f64,
 }
 
@@ -51,7 +51,7 @@ impl Wear {
         turn_a_step_deg: 1.3,
         length: 0.0,
     };
-    /// Errors for raw odometry, which errs already.
+    /// Errors for raw odometry, which has errors already.
     pub(super) const OF_RAW: Self = Self {
         turn_a_metre_deg: 2.0,
         turn_a_step_deg: 0.0,
@@ -62,16 +62,16 @@ impl Wear {
 record! {
     /// A way through a building.
     struct TrajectoryRun {
-        /// Root of the mean squared distance of a scan's position from that in the corrected log,
-        /// once a turn and a shift are undone.
+        /// Root-mean-square distance between the scans' positions and those of the corrected log,
+        /// after the best rotation and shift.
         rms_m: f64 => lower("error, root mean square").unit("m").at_least(0).decimals(3),
-        /// Greatest of these distances.
+        /// Largest of these distances.
         largest_m: f64 => lower("largest error").unit("m").at_least(0).decimals(3),
-        /// The same root by scans matched to those before alone.
+        /// Root-mean-square distance with scans matched only to earlier ones.
         matching_rms_m: f64 => lower("without closures").unit("m").at_least(0).decimals(3),
-        /// The same root by the wheels alone.
+        /// Root-mean-square distance by the wheels alone.
         odometry_rms_m: f64 => neither("by the wheels alone").unit("m").at_least(0).decimals(2),
-        /// Places seen again.
+        /// Number of places that were recognized again.
         closures: usize => neither("closures").decimals(0),
     }
 }
@@ -88,16 +88,17 @@ pub(super) fn table() -> Table {
         Some(_) if is_raw => Row::new(name).run_each(1),
         Some(_) => Row::new(name),
     };
-    Table::of::<TrajectoryRun>(NAME, "Other buildings, held against their corrected logs")
+    Table::of::<TrajectoryRun>(NAME, "Other buildings, compared with their corrected logs")
         .metrics_from(TrajectoryRun::rms_m)
         .rows(ROWS.map(row))
         .note(
-            "By scan matching with closures, the configuration of the Intel lab. CSAIL has raw odometry. Of the others the corrected log alone \
-             is public, so its wheels are made worse: 2° a metre to one side, and 1.3° (standard deviation) each step.",
+            "By scan matching with closures, with the configuration of the Intel lab. CSAIL has raw \
+             odometry. Of the others only the corrected log is public, so errors are added to its \
+             wheels: 2° a metre to one side, and 1.3° (standard deviation) each step.",
         )
 }
 
-/// Returns the wheels of a robot, made worse.
+/// Returns odometry with added errors.
 pub(super) fn worse(odometry: &[Pose], wear: Wear, seed: u64) -> Vec<Pose> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut side = || if rng.random::<bool>() { 1.0 } else { -1.0 };

@@ -1,4 +1,4 @@
-//! A corridor whose places look alike: which of the matches of an image to older ones are true.
+//! A corridor whose places look alike: which matches between an image and older ones are true.
 
 use alloc::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ pub(super) const NAME: &str = "tuc";
 const DRIVE: &str = "logs/tuc-slam/Corridor_Input.txt.gz";
 const TRUTH: &str = "logs/tuc-slam/Corridor_GT.txt.gz";
 
-/// A row, and how alike places are at least that are looked at.
+/// Rows with the minimum similarity of the matches that are examined.
 const ROWS: [(&str, f64); 5] = [
     ("alike by 0.1", 0.1),
     ("alike by 0.2", 0.2),
@@ -28,26 +28,26 @@ const ROWS: [(&str, f64); 5] = [
     ("alike by 0.7", 0.7),
 ];
 
-/// A match is true if the robot was nowhere farther apart at its two times, m.
+/// Maximum distance between the robot's two positions of a true match, m.
 const TRUE_M: f64 = 2.0;
-/// A camera recognizes a place from so far off, m and rad (standard deviations).
+/// Standard deviations of a camera's recognition of a place, m and rad.
 const SEEN: [f64; 3] = [0.5, 0.5, 0.1];
 /// Standard deviations of dead reckoning in each stretch, m and rad, and as a share of the way.
 const STRETCH: [f64; 2] = [0.02, 0.005];
 const WAY_ERROR: f64 = 0.05;
-/// Poses near by lie at most so far off, m: places that look alike lie far from each other.
+/// Maximum distance of poses near by, m. Places that look alike are farther apart.
 const NEAR: f64 = 30.0;
 
 record! {
     /// Matches that were accepted.
     struct TucRun {
-        /// Matches that are looked at.
+        /// Number of matches that are examined.
         matches: usize => neither("matches").decimals(0),
-        /// Share of them that are true, %.
+        /// Share of them that are true.
         true_percent: f64 => neither("true").unit("%").decimals(1),
-        /// Matches that other matches support.
+        /// Number of matches that other matches support.
         accepted: usize => neither("accepted").decimals(0),
-        /// Share of the accepted that are true, 0 … 1.
+        /// Share of the accepted matches that are true, 0 … 1.
         precision: f64 => higher("precision").decimals(4),
         /// Share of all true matches of the data set that are accepted, 0 … 1.
         recall: f64 => higher("recall").decimals(3),
@@ -69,8 +69,10 @@ pub(super) fn table() -> Table {
         .metrics_from(TucRun::matches)
         .rows(ROWS.map(row))
         .note(
-            "864 m to and fro. Matches say that two places look alike, and how much; true is one whose places lie within 2 m. Accepted is what \
-             the audit of closures supports: matches that agree with each other by dead reckoning. Recall is of all true matches of the data set.",
+            "864 m to and fro. A match says that two places look alike, and how much. It is true if \
+             the places are within 2 m. Accepted are the matches that the audit of closures \
+             supports: they agree with each other by dead reckoning. Recall is over all true matches \
+             of the data set.",
         )
 }
 
@@ -119,7 +121,7 @@ fn accepted(odometry: &[LogVelocity], matches: &[PlaceMatch]) -> Result<Vec<Plac
     let mut ids: BTreeMap<u64, u32> = BTreeMap::new();
     let mut before: Option<(u32, Pose)> = None;
     for time in times {
-        // The last image comes a moment after the last word of the wheels.
+        // The last image is a moment later than the last odometry.
         let pose = reckoned.at(time).or(end).ok_or("the drive is empty")?;
         let id = graph.add_pose(pose);
         ids.insert(time.to_bits(), id);
@@ -141,7 +143,7 @@ fn accepted(odometry: &[LogVelocity], matches: &[PlaceMatch]) -> Result<Vec<Plac
     for one in matches {
         let [from, to] = [one.earlier, one.time].map(|time| ids[&time.to_bits()]);
         let [then, now] = [from, to].map(|id| graph.poses()[id as usize]);
-        // A camera that sees all round does not tell which way it looks; the gyroscope does.
+        // An omnidirectional camera does not show its heading; the gyroscope gives it.
         let turned = Pose::new(Pose::IDENTITY.position, then.between(now).heading);
         edges.insert(graph.edges().len() as u32, *one);
         graph.add_edge(edge(from, to, turned, SEEN, PoseEdgeKind::Closure))?;

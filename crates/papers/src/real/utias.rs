@@ -1,5 +1,5 @@
-//! A place map of one robot's observations, on which others localize: the score of GNG-SLAM's paper
-//! on real robots.
+//! A place map of one robot's observations, on which other robots localize. It gives the score of
+//! GNG-SLAM's paper on real robots.
 
 use std::path::PathBuf;
 
@@ -29,27 +29,27 @@ const FOLDER: &str = "logs/utias";
 const PLACE_MAP: &str = "place map";
 const RANDOM: &str = "random";
 
-/// Numbers of the robot that learns and of the robot that uses its map.
+/// Numbers of the robot that learns, and of the robot that uses its map.
 const PAIRS: [[u32; 2]; 6] = [[1, 2], [1, 3], [2, 1], [2, 3], [3, 1], [3, 2]];
 
-/// A robot knows what it saw in so long a time, s.
+/// Time for which a robot remembers what it saw, s.
 const MEMORY_S: f64 = 10.0;
-/// Number of landmarks it must know before it says where it is.
+/// Minimum number of known landmarks for an answer.
 const LEAST_SEEN: usize = 2;
-/// Nodes of the map: two for each cell.
+/// Number of nodes of the map: two per cell.
 const NODES: usize = 128;
 
 record! {
-    /// A robot that says where it is by the map of another.
+    /// A robot that localizes on the map of another.
     struct UtiasRun {
-        /// Mean score of its records: 1 inside the true cell of 8 × 8, else 0.5 / distance to its
-        /// middle in cells.
+        /// Mean score of its records: 1 inside the true cell of 8 × 8; otherwise 0.5 / distance to
+        /// the cell's middle, in cells.
         score: f64 => higher("score").decimals(3),
-        /// Mean distance from where it truly was, m.
+        /// Mean distance from its true position, m.
         error_m: f64 => lower("error").unit("m").at_least(0).decimals(2),
-        /// Root-mean-square distance of the learning robot's corrected way from the true one, m.
+        /// Root-mean-square error of the learning robot's corrected way, m.
         map_error_m: f64 => lower("error of the map").unit("m").at_least(0).decimals(2),
-        /// Records that were scored.
+        /// Number of records that were scored.
         records: usize => neither("records").decimals(0),
     }
 }
@@ -74,10 +74,12 @@ pub(super) fn table() -> Table {
         .metrics_from(UtiasRun::score)
         .rows([PLACE_MAP, RANDOM].map(row))
         .note(
-            "Three robots among landmarks, each by itself; run n is pair n of who learns and who tries. The way of the learning robot is corrected \
-             by a pose graph of its wheels and of the landmarks it saw. A growing neural gas learns where it was and how far the landmarks \
-             are from there. The other robot takes itself to be at the node whose ranges are nearest to those it has seen in the last ten \
-             seconds. The map is laid over the world by the way of the robot that learned it. Random: at a node by chance.",
+            "Three robots among landmarks, each alone. Run n is pair n of the robots that learn and \
+             try. The way of the learning robot is corrected by a pose graph of its wheels and of \
+             the landmarks it saw. A growing neural gas learns its positions, with their distances \
+             from the landmarks. The other robot believes that it is at the node with the ranges \
+             nearest to those it has seen in the last ten seconds. The map is laid over the world by \
+             the way of the robot that learned it. Random: at a random node.",
         )
 }
 
@@ -129,7 +131,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     Ok(run.fields()?)
 }
 
-/// Returns a map of the robot's positions and their distances from the landmarks.
+/// Returns a map of the robot's positions, each with its distances from the landmarks.
 fn place_map(known: &LandmarkMap, rng: &mut ChaCha8Rng) -> Result<PlaceMap, BoxError> {
     let record = |pose: Pose| {
         let landmarks = known.landmarks.values();
@@ -180,8 +182,8 @@ fn in_cells(cells: &CellGrid, point: Point) -> Point {
     Point::from(from_corner.component_div(&cells.size()))
 }
 
-/// Returns the distances of landmarks, m, for each second at which enough are known. Those seen a
-/// moment ago are corrected for the robot's motion since then.
+/// Returns the distances of landmarks, m, for each second at which enough are known. Earlier
+/// sightings are corrected for the robot's motion since then.
 fn sensed(
     odometry: &[LogVelocity],
     sightings: &[BarcodeSighting],

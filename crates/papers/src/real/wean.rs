@@ -13,32 +13,32 @@ use crate::data;
 /// The table's name.
 pub(super) const NAME: &str = "wean";
 
-/// A row with its log; each is held against the first of the others that is there.
+/// Rows with their logs. Each is compared with the first of the other logs that is here.
 const ROWS: [(&str, &str); 3] = [
     ("wean 1", "logs/cmu-wean/robotdata1.log.gz"),
     ("wean 3", "logs/cmu-wean/robotdata3.log.gz"),
     ("wean 5", "logs/cmu-wean/robotdata5.log.gz"),
 ];
 
-/// A place is found again if one of the other day lies so near, m.
+/// Distance within which a place of another day is the same, m.
 const NEAR: f64 = 1.5;
 
 record! {
-    /// A map of one day, held against that of another.
+    /// A map of one day, compared with that of another.
     struct WeanRun {
-        /// Way that the robot went, m.
+        /// Length of the robot's way, m.
         way_m: f64 => neither("way").unit("m").decimals(0),
-        /// Places: junctions, bends, dead ends, rooms.
+        /// Number of places: junctions, bends, dead ends, rooms.
         places: usize => neither("places").decimals(0),
-        /// Places that were seen again on the same day.
+        /// Number of places that were recognized on the same day.
         closures: usize => neither("closures").decimals(0),
         /// Mean likelihood of its surfaces on those of the other day, 0 to 1.
         overlay_score: f64 => higher("overlay").decimals(2),
-        /// The same where the map is laid elsewhere.
+        /// The best such likelihood if the map is laid elsewhere.
         rival_score: f64 => neither("best elsewhere").decimals(2),
-        /// Places that have one of the other day near by.
+        /// Number of places that have one of the other day near by.
         found_again: usize => higher("found again").decimals(0),
-        /// Places on ground that the other day's robot went.
+        /// Number of places on ground that the other day's robot covered.
         on_known_ground: usize => neither("on known ground").decimals(0),
     }
 }
@@ -58,13 +58,14 @@ pub(super) fn table() -> Table {
         .metrics_from(WeanRun::way_m)
         .rows(ROWS.map(row))
         .note(
-            "Maps of places, each of one log; nobody knows the truth. Each is laid over the map of the next log of the three, turned by any \
-             quarter and put down anywhere. A place is found again if the other map has one within 1.5 m; known ground is within 1.5 m of where the \
-             other robot went.",
+            "Maps of places, each of one log; the truth is unknown. Each is laid over the map of the \
+             next log of the three, turned by any quarter and put anywhere. A place is found again \
+             if the other map has one within 1.5 m. Known ground is within 1.5 m of the other \
+             robot's way.",
         )
 }
 
-/// Returns a log as a map of places.
+/// Returns the map of places of a log.
 fn mapped(number: usize) -> Result<PlacesMapper, BoxError> {
     let (row, name) = ROWS[number % ROWS.len()];
     let path = file(name).ok_or_else(|| format!("the log of {row} is gone"))?;

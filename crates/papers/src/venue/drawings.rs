@@ -1,9 +1,9 @@
 //! The rule by which the paper's two mazes are drawn. From a sequence of random drawings with the
-//! features that it names, those are kept that meet what its own figures imply.
+//! features that the paper names, it keeps those that agree with the paper's own figures.
 //!
-//! MSLST has no part in the rule. The drawings of the paper are lost. Two facts about them are
-//! known: the two baselines came out as they did, and a robot which knows the maze is faster than
-//! the paper's MSLST was.
+//! MSLST plays no part in the rule. The paper's drawings are lost. Two facts about them are known:
+//! the results of the two baselines; and that a robot which knows the maze is faster than the
+//! paper's MSLST was.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -18,23 +18,23 @@ use tolman_arena::{episode, pioneer};
 use tolman_experiment::{BoxError, run_seed};
 use tolman_stats::wilson_interval;
 
-/// The seed of both sequences and of the runs that judge them.
+/// Seed of both sequences, and of the runs that judge them.
 const SEED: u64 = 1;
 
-/// Runs of each agent that judge a drawing.
+/// Number of runs of each agent that judge a drawing.
 const RUNS: u32 = 1000;
 
-/// Runs of each of the paper's rows.
+/// Number of runs of each of the paper's rows.
 const PAPER_RUNS: u32 = 25;
 
 /// The normal quantile of a 95 % interval.
 const Z: f64 = 1.96;
 
-/// The tours that an exact Wall-follow may lose on the loop, per cent: the 95 % interval of the
-/// paper's 28 % of 25.
+/// Share of tours that an exact Wall-follow may lose on the loop, per cent: the 95 % interval of
+/// the paper's 28 % of 25.
 const TRAPPED: (f64, f64) = (12.0, 49.0);
 
-/// Maze of the paper that a drawing stands for.
+/// A maze of the paper, which drawings stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Drawing {
     /// "A simple J shape."
@@ -43,11 +43,11 @@ pub(crate) enum Drawing {
     Large,
 }
 
-/// The number of the first J drawing that is kept: `mazes/j.maze`.
+/// Number of the first kept J drawing: `mazes/j.maze`.
 const J_DRAWING: u32 = 4;
 
-/// The numbers of the first Large drawings that are kept, as `tolman experiment mslst-drawings`
-/// finds them. The first is `mazes/large.maze`.
+/// Numbers of the first kept Large drawings, as `tolman experiment mslst-drawings` finds them.
+/// The first is `mazes/large.maze`.
 pub(crate) const LARGE_DRAWINGS: [u32; 50] = [
     0, 17, 21, 31, 37, 43, 49, 52, 63, 69, 76, 93, 109, 110, 114, 130, 143, 156, 163, 170, 175,
     202, 214, 218, 230, 231, 243, 247, 248, 252, 259, 267, 279, 288, 292, 297, 312, 325, 326, 327,
@@ -57,7 +57,7 @@ pub(crate) const LARGE_DRAWINGS: [u32; 50] = [
 /// Measurements of a drawing.
 #[derive(Clone, Debug)]
 pub(crate) struct Judged {
-    /// Right-hand tours that never arrive.
+    /// Share of right-hand tours that never arrive.
     pub(crate) trapped_percent: f64,
     pub(crate) avoid: Played,
     pub(crate) wall_follow: Played,
@@ -72,7 +72,7 @@ pub(crate) struct Played {
     pub(crate) mean_steps: f64,
 }
 
-/// A condition and its excess.
+/// A condition, and by how much a drawing misses it.
 #[derive(Clone, Copy, Debug)]
 struct Judgement {
     condition: Condition,
@@ -80,14 +80,14 @@ struct Judgement {
     excess: f64,
 }
 
-/// Condition that a drawing must meet.
+/// A condition that a drawing must meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Condition {
     /// Right-hand tours arrive as often as the paper's Wall-follow may have.
     Traps,
     /// The Oracle is no slower than the paper's MSLST was.
     OracleSteps,
-    /// Each within the 95 % interval of the paper's 25 runs.
+    /// This and the following: within the 95 % interval of the paper's 25 runs.
     AvoidSuccess,
     AvoidSteps,
     WallFollowSuccess,
@@ -95,7 +95,7 @@ pub(crate) enum Condition {
 }
 
 impl Drawing {
-    /// Returns the drawing of this number, by geometry alone.
+    /// Returns the drawing with this number, by geometry alone.
     pub(crate) fn maze(self, number: u32) -> Result<Maze, GenerateError> {
         let stream = format!("drawings of {}", self.name());
         let rng = &mut ChaCha8Rng::seed_from_u64(run_seed(SEED, &stream, number));
@@ -110,7 +110,7 @@ impl Drawing {
                     width: between(9, 13),
                     height: between(5, 8),
                     dead_ends: 4,
-                    // 7.6 robot units, and MSLST remembers eight actions of one unit.
+                    // That is 7.6 robot units; MSLST remembers eight actions of one unit.
                     short: 4,
                 };
                 drawing.generate(rng)
@@ -118,7 +118,7 @@ impl Drawing {
         }
     }
 
-    /// Returns the drawing of this number as a world.
+    /// Returns the drawing with this number as a world.
     pub(crate) fn venue(self, number: u32) -> Result<Venue, BoxError> {
         let file = MazeFile::from(self.maze(number)?);
         let course = Course::for_body(self.name(), &file, &pioneer::body())?;
@@ -128,7 +128,7 @@ impl Drawing {
         })
     }
 
-    /// Returns whether the lists say that this drawing is kept, where they reach as far.
+    /// Returns whether the lists say that this drawing is kept; `None` beyond their end.
     pub(crate) fn listed(self, number: u32) -> Option<bool> {
         match self {
             Self::J => (number <= J_DRAWING).then_some(number == J_DRAWING),
@@ -146,9 +146,9 @@ impl Drawing {
         }
     }
 
-    /// Returns the maximum average number of steps of the Oracle. In Large it is that of the
-    /// paper's MSLST 20 in the runs in which it arrived. In J it is the upper end of what its MSLST
-    /// 100 may have needed.
+    /// Returns the maximum mean number of steps of the Oracle. In Large it is that of the paper's
+    /// MSLST 20, over the runs in which it arrived. In J it is the upper end of what the paper's
+    /// MSLST 100 may have needed.
     const fn oracle_steps(self) -> f64 {
         match self {
             Self::J => 47.0,
@@ -156,7 +156,7 @@ impl Drawing {
         }
     }
 
-    /// Returns what a drawing must meet. In J success is no condition: no such letter was ever seen
+    /// Returns the conditions for a drawing. In J success is not a condition: we never saw a J maze
     /// in which our Wall-follow misses the destination as often as the paper's.
     pub(crate) const fn conditions(self) -> &'static [Condition] {
         match self {
@@ -176,8 +176,8 @@ impl Drawing {
         }
     }
 
-    /// Judges the drawing of this number by [`RUNS`] runs of each agent, or `None` where its loop
-    /// alone rules it out.
+    /// Judges the drawing with this number by [`RUNS`] runs of each agent; `None` if its loop alone
+    /// rules it out.
     pub(crate) fn judged(self, number: u32) -> Result<Option<Judged>, BoxError> {
         let venue = self.venue(number)?;
         let trapped_percent = right_hand::trapped_percent(&venue.course.maze);
@@ -234,8 +234,8 @@ impl Judged {
         conditions.any(|judgement| judgement.condition == condition && judgement.excess > 0.0)
     }
 
-    /// Returns the sum of the excesses over all conditions, in shares of their bounds; 0 for a
-    /// drawing that is kept.
+    /// Returns the sum of the excesses over all conditions, as shares of their bounds; 0 for an
+    /// kept drawing.
     pub(crate) fn summed_excess(&self) -> f64 {
         self.conditions
             .iter()
@@ -270,7 +270,7 @@ fn steps_interval(paper: &PaperRow) -> (f64, f64) {
     (mean - half, mean + half)
 }
 
-/// Returns the runs of an agent, the same as those of its row in the table of that maze under seed
+/// Returns the runs of an agent, the same as those of its row in the table of that maze with seed
 /// 1.
 fn played(venue: &Venue, agent: Agent) -> Result<Played, BoxError> {
     let (mut reached, mut steps) = (0_u32, 0_u32);

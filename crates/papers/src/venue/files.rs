@@ -1,4 +1,4 @@
-//! The worlds that the caller names.
+//! Worlds that the caller names.
 
 use std::path::{Path, PathBuf};
 
@@ -8,8 +8,7 @@ use tolman_arena::course::Course;
 use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
 
-/// Returns the worlds of these files, each under a name of its own, none of them `taken` by other
-/// tables.
+/// Returns the worlds of these files, each with its own name that is not `taken` by other tables.
 pub(crate) fn from_files(files: &[PathBuf], taken: &[&str]) -> Result<Vec<Venue>, BoxError> {
     let mut venues: Vec<Venue> = Vec::new();
     for path in files {

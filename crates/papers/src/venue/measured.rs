@@ -1,4 +1,4 @@
-//! Measurements of a run: an episode as the record of a table.
+//! The record of an episode for a table.
 
 use super::Venue;
 use tolman_arena::episode::Episode;
@@ -8,19 +8,19 @@ record! {
     /// A run of a brain in a maze.
     #[check(MazeRun::relations)]
     pub(crate) struct MazeRun {
-        /// Whether the robot's centre came to lie in the destination within the time limit.
+        /// Whether the robot's centre was in the destination within the time limit.
         reached: bool => higher("success"),
         /// How the run ended, in words.
         outcome: String => neither("outcome"),
-        /// Actions that the brain chose.
+        /// Number of actions that the brain chose.
         actions: u32 => lower("actions").at_least(1),
-        /// Actions that did not move the robot.
+        /// Number of actions that did not move the robot.
         failed_actions: u32 => lower("failed actions"),
-        /// Actions that failed in their first time step.
+        /// Number of actions that failed in their first time step.
         failed_at_once: u32 => lower("failed at once"),
-        /// Time steps until the destination; the limit where it was not reached.
+        /// Number of time steps to the destination; the limit if it was not reached.
         steps: u32 => lower("steps"),
-        /// Time steps of a run that reached the destination.
+        /// Number of time steps of a run that reached the destination.
         steps_arrived: Option<u32> => lower("steps, arrived"),
         /// Time steps in which the robot touched a wall.
         bumps: u32 => lower("bumps"),
@@ -64,7 +64,7 @@ const fn outcome(reached: bool) -> &'static str {
 }
 
 impl Venue {
-    /// Returns the table of this world, whose runs each have a [`MazeRun`] in their record.
+    /// Returns the table of this world. Each of its runs has a [`MazeRun`] in its record.
     pub(crate) fn table<T: Record>(&self) -> Table {
         let table = Table::of::<T>(&self.table, &self.title)
             .at_most(MazeRun::steps, self.step_limit)

@@ -1,4 +1,4 @@
-//! Worlds in which MSLST and its baselines run, and the measurements of every run there.
+//! Worlds for MSLST and its baselines, and the measurements of every run there.
 
 mod drawings;
 mod files;
@@ -27,28 +27,28 @@ pub(super) use files::{from_file, from_files};
 pub(super) use measured::MazeRun;
 pub(super) use paper::{PaperRow, StatesRow, TABLE_1, states_row};
 
-/// One world with its table.
+/// A world with its table.
 #[derive(Debug)]
 pub(super) struct Venue {
-    /// The name of its table in `summary.json`.
+    /// Name of its table in `summary.json`.
     pub(super) table: String,
-    /// The title of its table.
+    /// Title of its table.
     pub(super) title: String,
     pub(super) course: Course,
     pub(super) robot: LaserPioneerConfig,
     pub(super) step_limit: u32,
     cast: Cast,
-    /// The paper's values.
+    /// Values from the paper.
     paper: &'static [PaperRow],
 }
 
-/// A world in the form that configurations have.
+/// A world as configurations contain it.
 #[derive(Debug, Serialize)]
 pub(super) struct World {
     maze: String,
-    /// In metres.
+    /// Width of its corridors, m.
     corridor_width: f64,
-    /// In time steps.
+    /// Maximum number of time steps of a run.
     step_limit: u32,
 }
 
@@ -62,7 +62,7 @@ impl World {
     }
 }
 
-/// Returns what the runs of the calibrated robot depend on: its worlds, by table.
+/// Returns the configuration that runs of the calibrated robot depend on: its worlds, by table.
 pub(super) fn config<'a, W: Serialize>(
     worlds: impl Iterator<Item = (&'a str, W)>,
 ) -> Result<toml::Table, BoxError> {
@@ -82,12 +82,12 @@ pub(super) fn papers() -> Result<[Venue; 2], BoxError> {
     Ok([j_like(j_maze()?), large_like(large_maze()?)])
 }
 
-/// Returns a course that stands for the paper's J maze, with its limit and its rows.
+/// Returns a course that stands for the paper's J maze, with the paper's limit and rows.
 fn j_like(course: Course) -> Venue {
     Venue::new("2 (J)", "The J maze", course, paper::J_STEPS).known(paper::TABLE_2)
 }
 
-/// Returns a course that stands for the paper's Large maze, with its limit and its rows.
+/// Returns a course that stands for the paper's Large maze, with the paper's limit and rows.
 pub(super) fn large_like(course: Course) -> Venue {
     Venue::new("3 (Large)", "The Large maze", course, paper::LARGE_STEPS).known(paper::TABLE_3)
 }
@@ -137,7 +137,7 @@ impl Venue {
         }
     }
 
-    /// Returns a maze that is not in the paper, with a limit in proportion to its corridors.
+    /// Returns a maze that is not in the paper, with a limit proportional to its corridors.
     ///
     /// # Errors
     /// If the robot does not fit its corridors.
@@ -152,8 +152,8 @@ impl Venue {
         Self { paper, ..self }
     }
 
-    /// Returns the venue with the caller's limit. The paper's values are dropped if it differs from
-    /// the paper's.
+    /// Returns the venue with the caller's limit. If it differs from the paper's, the paper's
+    /// values are dropped.
     pub(super) fn limited(self, limit: Option<u32>) -> Self {
         match limit {
             Some(step_limit) if step_limit != self.step_limit => Self {
@@ -165,7 +165,7 @@ impl Venue {
         }
     }
 
-    /// Returns the venue under another name, as a variant of a table.
+    /// Returns the venue with another name, as a variant of a table.
     pub(super) fn renamed(self, table: &str, title: &str) -> Self {
         Self {
             table: table.to_owned(),
@@ -174,7 +174,7 @@ impl Venue {
         }
     }
 
-    /// Returns whether the paper has a table of it.
+    /// Returns whether the paper has a table for it.
     pub(super) const fn is_papers(&self) -> bool {
         !self.paper.is_empty()
     }
@@ -196,12 +196,12 @@ impl Venue {
         self.paper.iter().find(|paper| paper.row == name)
     }
 
-    /// Returns what the runs here depend on.
+    /// Returns the configuration that the runs here depend on.
     pub(super) fn world(&self) -> World {
         World::of(&self.course, self.step_limit)
     }
 
-    /// Returns the run of a seed, from the start that belongs to it.
+    /// Returns the trial of a seed, from the start that belongs to it.
     pub(super) fn trial(&self, seed: u64) -> Trial<'_> {
         Trial {
             course: &self.course,
@@ -212,14 +212,14 @@ impl Venue {
         }
     }
 
-    /// Returns an agent that has not begun.
+    /// Returns an agent before its first step.
     pub(super) fn mind(&self, agent: Agent) -> Result<Mind, EpisodeError> {
         self.cast.mind(agent, &self.course, &self.robot)
     }
 }
 
-/// Plays a run as it can be watched; `nodes` says where the nodes of the robot's map lie, if it has
-/// one.
+/// Plays a run and returns its replay. `nodes` are the positions of the map's nodes, if the robot
+/// has a map.
 pub(super) fn replay(
     job: &Job<'_>,
     trial: &Trial<'_>,

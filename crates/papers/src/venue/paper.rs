@@ -2,7 +2,7 @@
 
 use tolman_experiment::BoxError;
 
-/// A row of the paper's tables 2 and 3; means with their standard deviations.
+/// A row of the paper's tables 2 and 3, with means and their standard deviations.
 #[derive(Debug)]
 pub(crate) struct PaperRow {
     pub(crate) row: &'static str,
@@ -38,7 +38,7 @@ pub(crate) const TABLE_3: &[PaperRow] = &[
     row("MSLST 50", 100.0, (42.72, 41.733), (103.2, 99.839)),
 ];
 
-/// A row of the paper's table 1: how many states Phase I makes of a maze.
+/// A row of the paper's table 1: the number of states that Phase I learns of a maze.
 #[derive(Debug)]
 pub(crate) struct StatesRow {
     pub(crate) row: &'static str,
@@ -62,7 +62,7 @@ pub(crate) const TABLE_1: [StatesRow; 3] = [
     states("Large 50", "Large", 50.0, 26.0),
 ];
 
-/// Returns the row of table 1 that bears this name.
+/// Returns the row of table 1 called `name`.
 pub(crate) fn states_row(name: &str) -> Result<StatesRow, BoxError> {
     let mut rows = TABLE_1.into_iter();
     let row = rows.find(|row| row.row == name);

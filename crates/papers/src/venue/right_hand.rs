@@ -1,11 +1,11 @@
-//! The tour of somebody who keeps a hand on the wall to their right.
+//! Tours that keep the right hand on the wall.
 
 use alloc::collections::BTreeSet;
 
 use tolman_maze::{Cell, Direction, Maze};
 
 /// Returns the percentage of starts, each a cell with a direction, from which an exact right-hand
-/// tour never comes to a goal: those on a loop round an island of walls. O(cells²).
+/// tour never reaches a goal. They are on a loop round an island of walls. O(cells²).
 pub(super) fn trapped_percent(maze: &Maze) -> f64 {
     let steps = maze.steps_to_goal();
     let leads_on = |cell: &Cell| steps[maze.grid().index(*cell)].is_some_and(|steps| steps > 0);
@@ -39,7 +39,7 @@ fn is_trapped(maze: &Maze, start: (Cell, Direction)) -> bool {
 mod tests {
     use super::*;
 
-    /// A ring of corridors round a block, the goal beyond a door in its outer wall.
+    /// Checks a cycle of corridors round a block, whose goal is beyond a door in the outer wall.
     #[test]
     fn who_keeps_to_the_island_goes_round_for_ever() {
         let maze = tolman_maze::read(
@@ -56,7 +56,7 @@ o---o---o---o---o
         .unwrap()
         .maze;
         let at = |x, y, direction| is_trapped(&maze, (Cell::new(x, y), direction));
-        // North up the western side: the outer wall is to the left, the island to the right.
+        // North up the western side: the outer wall is on the left, the island on the right.
         assert!(at(0, 1, Direction::North));
         assert!(!at(0, 1, Direction::South));
         let percent = trapped_percent(&maze);

@@ -174,7 +174,7 @@ impl<const N: usize> MoveExplorer<N> {
             // Sooner or later it has to be there, and it is seldom nearer than now.
             (Some(_), Goal::Ahead) => nearest_goal(chart, at),
             (None, _) => {
-                // Nobody knows yet which runs matter besides the best ones.
+                // It is not known yet which runs matter besides the best ones.
                 let proofs = self.proofs::<1>(chart, at, open + 1);
                 let early = proofs.best_above(self.config.early_proof);
                 early.or_else(|| self.best_approach(chart, at))

@@ -77,8 +77,8 @@ impl<const N: usize> MoveMap<N> {
             within += wave.front.fill(&mut self.moves, wave.moves);
             let as_before = wave.moves < self.levels && self.within(wave.moves) == within;
             if as_before && wave.moves >= last {
-                // As many cells as before are so near, so it is the same ones, and all beyond is as
-                // it was.
+                // The number of cells that near is unchanged, so they are the same ones, and all
+                // beyond is as before.
                 return;
             }
             let slot = self.within.as_flattened_mut();

@@ -1,6 +1,6 @@
 use tolman_maze::Cell;
 
-/// A stop that is held against the explorer's own.
+/// A stop that is compared with the explorer's own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rival {
     pub(super) stop: Cell,

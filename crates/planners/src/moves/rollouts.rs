@@ -18,8 +18,8 @@ use crate::TooLarge;
 pub struct RolloutConfig {
     /// Maximum number of mazes drawn for a decision. ≥ 1.
     pub completions: u16,
-    /// Number of mazes after which a stop that is no better on average than the explorer's own is
-    /// given up. ≥ 1.
+    /// Number of mazes after which a stop is given up that is on average no better than the
+    /// explorer's own. ≥ 1.
     pub trial: u16,
     /// By how many standard errors a stop must save steps to be preferred to the explorer's own. ≥
     /// 0.
@@ -214,7 +214,7 @@ impl<const N: usize> Rollouts<N> {
         Completions::new(chart, SplitMix::new(seed))
     }
 
-    /// Holds the rivals against the explorer's `own` stop by the steps of the proof in one maze.
+    /// Compares the rivals with the explorer's `own` stop by the steps of the proof in one maze.
     fn hold_proofs(
         &self,
         chart: &Chart<N>,

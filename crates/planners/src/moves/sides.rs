@@ -123,7 +123,7 @@ impl<const N: usize> Sides<N> {
                 *ends |= east | west;
             }
         }
-        // Who comes from the row before, having driven over none, one or two cells.
+        // Those that come from the row before, having driven over none, one or two cells.
         let mut coming = [0; Leap::MOST_CELLS as usize];
         let rows = ends.rows.iter_mut().zip(&cells.rows);
         for ((ends, cells), open) in rows.zip(&self.north.rows) {

@@ -96,7 +96,7 @@ impl<const N: usize> Rollouts<N> {
         net <= 0.0
     }
 
-    /// Holds the rivals against the explorer's own stop by the score in one maze.
+    /// Compares the rivals with the explorer's own stop by the score in one maze.
     pub(super) fn hold_scores(
         &self,
         worth: &WorthConfig,

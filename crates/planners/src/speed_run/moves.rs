@@ -37,7 +37,7 @@ pub enum Slalom {
     /// 90°: through the cell to the north into the middle of the cell east of that one.
     F90,
     /// 135°: through the cells to the north and north-east onto the southern edge of the latter.
-    /// And back.
+    /// It is also driven the other way round.
     F135,
     /// 180°: through the cells to the north and north-east into the cell to the east.
     F180,
@@ -142,7 +142,7 @@ impl SlalomTimes {
     }
 }
 
-/// Returns whether `sides` (one byte a cell) has `cell` open to `direction`.
+/// Returns whether `sides` (one byte per cell) has `cell` open to `direction`.
 #[inline(always)]
 pub(super) fn is_open(sides: &[u8], cell: usize, direction: usize) -> bool {
     sides

@@ -7,10 +7,10 @@ use tolman_quantizers::{
 use crate::errors::{refused, wrong};
 use crate::params::Params;
 
-/// A gate, made of its threshold.
+/// Makes a gate from its threshold.
 type Gate = fn(f64) -> GrowthGate;
 
-/// Returns what Python says of a growing neural gas.
+/// Returns the configuration of a growing neural gas from Python's parameters.
 pub(super) fn gng_config(params: &Params<'_, '_>) -> PyResult<GngConfig> {
     let gate = match params.is_given("gate")? {
         false => GrowthGate::Open,
@@ -64,7 +64,7 @@ pub(super) fn gng_config(params: &Params<'_, '_>) -> PyResult<GngConfig> {
     })
 }
 
-/// Returns what Python says of a SOINN.
+/// Returns the configuration of a SOINN from Python's parameters.
 pub(super) fn soinn_config(params: &Params<'_, '_>) -> PyResult<SoinnConfig> {
     let c = params.number("noise_factor")?;
     let threshold = match params.optional("threshold")? {
@@ -94,7 +94,7 @@ pub(super) fn soinn_config(params: &Params<'_, '_>) -> PyResult<SoinnConfig> {
     })
 }
 
-/// Returns a `ValueError` that calls the field by the parameter's name.
+/// Returns a `ValueError` that names the parameter instead of the field.
 pub(super) fn named(error: QuantizerConfigError) -> PyErr {
     match error {
         QuantizerConfigError::OutOfRange {

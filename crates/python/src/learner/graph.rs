@@ -5,7 +5,7 @@ use tolman_quantizers::{Network, Scalar, UnitId, UnknownUnit};
 use crate::errors::wrong;
 use crate::rows::each;
 
-/// Returns the prototypes, a row a unit, by id.
+/// Returns the prototypes by ascending id, one row per unit.
 pub(super) fn prototypes<S: Scalar>(network: &Network<S>) -> PyResult<Array2<S>> {
     let mut values = Vec::with_capacity(network.len() * network.dimension());
     for id in network.ids() {
@@ -15,12 +15,12 @@ pub(super) fn prototypes<S: Scalar>(network: &Network<S>) -> PyResult<Array2<S>>
     Array2::from_shape_vec(shape, values).map_err(|error| wrong(error.to_string()))
 }
 
-/// Returns the units' names, ascending.
+/// Returns the ids of the units, ascending.
 pub(super) fn ids<S: Scalar>(network: &Network<S>) -> Vec<i64> {
     network.ids().map(|id| i64::from(id.0)).collect()
 }
 
-/// Returns the ends of each edge, as numbers of units in the order of their ids, and its age.
+/// Returns the ends of each edge, as numbers of units by ascending id, and its age.
 pub(super) fn edges<S: Scalar>(network: &Network<S>) -> PyResult<Array2<i64>> {
     let ids: Vec<UnitId> = network.ids().collect();
     let mut values = Vec::new();
@@ -33,13 +33,13 @@ pub(super) fn edges<S: Scalar>(network: &Network<S>) -> PyResult<Array2<i64>> {
     Array2::from_shape_vec(shape, values).map_err(|error| wrong(error.to_string()))
 }
 
-/// Returns for each unit the number of its cluster.
+/// Returns, for each unit, the number of its cluster.
 pub(super) fn clusters<S: Scalar>(network: &Network<S>) -> Vec<i64> {
     let clusters = network.clusters();
     clusters.iter().map(|(_, label)| i64::from(label)).collect()
 }
 
-/// Returns for each row the number of the nearest unit and its squared distance.
+/// Returns, for each row, the number of the nearest unit and its squared distance.
 pub(super) fn nearest<S: Scalar>(
     network: &Network<S>,
     x: &ArrayView2<'_, S>,

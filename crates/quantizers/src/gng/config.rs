@@ -114,9 +114,9 @@ pub enum Removal {
     /// After every input (Fritzke 1997): the number of units follows the stream as well.
     #[default]
     EveryInput,
-    /// When the network could grow but for `max_units`: a unit moves from where it is of least use
-    /// to where the error is largest, as in LBG-U ("The LBG-U method for vector quantization",
-    /// Fritzke 1997).
+    /// When only `max_units` stops the network from growing: a unit moves from where it is least
+    /// useful to where the error is largest, as in LBG-U ("The LBG-U method for vector
+    /// quantization", Fritzke 1997).
     WhenFull,
 }
 
@@ -167,10 +167,10 @@ impl GngConfig {
         }
     }
 
-    /// For inputs in the order of a robot's way, behind a
-    /// [`ReplayQuantizer`](crate::ReplayQuantizer): Fritzke's values, but for units that move to
-    /// where they are needed ([`Removal::WhenFull`], k = 4) and errors that remember long enough to
-    /// tell where that is (d = 0.9995). Our own; measured in `docs/quantizers.md`.
+    /// Returns the values for inputs in the order of a robot's way, behind a
+    /// [`ReplayQuantizer`](crate::ReplayQuantizer). They are Fritzke's with two changes: units move
+    /// to where they are needed ([`Removal::WhenFull`], k = 4), and errors are remembered long
+    /// enough to tell where that is (d = 0.9995). Our own; measured in `docs/quantizers.md`.
     pub fn in_order(max_units: usize) -> Self {
         Self {
             max_units,

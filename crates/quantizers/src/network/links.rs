@@ -86,7 +86,7 @@ impl Links {
         self.wins[slot] = self.wins[slot].wrapping_add(1);
     }
 
-    /// Sets the age of the edge between two slots, made if need be; whether it was.
+    /// Sets the age of the edge between two slots, and returns whether it had to be made.
     #[inline]
     pub(crate) fn renew(&mut self, a: usize, b: usize, age: u32) -> bool {
         let renewed = self.wins[a].wrapping_add(self.wins[b]).wrapping_sub(age);
@@ -134,7 +134,7 @@ impl Links {
         self.stride = new;
     }
 
-    /// Takes the edge between two slots away; whether there was one.
+    /// Removes the edge between two slots, and returns whether there was one.
     pub(crate) fn cut(&mut self, a: usize, b: usize) -> bool {
         self.take(a, b);
         self.take(b, a)

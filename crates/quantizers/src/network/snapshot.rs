@@ -48,8 +48,8 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// Returns the network that the snapshot is a copy of; slots are units in order. Nobody listens
-    /// to its events.
+    /// Returns the network that the snapshot is a copy of; slots are units in order. Its events are
+    /// not recorded.
     pub(crate) fn from_snapshot(snapshot: &NetworkSnapshot<S>) -> Result<Self, SnapshotError> {
         let mut network = match &snapshot.weights {
             Some(weights) => {

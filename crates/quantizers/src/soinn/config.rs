@@ -14,7 +14,7 @@ pub struct SoinnConfig {
     pub period: u32,
     /// Whether units are put where the error is large.
     pub insertion: ErrorInsertion,
-    /// Units that are taken for noise.
+    /// Units that count as noise.
     pub denoising: Denoising,
     /// Distance from its nearest units at which an input is new.
     pub threshold: SimilarityThreshold,
@@ -33,8 +33,8 @@ pub enum ErrorInsertion {
     /// Undone if one of q, f, r has a mean error beyond its radius.
     #[default]
     UnlessOneGrew,
-    /// Undone only if all three have: the paper's "∀ i ∈ {q, r, f}" to the letter. Networks become
-    /// many times as large.
+    /// Undone only if all three have grown: the paper's "∀ i ∈ {q, r, f}", taken literally.
+    /// Networks become many times as large.
     UnlessAllGrew,
     /// None at all, as in E-SOINN (Furao, Ogura, Hasegawa 2007).
     Off,
@@ -50,7 +50,7 @@ pub enum Denoising {
     /// Units without a neighbour, and those with one that have won less than `c` times the mean of
     /// all units (Shen and Hasegawa 2006).
     ///
-    /// It holds a newcomer against units that have won since the beginning: the longer a stream,
+    /// It compares a new unit with units that have won since the beginning: the longer a stream,
     /// the fewer stay, until the network grows no more, and a curve of units that has a hole or an
     /// end is never continued.
     FewWins {

@@ -216,8 +216,8 @@ impl LatticeWalk {
     }
 }
 
-/// Returns the length of a ray per metre across the lines. If it never crosses them, the value is
-/// so large that a line at distance 0 still counts as one.
+/// Returns the length of a ray per metre across the lines. For a ray that never crosses them the
+/// value is very large, so that a line at distance 0 still counts as one.
 #[inline(always)]
 fn reciprocal(component: f64) -> f64 {
     let size = component.abs();

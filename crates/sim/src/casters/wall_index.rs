@@ -270,7 +270,7 @@ impl Caster for WallIndex {
 }
 
 impl WallIndex {
-    /// Returns a distance from `origin` nearer than which there is no wall: that of the bounds.
+    /// Returns a distance from `origin` within which there is no wall: that of the bounds.
     fn clearance(&self, origin: Point) -> f64 {
         (self.bounds.min - origin)
             .sup(&(origin - self.bounds.max))

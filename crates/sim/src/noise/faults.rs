@@ -31,7 +31,7 @@ impl<V: Values> Faults<V> {
         }
     }
 
-    /// Adds disturbances, which come after all faults and disturbances so far.
+    /// Adds disturbances, which act after all earlier faults and disturbances.
     pub fn add(&mut self, disturbances: impl IntoIterator<Item = Box<dyn Disturbance<V>>>) {
         self.outside.extend(disturbances);
     }

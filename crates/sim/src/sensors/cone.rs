@@ -31,8 +31,8 @@ impl Cone {
         }
     }
 
-    /// Returns what is nearest of all `walls`, if anything lies in the cone: exact, but for
-    /// rounding. O(walls).
+    /// Returns what is nearest of all `walls`, if anything is in the cone; exact up to rounding.
+    /// O(walls).
     ///
     /// Nothing can hide it: what stood before it would be nearer, and in the cone as well.
     pub(super) fn nearest(&self, walls: &[WallSegment]) -> Option<ConeEcho> {

@@ -28,8 +28,8 @@ pub struct SonarConfig {
     pub cross_talk: CrossTalk,
 }
 
-/// A wall that is hit aslant throws the sound elsewhere: how likely its echo never comes back. The
-/// probability grows in proportion from 0 at `from` to `probability` at `to`, and stays there.
+/// A wall hit at an angle reflects the sound elsewhere: the probability that no echo comes back.
+/// The probability grows in proportion from 0 at `from` to `probability` at `to`, and stays there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Misses {

@@ -83,9 +83,9 @@ pub enum ReplayError {
     Disturbances {
         /// Number of the robot.
         robot: u32,
-        /// Those of the robot that was recorded.
+        /// Disturbances of the recorded robot.
         recorded: Vec<String>,
-        /// Those of the robot that was built.
+        /// Disturbances of the robot that was built.
         built: Vec<String>,
     },
     /// The lines of a tick are not one per robot in order.

@@ -108,7 +108,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
         }
     }
 
-    /// Lifts a robot and sets it down, as [`Simulation::place`] does, and writes it down.
+    /// Lifts a robot and puts it down, as [`Simulation::place`] does, and records that.
     ///
     /// # Errors
     /// If it cannot stand there, there is no such robot, or the line cannot be written.
@@ -117,7 +117,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
         self.write(&TraceLine::<M>::Place { robot, pose })
     }
 
-    /// Opens or shuts a door, as [`Simulation::set_door`] does, and writes it down.
+    /// Opens or shuts a door, as [`Simulation::set_door`] does, and records that.
     ///
     /// # Errors
     /// If there is no such door, or the line cannot be written.

@@ -59,13 +59,13 @@ impl Zone {
         Self::new(name, cells.iter().map(area).collect())
     }
 
-    /// Returns what it is called.
+    /// Returns the name of the zone.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Returns what it is made up of.
+    /// Returns the parts that it consists of.
     #[must_use]
     pub fn areas(&self) -> &[Area] {
         &self.areas

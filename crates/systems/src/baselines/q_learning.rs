@@ -128,10 +128,7 @@ impl<T: LearningTask> QLearner<T> {
     }
 
     fn action(&self, rng: &mut impl Rng) -> u32 {
-        #[expect(
-            clippy::manual_clamp,
-            reason = "`max` first makes 0 of what is no number"
-        )]
+        #[expect(clippy::manual_clamp, reason = "`max` first makes 0 of NaN")]
         let exploration = self.config.exploration.max(0.0).min(1.0);
         if rng.random_bool(exploration) {
             return rng.random_range(0..self.task.actions(self.at).max(1));

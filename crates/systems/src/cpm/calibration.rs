@@ -1,34 +1,35 @@
 use tolman_robot::epuck::{EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds, WheelTurns};
 
-/// Errors of each wheel's encoder as a share, learned from walls that follow two axes.
+/// Errors of both wheel encoders as shares, learned from walls that run along two axes.
 ///
-/// Encoders and walls disagree about a turn by the errors of both wheels. A full turn in place
-/// shows their sum, a straight way their difference. A Kalman filter estimates the heading and both
-/// errors (Kalman 1960).
+/// Encoders and walls disagree about a turn because of both wheels' errors. A full turn in place
+/// shows the sum of the errors, a straight way their difference. A Kalman filter estimates the
+/// heading and both errors (Kalman 1960).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WheelCalibration {
-    /// By which share the left and the right wheel roll more than they count.
+    /// Share by which the left and the right wheel roll more than they count.
     errors: [f64; 2],
     /// Covariance of the heading, rad, and of both errors.
     covariance: [[f64; 3]; 3],
-    /// Distance by the left and the right encoder since the walls were last read, m, ahead.
+    /// Distances rolled by the left and the right wheel since the last reading of the walls, m,
+    /// ahead positive.
     rolled: [f64; 2],
-    /// The same, ahead or backward.
+    /// Sum of both distances, ahead and backward, since then, m.
     turned: f64,
 }
 
-/// Standard deviation of a wheel's error before anything is known, as a share.
+/// Prior standard deviation of a wheel's error, as a share.
 const UNKNOWN: f64 = 0.03;
 
-/// Variance of a heading before the walls were first read, rad²: they say it up to a quarter of a
-/// turn.
+/// Variance of the heading before the first reading of the walls, rad². Walls give the heading only
+/// up to a quarter turn.
 const ANY_HEADING: f64 = 0.2;
 
-/// Variance of the heading from which walls cannot correct it, rad²: it may be off by an eighth of
-/// a turn.
+/// Variance of the heading from which walls can no longer correct it, rad²: it may be off by an
+/// eighth of a turn.
 const LOST: f64 = 0.1;
 
-/// A heading as the walls have it.
+/// The heading as the walls show it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     /// Heading minus the robot's belief, rad.
@@ -40,11 +41,11 @@ pub(super) struct Reading {
 /// Variance that slipping wheels add to the heading, rad² per metre that both of them roll.
 const SLIP: f64 = 2e-3;
 
-/// A reading that is off by more standard deviations than this is of another wall.
+/// Limit in standard deviations. A reading that is farther off belongs to another wall.
 const ODD: f64 = 4.0;
 
 impl WheelCalibration {
-    /// The calibration of a robot about which nothing is known.
+    /// Calibration of a robot whose wheels were never compared with walls.
     pub(super) const UNKNOWN: Self = Self {
         errors: [0.0, 0.0],
         covariance: [
@@ -65,7 +66,7 @@ impl WheelCalibration {
         }
     }
 
-    /// Takes in what the encoders counted, and returns it as it truly was.
+    /// Takes in what the encoders counted, and returns it with the known errors corrected.
     pub(super) fn sense(&mut self, sensing: &EpuckSensing) -> EpuckSensing {
         let encoders = sensing.encoders.map(|turns| {
             let counted = [turns.left, turns.right].map(|turn| turn * WHEEL_RADIUS);
@@ -85,7 +86,7 @@ impl WheelCalibration {
         }
     }
 
-    /// Takes in the error of the heading by the walls, rad, and returns the correction to apply.
+    /// Takes in the heading's error as the walls show it, and returns the correction to apply, rad.
     pub(super) fn read(&mut self, reading: Reading) -> f64 {
         self.predict();
         let Reading { off, deviation } = reading;
@@ -108,15 +109,15 @@ impl WheelCalibration {
         gain[0] * off
     }
 
-    /// Forgets the heading, which may be off by more than walls can tell. The next reading is then
-    /// taken as it is, and teaches nothing about the wheels.
+    /// Forgets the heading, which may be off by more than walls can show. The next reading is
+    /// accepted as it is, and teaches nothing about the wheels.
     const fn forget_heading(&mut self) {
         self.covariance[0] = [ANY_HEADING, 0.0, 0.0];
         self.covariance[1][0] = 0.0;
         self.covariance[2][0] = 0.0;
     }
 
-    /// Predicts the covariance from the last reading of the walls to now.
+    /// Predicts the covariance from the last reading of the walls until now.
     fn predict(&mut self) {
         let [left, right] = self.rolled;
         let by = [1.0, -left / TRACK, right / TRACK];
@@ -129,7 +130,7 @@ impl WheelCalibration {
         (self.rolled, self.turned) = ([0.0, 0.0], 0.0);
     }
 
-    /// Returns the standard deviation of how far the robot's middle rolls, as a share.
+    /// Returns the standard deviation of the distance that the robot's middle rolls, as a share.
     pub(super) fn uncertainty(&self) -> f64 {
         let [_, left, right] = self.covariance;
         let sum = left[1] + right[2] + 2.0 * left[2];
@@ -146,7 +147,7 @@ mod tests {
     /// and reads the walls after each.
     fn calibrated(errors: [f64; 2], rounds: u32) -> WheelCalibration {
         let mut calibration = WheelCalibration::UNKNOWN;
-        // By how much its heading is more than it believes.
+        // True heading minus believed heading.
         let mut off = 0.0;
         for _ in 0..rounds {
             let turn = TAU * TRACK / 2.0;

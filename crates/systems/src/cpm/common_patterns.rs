@@ -10,24 +10,27 @@ use super::robot::CpmRobot;
 use super::walker::{Observation, WalkResult, Walker};
 
 /// C: the common patterns. In the paper "a representative vector of each cluster is a
-/// common-pattern CP" (section 4.1). Ours are the units of SOINN, as clusters let the robot
-/// recognize fewer loops.
+/// common-pattern CP" (section 4.1). Ours are the units of SOINN, because with clusters the robot
+/// recognizes fewer loops.
 #[derive(Clone, Debug)]
 pub struct CommonPatterns {
     dictionary: Dictionary,
-    /// Units of SOINN, each with its pattern: what was seen, and half turned, what is seen walking
-    /// the other way.
+    /// The units of SOINN with their patterns. A unit holds what was seen, and what would be seen
+    /// when walking the other way.
     units: Vec<([f64; FEATURES], PatternId)>,
     unit_count: u32,
     cluster_count: u32,
 }
 
-/// Value of the landmark element at a landmark. Start and goal have a common pattern of their own,
-/// which no path has. It is the farthest from all others, so it sets d_max and with it how similar
-/// fragments have to be. The paper gives no value.
+/// Value of the landmark element at a landmark.
+///
+/// Start and goal have a common pattern of their own, which no path has. It is the farthest from
+/// all others. So it sets d_max, and with it how similar fragments have to be. The paper gives no
+/// value.
 const LANDMARK: f64 = 100.0;
 
-/// Returns SOINN as in the paper, λ = age_dead = 20; no unit with a neighbour counts as noise.
+/// Returns the configuration of SOINN in the paper, λ = age_dead = 20. Here no unit with a
+/// neighbour counts as noise.
 #[must_use]
 pub fn soinn() -> SoinnConfig {
     SoinnConfig {
@@ -40,10 +43,10 @@ pub fn soinn() -> SoinnConfig {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Lesson {
-    /// Until it has this many observations; the paper's simulated robot had 1000 (section 5).
+    /// Until it has this many observations. The paper's simulated robot had 1000 (section 5).
     Observations(usize),
-    /// For this many seconds, and then to the end of the fragment that it is on then; the paper's
-    /// real robot had 5400 (section 7).
+    /// For this many seconds, and then to the end of its current fragment. The paper's real robot
+    /// had 5400 (section 7).
     Seconds(f64),
 }
 
@@ -87,7 +90,7 @@ pub fn wander<B: CpmRobot>(
 }
 
 impl CommonPatterns {
-    /// Clusters observations.
+    /// Returns the common patterns of observations, which SOINN learns.
     ///
     /// # Errors
     /// [`LearnPatternsError`].
@@ -100,8 +103,8 @@ impl CommonPatterns {
             soinn.observe(&observation.feature)?;
         }
         let network = soinn.network();
-        // Each unit's representative: the mean of what is nearest to it, and of the same seen the
-        // other way.
+        // The representative of each unit: the mean of the observations nearest to it, with each
+        // observation's view of the other direction.
         let mut means = vec![([0.0; FEATURES], [0.0; FEATURES], 0.0); network.len()];
         let ids: Vec<_> = network.ids().collect();
         for observation in observations {
@@ -149,9 +152,10 @@ impl CommonPatterns {
         Ok(Self::restored(dictionary, 0, 0))
     }
 
-    /// Returns the patterns of observations. Observations farther than `tolerance` from all known
-    /// patterns become patterns themselves: "the CPs must be learned incrementally" (section 8).
-    /// Older sequences stay valid.
+    /// Returns the patterns of observations and learns new ones.
+    ///
+    /// An observation farther than `tolerance` from all known patterns becomes a pattern itself:
+    /// "the CPs must be learned incrementally" (section 8). Older sequences stay valid.
     ///
     /// # Errors
     /// If an observation or the tolerance is not a number, or the tolerance is negative.
@@ -177,14 +181,14 @@ impl CommonPatterns {
         Ok(patterns)
     }
 
-    /// Returns what was learned before, from its dictionary and the counts of SOINN.
+    /// Returns patterns that were learned before, from their dictionary and the counts of SOINN.
     #[must_use]
     pub fn restored(dictionary: Dictionary, unit_count: u32, cluster_count: u32) -> Self {
         let patterns = (0..dictionary.len() as u32).map(PatternId);
         let units = patterns.filter_map(|pattern| {
             let prototype = dictionary.prototype(pattern)?;
             let unit = <[f64; FEATURES]>::try_from(prototype).ok()?;
-            // Landmarks stand for no unit.
+            // A landmark's pattern belongs to no unit.
             (unit[FEATURES - 1] < LANDMARK / 2.0).then_some((unit, pattern))
         });
         Self {
@@ -195,8 +199,8 @@ impl CommonPatterns {
         }
     }
 
-    /// Returns the common pattern that stands for a feature: that of the nearest unit ("classified
-    /// to the corresponded CP").
+    /// Returns the common pattern of a feature: that of the nearest unit ("classified to the
+    /// corresponded CP").
     #[must_use]
     pub fn pattern(&self, feature: &[f64; FEATURES]) -> PatternId {
         let distance = |unit: &[f64; FEATURES]| {
@@ -218,7 +222,7 @@ impl CommonPatterns {
             .collect()
     }
 
-    /// Returns the patterns as the map knows them.
+    /// Returns the patterns as the map uses them.
     #[must_use]
     pub const fn dictionary(&self) -> &Dictionary {
         &self.dictionary
@@ -230,14 +234,14 @@ impl CommonPatterns {
         self.unit_count
     }
 
-    /// Returns how many clusters they make.
+    /// Returns the number of clusters of the units.
     #[must_use]
     pub const fn cluster_count(&self) -> u32 {
         self.cluster_count
     }
 }
 
-/// Learns the pattern of start and goal.
+/// Adds the pattern of start and goal.
 fn learn_landmark(dictionary: &mut Dictionary) -> Result<(), DictionaryError> {
     let mut landmark = [0.0; FEATURES];
     landmark[FEATURES - 1] = LANDMARK;
@@ -249,16 +253,16 @@ fn learn_landmark(dictionary: &mut Dictionary) -> Result<(), DictionaryError> {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LearnPatternsError {
-    /// SOINN's configuration.
+    /// SOINN's configuration is invalid.
     #[error(transparent)]
     Config(#[from] QuantizerConfigError),
-    /// An observation.
+    /// An observation is invalid.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A prototype.
+    /// A prototype is invalid.
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
-    /// SOINN kept nothing.
+    /// SOINN kept no unit.
     #[error("SOINN made no pattern from {observations} observations; let the robot wander longer")]
     Nothing {
         /// Number of observations.

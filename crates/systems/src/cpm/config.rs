@@ -3,7 +3,7 @@ use tolman_maps::cpm::{Candidates, CpMapperConfig, FragmentMatching, Mapping};
 /// Parameters by which CPM maps and decides.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CpmConfig {
-    /// When the map is looked at.
+    /// When the map is compared with a new fragment.
     pub mapping: Mapping,
     /// Method of comparing fragments.
     pub matching: FragmentMatching,
@@ -11,11 +11,12 @@ pub struct CpmConfig {
     pub candidates: Candidates,
     /// Choice at a junction without unknown ports.
     pub onward: Onward,
-    /// Maximum number of fragments walked before the explorer gives up and says so. A robot that
-    /// recognizes nothing lengthens its map with each, and nothing else ends its exploration.
+    /// Maximum number of fragments walked before the explorer gives up. Nothing else ends the
+    /// exploration of a robot that recognizes nothing: its map grows with each fragment.
     pub most_traversals: u32,
-    /// How often a robot that [checks](super::Aim::Check) its map walks each fragment since the map
-    /// was last another, before it says that the map is right. 0 in the paper.
+    /// Number of walks along each fragment since the map last changed, after which a robot that
+    /// [checks](super::Aim::Check) its map calls it right. A wrong map shows when it is walked
+    /// again. 0 in the paper.
     #[serde(default)]
     pub checks: u32,
     /// Whether a robot whose sensors say that it was moved between two fragments begins another map
@@ -30,14 +31,14 @@ pub struct CpmConfig {
 pub enum Onward {
     /// Goes the shortest known way to a junction that has one. Theorem 1 needs no more.
     ShortestKnownWay,
-    /// "It continues forward until reaching a junction that has some remaining unknown ports", to
-    /// the letter, by a random port. This can go round in circles and breaks the proof of
-    /// Theorem 1.
+    /// Takes the paper literally: "It continues forward until reaching a junction that has some
+    /// remaining unknown ports". It leaves by a random port. This can go round in circles and
+    /// breaks the proof of Theorem 1.
     GoOn,
 }
 
 impl CpmConfig {
-    /// Returns how the map is made.
+    /// Returns the configuration of the mapper.
     #[must_use]
     pub const fn mapper(&self) -> CpMapperConfig {
         CpMapperConfig {
@@ -47,15 +48,15 @@ impl CpmConfig {
         }
     }
 
-    /// Returns online CPM of section 6: [`CpMapperConfig::online`]. It gives up after 1000
+    /// Returns the online CPM of section 6: [`CpmMapperConfig::online`]. It gives up after 1000
     /// fragments, which is not in the paper. By Theorem 1 a maze of 44 fragments takes at most 990;
-    /// in practice a maze of 500 takes that many.
+    /// in practice a maze of 500 takes about as many.
     #[must_use]
     pub const fn online() -> Self {
         Self::with(CpMapperConfig::online())
     }
 
-    /// Returns all that we know better than the paper: [`CpMapperConfig::robust`].
+    /// Returns the configuration with all our improvements: [`CpmMapperConfig::robust`].
     #[must_use]
     pub const fn robust() -> Self {
         Self {
@@ -65,7 +66,7 @@ impl CpmConfig {
         }
     }
 
-    /// Returns section 4's, offline CPM: [`CpMapperConfig::offline`].
+    /// Returns the offline CPM of section 4: [`CpmMapperConfig::offline`].
     #[must_use]
     pub const fn offline() -> Self {
         Self::with(CpMapperConfig::offline())

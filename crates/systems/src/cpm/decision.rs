@@ -4,38 +4,38 @@ use tolman_robot::Landmark;
 /// Aim of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aim {
-    /// To be at a landmark: by the shortest known way if it is on the map, else by exploring.
+    /// Reach a landmark: by the shortest known way if it is on the map, otherwise by exploring.
     Find(Landmark),
-    /// To have been through every port of the map ("the task is to obtain the complete map").
+    /// Go through every port of the map ("the task is to obtain the complete map").
     Explore,
-    /// To have been through every port, and then through every fragment again as often as
+    /// Go through every port, and then through every fragment again as often as
     /// [`checks`](super::CpmConfig::checks) says; ours.
     Check,
-    /// To be at the start again, trying unknown ports that might make the way between start and
-    /// goal shorter (section 6).
+    /// Return to the start, and try unknown ports that may shorten the way between start and goal
+    /// (section 6).
     WayBack,
-    /// To be sure that no way between start and goal is shorter than the shortest of the map; ours.
+    /// Make sure that no way between start and goal is shorter than the shortest on the map; ours.
     Shortest,
 }
 
 /// Decision at a junction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JunctionDecision {
-    /// Turn and follow the path.
+    /// Turn and follow the fragment.
     Go(Leg),
-    /// Nothing more to do for this aim.
+    /// There is nothing more to do for this aim.
     Done(Done),
 }
 
 /// One fragment to walk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Leg {
-    /// Δ, to perform first.
+    /// Turn Δ to make first.
     pub turn: Turn,
-    /// The end of the fragment it enters, if that is on the map.
+    /// End of the fragment that the robot enters; `None` if it is not on the map.
     pub known: Option<End>,
     /// Number of observations without an end of the fragment after which the robot turns round and
-    /// comes back; `None` for never.
+    /// comes back; `None` for no limit.
     pub give_up_after: Option<u32>,
 }
 
@@ -44,7 +44,7 @@ pub struct Leg {
 pub enum Done {
     /// The aim is reached.
     Reached,
-    /// All that can be reached was explored, and the landmark is not there.
+    /// Everything that can be reached was explored, and the landmark is not there.
     NotThere,
     /// [`most_traversals`](super::CpmConfig::most_traversals) fragments were walked.
     OutOfPatience,

@@ -13,7 +13,7 @@ pub struct EpisodeSummary {
     pub observations: u32,
 }
 
-/// When an episode began.
+/// State of the robot when an episode began.
 #[derive(Clone, Copy, Debug)]
 pub struct Begun {
     time_us: u64,
@@ -21,7 +21,7 @@ pub struct Begun {
 }
 
 impl Begun {
-    /// Returns now.
+    /// Returns the beginning of an episode that starts now.
     pub fn now<B: CpmRobot>(walker: &Walker<B>) -> Self {
         Self {
             time_us: walker.time_us(),
@@ -29,7 +29,7 @@ impl Begun {
         }
     }
 
-    /// Returns the episode that has ended now.
+    /// Returns the summary of the episode, which ends now.
     pub fn ended<B: CpmRobot>(&self, done: Done, walker: &Walker<B>) -> EpisodeSummary {
         EpisodeSummary {
             done,

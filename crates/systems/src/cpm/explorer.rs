@@ -12,27 +12,27 @@ use super::decision::{Aim, Done, JunctionDecision, Leg};
 
 /// Layer 3: "it makes a decision for the robot, and collects the path-fragment representation".
 ///
-/// Ask it to [`decide`](Self::decide) at each junction, dead end or landmark. Perform the turn and
-/// walk to the next one. Then report the walk by [`arrive`](Self::arrive), or to its mapper by
+/// Call [`decide`](Self::decide) at each junction, dead end or landmark. Perform the turn and walk
+/// to the next one. Then report the walk with [`arrive`](Self::arrive), or to its mapper with
 /// [`turned_back`](CpMapper::turned_back) if the decision said to give up.
 ///
-/// Random numbers and the dictionary belong to the caller. Whatever the robot meets, an exploration
-/// ends after at most [`CpmConfig::most_traversals`] fragments.
+/// The caller owns the random numbers and the dictionary. An exploration always ends after at most
+/// [`CpmConfig::most_traversals`] fragments.
 #[derive(Clone, Debug)]
 pub struct Explorer {
     config: CpmConfig,
-    /// The map, and where the robot is on it.
+    /// The map, and the robot's place on it.
     pub mapper: CpMapper,
-    /// Number of walks of each fragment since the map was last another.
+    /// Number of walks along each fragment since the map last changed.
     walked_again: BTreeMap<FragmentId, u32>,
 }
 
 impl Explorer {
-    /// Starts at a place that ends fragments, as if the robot had come in by port 0. At a dead end
-    /// that is its only port, elsewhere the first opening counter-clockwise from straight behind.
+    /// Returns an explorer at a place that ends fragments, as if the robot had come in by port 0.
+    /// At a dead end that is its only port. Elsewhere it is the first opening counter-clockwise
+    /// from straight behind.
     ///
-    /// A robot that stands in mid-fragment drives on to the first such place before, as in the
-    /// paper.
+    /// As in the paper, a robot in mid-fragment has to drive on to the first such place before.
     ///
     /// # Errors
     /// [`CpmError`] if the place has no ports.
@@ -41,7 +41,7 @@ impl Explorer {
         Ok(Self::of(config, mapper))
     }
 
-    /// Goes on with a map that was learned before, at one of its ports.
+    /// Returns an explorer that continues a map learned before, at one of its ports.
     ///
     /// # Errors
     /// [`CpmError::Turn`] if the map has no such port.
@@ -78,8 +78,10 @@ impl Explorer {
         Ok(update)
     }
 
-    /// Returns what to do here. Asking changes nothing but the generator. O(fragments · log
-    /// fragments); [`Aim::WayBack`] and [`Aim::Shortest`] junctions times that.
+    /// Returns what to do here. It changes nothing but the state of `rng`.
+    ///
+    /// O(fragments · log fragments); [`Aim::WayBack`] and [`Aim::Shortest`] take that for each
+    /// junction.
     pub fn decide(&self, aim: Aim, rng: &mut impl Rng) -> JunctionDecision {
         if let Some(done) = self.is_done(aim) {
             return JunctionDecision::Done(done);
@@ -117,7 +119,7 @@ impl Explorer {
         self.mapper.map()
     }
 
-    /// Returns the number of the port behind the robot, and the junction it stands at.
+    /// Returns the number of the port behind the robot, and the junction where it is.
     fn here(&self) -> Option<(u32, &Junction)> {
         let Port { junction, number } = self.mapper.at();
         Some((number, self.map().junction(junction)?))
@@ -161,8 +163,8 @@ impl Explorer {
         }
     }
 
-    /// Returns a fragment that was walked too rarely since the map was last another, here or at the
-    /// nearest place that has one.
+    /// Returns the first leg to a fragment that was walked too rarely since the map last changed:
+    /// here, or at the nearest place that has one.
     fn walk_again(&self, rng: &mut impl Rng) -> Option<Leg> {
         let is_rare = |port: Port| {
             let end = self.map().end_at(port)?;
@@ -180,7 +182,7 @@ impl Explorer {
         }
     }
 
-    /// Returns a port at random, but not the one behind; out of a dead end there is no other.
+    /// Returns a random port other than the one behind. Out of a dead end there is only that one.
     fn wander(&self, rng: &mut impl Rng) -> Option<Leg> {
         let (behind, here) = self.here()?;
         let turn = match here.degree() {
@@ -211,7 +213,7 @@ impl Explorer {
         }
         match home {
             Some(_) => self.towards(Landmark::Start),
-            // The start is not on the map; a robot that has not come from there has to look for it.
+            // The start is not on the map: a robot that did not begin there has to look for it.
             None => self.explore(rng),
         }
     }
@@ -227,13 +229,14 @@ impl Explorer {
         self.leg_to(choose(&helpful, rng)?, Some(room))
     }
 
-    /// Returns the length, in observations, below which an unknown fragment at a junction can
-    /// shorten the way between start and goal. The known part of the way begins at landmark `from`.
-    /// `None` if no fragment can. If no way is known, any length can.
+    /// Returns the length, in observations, below which an unknown fragment at `junction` can
+    /// shorten the way between start and goal.
+    ///
+    /// The known part of the way begins at the landmark `from`. Returns `None` if no fragment can
+    /// shorten it; if no way is known, any length can.
     fn room(&self, junction: JunctionId, from: Landmark) -> Option<u32> {
         let is_goal = |id| self.map().has(id, Landmark::Goal);
-        // A start in a corridor may be on the map twice; the first is where the robot will be put
-        // again.
+        // A start in a corridor may be on the map twice. The robot will be put back to the first.
         let start = self.map().start()?;
         let length = |from: Port, wanted: &dyn Fn(JunctionId) -> bool| {
             let plan = self.map().plan(from, wanted);
@@ -247,7 +250,8 @@ impl Explorer {
         known.checked_sub(near).filter(|room| *room > 1)
     }
 
-    /// Returns the nearest unknown port that may lead to a shorter way between start and goal.
+    /// Returns the first leg to the nearest unknown port that may lead to a shorter way between
+    /// start and goal.
     fn towards_helpful(&self, rng: &mut impl Rng) -> Option<Leg> {
         if let Some(leg) = self.shortcut(Landmark::Start, rng) {
             return Some(leg);

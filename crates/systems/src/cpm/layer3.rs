@@ -21,45 +21,45 @@ use super::walker_config::HeadingBy;
 
 /// Layer 3: maps by common patterns, reasons at junctions, plans (section 4, figure 2).
 ///
-/// It has no body: it takes the robot over from its lower layers, a [`Walker`], for one fragment at
+/// It has no body. It takes the robot over from its lower layers, a [`Walker`], for one fragment at
 /// a time.
 #[derive(Clone, Debug)]
 pub struct Layer3 {
     patterns: CommonPatterns,
-    /// Distance from all patterns from which an observation becomes a pattern; `None` if all were
-    /// learned before.
+    /// Distance from all patterns beyond which an observation becomes a new pattern; `None` to
+    /// learn no more.
     novelty: Option<f64>,
     explorer: Explorer,
 }
 
-/// Bound of dead reckoning's error along one fragment, m: a third of a corridor's width, so that
-/// neighbouring cells are told apart.
+/// Bound on the error of dead reckoning along a fragment, m: a third of a corridor's width, so that
+/// neighbouring cells stay distinct.
 const POSITION_MARGIN: f64 = 0.08;
 
-/// Bound of a heading's error, rad: a branch's heading is the middle of a gap between walls.
+/// Bound on the error of a heading, rad. A branch's heading is the middle of a gap between walls.
 const HEADING_MARGIN: f64 = 0.6;
 
-/// Input from which CPM learns: the start of a map, or a fragment that was walked.
+/// Input that CPM learns from: the start of a map, or a walk along a fragment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CpmObservation {
-    /// The place at which the robot began, with its first way out behind it.
+    /// The place where the robot began, with its first way out behind it.
     Began(Sighting),
-    /// A fragment.
+    /// A walk along a fragment.
     Walked(Walked),
 }
 
-/// A fragment that was walked.
+/// A walk along a fragment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Walked {
-    /// The turn made at the place it leads from.
+    /// Turn made at the place where the fragment begins.
     pub turn: Turn,
-    /// Observations on the way, or until the robot turned round.
+    /// Observations on the way, up to the end or to where the robot turned round.
     pub observations: Vec<Observation>,
-    /// Place at its end; `None` if the robot turned round in it.
+    /// Place at the fragment's end; `None` if the robot turned round in it.
     pub sighting: Option<Sighting>,
-    /// Dead reckoning of the way; `None` if it is not trusted, as in the paper.
+    /// Displacement by dead reckoning; `None` if that is not trusted, as in the paper.
     pub motion: Option<DeadReckoning>,
-    /// Bearings of the ways out of its end; `None` if they are only numbered, as in the paper.
+    /// Bearings of the ways out of its end; `None` if they only have numbers, as in the paper.
     pub bearings: Option<Bearings>,
 }
 
@@ -68,16 +68,17 @@ pub struct Walked {
 pub struct FragmentStep {
     /// Decision of layer 3.
     pub leg: Leg,
-    /// What the robot met.
+    /// What the robot met on the way.
     pub walked: Walked,
-    /// What the arrival taught, or `None` if the robot turned back.
+    /// What the arrival changed on the map; `None` if the robot turned back.
     pub arrival: Option<MapUpdate>,
 }
 
 impl Layer3 {
-    /// Returns layer 3 of a robot that knows these patterns and decides by `explorer`. `novelty` is
-    /// the distance from all patterns from which an observation becomes a pattern (section 8, "the
-    /// CPs must be learned incrementally"). `None` learns no further ones.
+    /// Returns layer 3 of a robot that knows these patterns and decides by `explorer`.
+    ///
+    /// An observation farther than `novelty` from all patterns becomes a new pattern (section 8,
+    /// "the CPs must be learned incrementally"). With `None` it learns no further ones.
     #[must_use]
     pub const fn new(patterns: CommonPatterns, novelty: Option<f64>, explorer: Explorer) -> Self {
         Self {
@@ -87,7 +88,7 @@ impl Layer3 {
         }
     }
 
-    /// Lets a robot look where it is and begin its map there. `patterns` and `novelty` are as of
+    /// Lets a robot look where it is and begin its map there. `patterns` and `novelty` are those of
     /// [`new`](Self::new).
     ///
     /// # Errors
@@ -102,10 +103,11 @@ impl Layer3 {
         Ok(Self::new(patterns, novelty, explorer))
     }
 
-    /// Lets a robot look where it is that has a map, written in these patterns, which begins there.
+    /// Lets a robot with a map look where it is. The map uses these patterns and has to begin
+    /// there.
     ///
     /// # Errors
-    /// [`CpmFailure`](super::CpmFailure), also if it stands somewhere else.
+    /// [`CpmFailure`](super::CpmFailure), also if the robot is somewhere else.
     pub fn resume<B: CpmRobot>(
         walker: &mut Walker<B>,
         patterns: CommonPatterns,
@@ -121,8 +123,7 @@ impl Layer3 {
         Ok(Self::resume_at(patterns, config, map, at)?)
     }
 
-    /// Returns layer 3 of a robot that has a map, written in these patterns, and stands at a port
-    /// of it.
+    /// Returns layer 3 of a robot with a map in these patterns, at a port of that map.
     ///
     /// # Errors
     /// [`CpmError`] if the map has no such port.
@@ -136,7 +137,7 @@ impl Layer3 {
         Ok(Self::new(patterns, None, explorer))
     }
 
-    /// Takes in that the robot was put back to where its map begins.
+    /// Tells it that the robot was put back to where its map begins.
     ///
     /// # Errors
     /// [`CpmFailure`](super::CpmFailure).
@@ -146,33 +147,33 @@ impl Layer3 {
         Ok(self.explorer.mapper.place(start)?)
     }
 
-    /// Returns the common patterns, those learned on the way among them.
+    /// Returns the common patterns, including those learned on the way.
     #[must_use]
     pub const fn patterns(&self) -> &CommonPatterns {
         &self.patterns
     }
 
-    /// Returns the map as it is now.
+    /// Returns the present map.
     #[must_use]
     pub fn map(&self) -> &CpMap {
         self.explorer.mapper.map()
     }
 
-    /// Returns what decides by the map.
+    /// Returns the explorer, which decides by the map.
     #[must_use]
     pub const fn explorer(&self) -> &Explorer {
         &self.explorer
     }
 
-    /// Returns what decides by the map, to be put elsewhere.
+    /// Returns the explorer, so that it can be moved to another place.
     pub const fn explorer_mut(&mut self) -> &mut Explorer {
         &mut self.explorer
     }
 
-    /// Takes in what the robot met, and returns what that taught; `None` where it turned back.
+    /// Takes in a walk, and returns what it changed on the map; `None` if the robot turned back.
     ///
     /// # Errors
-    /// [`CpmError`]; the map is as before then.
+    /// [`CpmError`]; the map is then unchanged.
     pub fn take_in(&mut self, walked: &Walked) -> Result<Option<MapUpdate>, CpmError> {
         let Some(sighting) = walked.sighting else {
             let observations = walked.observations.len() as u32;
@@ -250,7 +251,7 @@ impl Layer3 {
         plan: &Plan,
     ) -> CpmResult<EpisodeSummary, B> {
         let begun = Begun::now(walker);
-        // It may stand at the goal already.
+        // The robot may be at the goal already.
         let here = self.map().junction(self.explorer.mapper.at().junction);
         let mut sighting = here.map(Junction::sighting);
         for leg in &plan.legs {
@@ -275,7 +276,8 @@ impl Layer3 {
         place.map(Junction::sighting)
     }
 
-    /// Merges all that is similar: the offline CPM's last step. Online nothing is left to merge.
+    /// Merges everything that is similar: the last step of the offline CPM. Returns the number of
+    /// merges. Online there is nothing left to merge.
     ///
     /// # Errors
     /// [`CpmError`].
@@ -283,7 +285,7 @@ impl Layer3 {
         self.explorer.mapper.optimize(self.patterns.dictionary())
     }
 
-    /// Returns the patterns of what was seen on a way, some of them perhaps new.
+    /// Returns the patterns of the observations, some of which may be new.
     fn perceive(&mut self, observations: &[Observation]) -> Result<Vec<PatternId>, CpmError> {
         match self.novelty {
             None => Ok(self.patterns.patterns(observations)),
@@ -292,8 +294,8 @@ impl Layer3 {
     }
 }
 
-/// Returns where the ways lead from where the robot is; `None` for the paper's, which numbers them
-/// and no more.
+/// Returns the bearings of the ways out of the robot's place; `None` in the paper's mode, which
+/// only numbers them.
 fn bearings<B: CpmRobot>(walker: &Walker<B>) -> Option<Bearings> {
     match walker.config().heading {
         HeadingBy::Encoders => None,
@@ -301,8 +303,8 @@ fn bearings<B: CpmRobot>(walker: &Walker<B>) -> Option<Bearings> {
     }
 }
 
-/// Returns dead reckoning of the walk from one place to the robot's present pose; `None` if it is
-/// not trusted, as in the paper.
+/// Returns the displacement by dead reckoning from one place to the robot's present pose; `None` if
+/// that is not trusted, as in the paper.
 fn motion<B: CpmRobot>(
     walker: &Walker<B>,
     from: Pose,
@@ -312,7 +314,7 @@ fn motion<B: CpmRobot>(
     }
     let to = walker.pose();
     let left = walker.departed();
-    // In a bend the robot may look along the way in or the way out: the way it came by says where
+    // In a bend the robot may face along the way in or the way out. The way it came by says where
     // it came from.
     let behind = walker.branches().first().copied().unwrap_or(PI);
     let came = to.heading.turned(behind + PI);

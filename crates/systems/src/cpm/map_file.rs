@@ -8,28 +8,29 @@ use crate::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles { system: "cpm" };
 
-/// Contents of a learned map's file, with the patterns it is written in: JSON, read back bit for
-/// bit.
+/// Contents of a learned map's file, with the patterns that the map uses. It is JSON and reads back
+/// bit for bit.
 #[derive(Clone, Debug)]
 pub struct MapFile {
     /// Maze, robot and seed of its origin.
     pub origin: Origin,
     /// Mode in which the robot mapped.
     pub mode: Mode,
-    /// The patterns it knew.
+    /// Patterns that the robot knew.
     pub patterns: CommonPatterns,
-    /// The map.
+    /// The learned map.
     pub map: CpMap,
 }
 
-/// Reason why a file holds no map.
+/// Reason why a file is not a map.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// The header or the JSON is not sound, or names another system; or the map has no JSON form.
+    /// The header or the JSON is invalid, or names another system; or the map cannot be written as
+    /// JSON.
     #[error(transparent)]
     File(#[from] FileError),
-    /// It holds another thing, or not all of it.
+    /// The map is of another kind or incomplete.
     #[error("its map cannot be read")]
     Map(#[from] cpm::MapFileError),
 }
@@ -62,7 +63,7 @@ impl MapFile {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// [`MapFileError`] with the place and what to do about it.
+    /// [`MapFileError`], which says where the fault is and what to do.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
         let (origin, body): (_, Body) = FILES.read(text)?;
         let dictionary = body.map.dictionary()?;

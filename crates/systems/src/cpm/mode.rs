@@ -9,15 +9,15 @@ pub enum Mode {
     Paper(CpmConfig),
     /// With dead reckoning.
     Reckoned(CpmConfig),
-    /// With dead reckoning, and without any patterns but those that it learns on its way.
+    /// With dead reckoning, and only with patterns that it learns on its way.
     Unlearned(CpmConfig),
 }
 
-/// Distance from all patterns from which an observation becomes a pattern on the way.
+/// Distance from all patterns beyond which an observation becomes a new pattern.
 const NOVELTY: f64 = 30.0;
 
 impl Mode {
-    /// Returns how it maps and decides.
+    /// Returns the configuration of mapping and deciding.
     #[must_use]
     pub const fn config(self) -> CpmConfig {
         match self {
@@ -25,7 +25,7 @@ impl Mode {
         }
     }
 
-    /// Returns the same way of mapping with another `config`.
+    /// Returns the same mode with another `config`.
     #[must_use]
     pub const fn with(self, config: CpmConfig) -> Self {
         match self {
@@ -35,7 +35,7 @@ impl Mode {
         }
     }
 
-    /// Returns what dead reckoning takes headings from.
+    /// Returns the source of dead reckoning's headings.
     #[must_use]
     pub const fn heading(self) -> HeadingBy {
         match self {
@@ -44,8 +44,8 @@ impl Mode {
         }
     }
 
-    /// Returns the distance from all patterns from which an observation becomes a pattern on the
-    /// way; `None` if all are learned before.
+    /// Returns the distance from all patterns beyond which an observation becomes a new pattern;
+    /// `None` if no more are learned.
     #[must_use]
     pub const fn novelty(self) -> Option<f64> {
         match self {

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::places::{OfSites, Site, SiteWay};
 
-/// Tells CPM of the places of a log, at the e-puck's scale: what is around the robot on a way
+/// Feeds CPM with the places of a log, at the e-puck's scale. What is around the robot on its way
 /// becomes common patterns.
 #[derive(Clone, Debug)]
 pub struct CpmOfSites {
@@ -23,7 +23,8 @@ pub struct CpmOfSites {
 
 /// Maximum error of a way, as a share of its length, and an additional margin, m.
 const SHARE: f64 = 0.01;
-/// Whoever comes from elsewhere stops elsewhere in a place, by this share of a corridor's width.
+/// A robot that comes from another side stops elsewhere in a place: by this share of a corridor's
+/// width.
 const PLACE: f64 = 0.75;
 /// Maximum error of a heading along the building's axes, rad.
 const HEADING: f64 = 0.35;
@@ -58,7 +59,8 @@ impl CpmOfSites {
         })
     }
 
-    /// Returns what becomes a common pattern; `None` where not two ways are seen.
+    /// Returns the observation that becomes a common pattern; `None` if fewer than two ways are
+    /// seen.
     fn seen(&self, around: &Scan) -> Option<Observation> {
         let curve = &self.walker.pilot.curve;
         let value = |range: &f64| curve.value(range / self.measures.scale() - BODY_RADIUS);
@@ -89,7 +91,7 @@ impl OfSites for CpmOfSites {
     }
 }
 
-/// Returns the ways out of a place, counter-clockwise from the one by which the robot came.
+/// Returns the ways out of a place, counter-clockwise from the one that the robot came by.
 fn ways(site: &Site) -> impl Iterator<Item = usize> + '_ {
     let quarters = (0..4).map(|turned| (site.came_by + turned) % 4);
     quarters.filter(|quarter| site.open[*quarter])

@@ -11,16 +11,16 @@ pub(super) struct Reckoned<B> {
     pub(super) body: B,
     /// Believed pose, in the frame of the first pose.
     pub(super) pose: Pose,
-    /// Way of the robot's middle so far, m, forward or backward.
+    /// Distance driven by the robot's middle, m, forward or backward.
     pub(super) driven: f64,
-    /// Time steps made.
+    /// Number of time steps made.
     pub(super) steps: u32,
     /// Calibration of the wheels, with the calibrated sensing; `None` if the encoders are trusted
     /// as they are.
     pub(super) calibrated: Option<Calibrated>,
 }
 
-/// A robot's wheels, and what it senses by them.
+/// The calibration of a robot's wheels, and its sensing corrected by it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Calibrated {
     pub(super) wheels: WheelCalibration,

@@ -9,27 +9,27 @@ use super::robot::CpmRobot;
 use super::walker::{BeforePlace, Prospect, Walk, WalkError, WalkResult, Walker};
 use super::whereabouts::{Approach, SURE, Whereabouts};
 
-/// Walks of this robot along one fragment differ by less than one stride in twenty.
+/// Walks of one robot along the same fragment differ by less than one stride in twenty.
 const CONFIG: LocalizerConfig = LocalizerConfig {
     slip: 0.05,
     ..LocalizerConfig::usual()
 };
 
-/// Finds out on which of several maps a robot is, and where, after it was put down anywhere, also
+/// Finds out on which of several maps a robot is, and where, after it was put down anywhere, even
 /// in mid-fragment (section 8, "the start point is changed").
 ///
-/// The robot goes to the place ahead by its approach, and then by random choice along further
-/// fragments that its maps have. It ends when it is sure, or after a set number of places. The
-/// paper's robot begins to observe at the first place; ours does at once.
+/// The robot goes to the place ahead by its approach. From there it takes random fragments that its
+/// maps have. The search ends when it is sure, or after a set number of places. The paper's robot
+/// begins to observe at the first place; ours does at once.
 #[derive(Clone, Debug)]
 pub struct Relocalization {
     patterns: CommonPatterns,
     localizer: Localizer,
     approach: Approach,
-    /// Places that it may come to after the first.
+    /// Maximum number of places that it may still visit after the first.
     last: usize,
     found: Whereabouts,
-    /// The ways out of the place it has come to.
+    /// Number of ways out of its present place.
     degree: u32,
 }
 
@@ -54,14 +54,14 @@ impl Relocalization {
         })
     }
 
-    /// Returns what it has found out. In [`Whereabouts::here`], `Location::ahead` is the port
-    /// behind the robot.
+    /// Returns the result so far. In [`Whereabouts::here`], `Location::ahead` is the port behind
+    /// the robot.
     #[must_use]
     pub const fn found(&self) -> &Whereabouts {
         &self.found
     }
 
-    /// Comes to the next place. Breaks where it is sure or has come to as many as it may.
+    /// Drives to the next place. Breaks when it is sure, or has visited as many places as it may.
     ///
     /// # Errors
     /// [`CpmFailure`](super::CpmFailure).
@@ -91,7 +91,8 @@ impl Relocalization {
                 return BeforePlace::Enter;
             }
             let mut ahead = self.localizer.clone();
-            // What cannot be taken in here cannot be at the place either, and is told of there.
+            // What cannot be taken in here cannot be taken in at the place either, and is reported
+            // there.
             if take_in(&mut ahead, prospect, &self.patterns).is_err() || is_sure(&ahead) {
                 return BeforePlace::Enter;
             }
@@ -125,7 +126,7 @@ impl Relocalization {
     }
 }
 
-/// Returns what is known when a place comes into sight.
+/// Adds what is known when a place comes into sight.
 fn take_in(
     localizer: &mut Localizer,
     prospect: &Prospect,
@@ -142,7 +143,7 @@ fn is_sure(localizer: &Localizer) -> bool {
     localizer.location().probability > SURE
 }
 
-/// Returns a turn at random among those that its maps most likely know: by others it would learn
+/// Returns a random turn among those that its maps most likely have. Other turns would teach it
 /// nothing.
 fn onward(localizer: &Localizer, degree: u32, rng: &mut impl Rng) -> Turn {
     let turns = || (1..degree).map(Turn);

@@ -13,11 +13,11 @@ use tolman_robot::{
 
 use super::walker_config::{EpuckMeasures, WalkerConfig};
 
-/// A robot with a ring of range beams that looks like an e-puck to CPM, at another scale.
+/// Makes a robot with a ring of range beams look like an e-puck to CPM, at another scale.
 ///
-/// All lengths are scaled such that its corridors look 0.25 m wide, like the e-puck's. Proximity
-/// values come from the ring through the e-puck's response curve, encoders from odometry. The ring
-/// has to go all round and to reach farther than a corridor is wide.
+/// All lengths are scaled so that its corridors look 0.25 m wide, like the e-puck's. Proximity
+/// values come from the ring through the e-puck's response curve, encoder counts from odometry. The
+/// ring has to cover a full circle and to reach farther than a corridor is wide.
 #[derive(Clone, Debug)]
 pub struct RingAsEpuck<R> {
     robot: R,
@@ -29,7 +29,7 @@ pub struct RingAsEpuck<R> {
 /// Measures of a robot with a ring that are needed to make it look like an e-puck.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RingMeasures {
-    /// From wall to wall of its corridors, m.
+    /// Width of its corridors from wall to wall, m.
     pub corridor_width: f64,
     /// Radius of its body, m.
     pub body_radius: f64,
@@ -39,26 +39,26 @@ pub struct RingMeasures {
     pub translate_per_step: f64,
     /// Length of its time step, µs.
     pub step_us: u64,
-    /// Maximum error at which a turn can be ended, rad: the error left by the smallest turn of the
-    /// motors.
+    /// Smallest error to which a turn can be controlled, rad: what the motors' smallest turn
+    /// leaves.
     pub turn_tolerance: f64,
 }
 
-/// The width of an e-puck's corridors, m.
+/// Width of an e-puck's corridors, m.
 const EPUCK_WIDTH: f64 = 0.25;
 
-/// The fastest turn while it drives, rad a time step: so coarse that it still sees a bend end.
+/// Fastest turn while driving, rad per time step. It is slow enough to see where a bend ends.
 const TURN_A_STEP: f64 = 0.05;
 
-/// Room left between body and wall, in the e-puck's scale, m: where all driving ahead ends, and how
-/// much before it slows down.
+/// Clearances between body and wall in the e-puck's scale, m: where driving ahead stops, and how
+/// much earlier it slows down.
 const LEAST_ROOM: f64 = 0.01;
 const SLOW_ROOM: f64 = 0.02;
 
-/// Neighbouring beams whose ranges have at most this ratio meet one wall.
+/// Maximum ratio of the ranges of neighbouring beams that meet the same wall.
 const ONE_WALL: f64 = 1.25;
 
-/// A ring that cannot stand for an e-puck's sensors.
+/// Reason why a ring cannot stand in for an e-puck's sensors.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
     "the ring covers {round:.3} rad and reaches {reach} m: CPM needs a full circle and a reach beyond the width of a corridor, \
@@ -69,7 +69,7 @@ pub struct UnfitRing {
     pub round: f64,
     /// Largest range, m.
     pub reach: f64,
-    /// Width of the corridors by the configuration, m.
+    /// Width of the corridors in the configuration, m.
     pub corridor_width: f64,
 }
 
@@ -104,9 +104,8 @@ impl RingMeasures {
         self.step_us as f64 * 1e-6
     }
 
-    /// Returns the command that makes the robot go as an e-puck would with these wheel speeds. A
-    /// motor that would have to do more than it can slows the other down, so that the path is the
-    /// same.
+    /// Returns the command that moves the robot as these wheel speeds would move an e-puck. If one
+    /// motor would exceed its limit, both slow down, so that the path stays the same.
     fn command(&self, speeds: &WheelSpeeds) -> TurnTranslate {
         let rolled = [speeds.left, speeds.right].map(|speed| speed * WHEEL_RADIUS * self.step_s());
         let Twist { linear, angular } = Twist::of_wheels(rolled[0], rolled[1], TRACK);
@@ -119,7 +118,7 @@ impl RingMeasures {
         }
     }
 
-    /// Returns what the e-puck's wheels would have turned.
+    /// Returns the turns that the e-puck's wheels would have made.
     fn encoders(&self, odometry: Odometry) -> WheelTurns {
         let linear = odometry.distance / self.scale();
         let apart = odometry.turn * TRACK / 2.0;
@@ -129,13 +128,14 @@ impl RingMeasures {
         }
     }
 
-    /// Returns what the e-puck's sensors would read by `curve`; `None` where the ring does not go
-    /// all round.
+    /// Returns the values that the e-puck's sensors would read by `curve`; `None` if the ring does
+    /// not cover a full circle.
     fn proximity(&self, scan: &Scan, curve: &RangeCurve) -> Option<[f64; PROXIMITY_SENSORS]> {
         if !goes_round(&scan.ring) || scan.ranges.len() != scan.ring.beams as usize {
             return None;
         }
-        // The e-puck's sensors look nearly away from its middle, where the ring's beams come from.
+        // The e-puck's sensors look almost straight away from its middle, where the ring's beams
+        // begin.
         Some(proximity_mounts().map(|mount| {
             let rim = mount.position.coords.norm();
             let range = range_at(scan, mount.heading.radians());
@@ -145,13 +145,13 @@ impl RingMeasures {
     }
 }
 
-/// Returns whether a ring looks all round.
+/// Returns whether a ring covers a full circle.
 fn goes_round(ring: &Ring) -> bool {
     (f64::from(ring.beams) * ring.spacing - TAU).abs() < 1e-6
 }
 
-/// Returns the distance of the wall at a bearing, rad, by a full ring, m; `None` if it meets
-/// nothing.
+/// Returns the distance of the wall at a `bearing`, rad, from a full ring, m; `None` if there is
+/// none within reach.
 fn range_at(scan: &Scan, bearing: f64) -> Option<f64> {
     let beams = scan.ranges.len();
     let index = (bearing - scan.ring.first_bearing) / scan.ring.spacing;
@@ -178,8 +178,8 @@ where
     /// Returns `robot` as an e-puck.
     ///
     /// # Errors
-    /// [`UnfitRing`] if its scan does not go all round, or reaches no further than a corridor is
-    /// wide.
+    /// [`UnfitRing`] if its scan does not cover a full circle, or reaches no farther than a
+    /// corridor is wide.
     pub fn new(robot: R, measures: RingMeasures) -> Result<Self, UnfitRing> {
         if let Some(Scan { ring, .. }) = robot.sensing().scan()
             && !(goes_round(ring) && ring.max_range > measures.corridor_width)
@@ -205,7 +205,7 @@ where
         &self.robot
     }
 
-    /// Returns the robot, to be lifted.
+    /// Returns the robot, so that it can be lifted.
     pub const fn robot_mut(&mut self) -> &mut R {
         &mut self.robot
     }
@@ -270,7 +270,8 @@ mod tests {
         }
     }
 
-    /// Returns a wall straight across, `ahead` m before a robot that has turned by `turned`.
+    /// Returns the scan of a wall straight across, `ahead` m in front of a robot that has turned by
+    /// `turned` rad.
     fn wall(ahead: f64, turned: f64) -> Scan {
         let mut scan = Scan::clear(Ring::full(72, 2.0));
         for beam in 0..scan.ring.beams {

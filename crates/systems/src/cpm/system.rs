@@ -29,7 +29,7 @@ use super::whereabouts::Approach;
 /// An action is one fragment, from one place to the next. It holds no robot between two actions. If
 /// the robot is moved then, call [`carried`](Self::carried).
 ///
-/// - [`Task::Explore`] ends when all ways of the map were walked.
+/// - [`Task::Explore`] ends when all ways on the map were walked.
 /// - [`Task::Reach`] drives the shortest known way, skipping observations. If none is known, it
 ///   explores.
 /// - [`Task::Localize`] finds out where on its map the robot is.
@@ -37,42 +37,42 @@ use super::whereabouts::Approach;
 pub struct Cpm {
     walker: WalkerConfig,
     config: CpmConfig,
-    /// The maps that it may be on; empty if it learns its own.
+    /// Maps that the robot may be on; empty if it learns its own.
     known: Vec<CpMap>,
-    /// The one of them that it is on.
+    /// Index of the map that it is on.
     on: usize,
-    /// Patterns it learned before its first map.
+    /// Patterns that it learned before its first map.
     patterns: CommonPatterns,
     novelty: Option<f64>,
     layer: Option<Layer3>,
-    /// The walks on its map.
+    /// Walks on its map.
     trail: Trail,
     standing: Stance,
-    /// Maps that it gave up since they could not be.
+    /// Number of maps that it gave up because they were impossible.
     given_up: u32,
-    /// Walks, one by one, in which its map could not be.
+    /// Number of walks in a row after which its map was impossible.
     doubtful: u32,
-    /// Walks since its map had no unknown port left.
+    /// Number of walks since its map had no unknown port left.
     checked: u32,
     rng: ChaCha8Rng,
 }
 
-/// Situation of the robot in the world.
+/// What the system knows about the robot's place in the world.
 #[derive(Clone, Debug)]
 enum Stance {
-    /// Nobody knows where: it has just been switched on, or was carried.
+    /// Nothing: it has just been switched on, or was carried.
     Anywhere,
-    /// It is finding out where.
+    /// It is localizing.
     Searching(Box<(RestingWalker, Relocalization)>),
-    /// At the place where its map has it.
+    /// It is at the place where its map has it.
     AtPlace(Box<RestingWalker>),
 }
 
-/// Places at which a robot that is lost has to know where it is; after them it goes on where it
-/// most likely is.
+/// Number of places after which a lost robot stops localizing. It then continues from where it most
+/// likely is.
 const MOST_PLACES: u32 = 12;
 
-/// Two places of corridors are not nearer to each other than this, in corridors' widths.
+/// Minimum distance of two places, in corridor widths.
 const APART: f64 = 0.5;
 
 /// Number of walks in a row that contradict a map before it is given up.
@@ -86,7 +86,7 @@ const MOST_MAPS: u32 = 2;
 
 impl Cpm {
     /// Returns a robot without a map that knows these `patterns` from a learning maze (section
-    /// 4.1). All random numbers follow from `seed`.
+    /// 4.1). `seed` seeds all its random numbers.
     #[must_use]
     pub fn new(
         walker: WalkerConfig,
@@ -129,8 +129,7 @@ impl Cpm {
         })
     }
 
-    /// Returns a robot that has a map, written in these `patterns`, and stands somewhere on it. It
-    /// finds out where first.
+    /// Returns a robot that is somewhere on a map in these `patterns`. It localizes first.
     ///
     /// # Errors
     /// [`CpmError`] if the map has no place.
@@ -144,8 +143,8 @@ impl Cpm {
         Self::with_maps(walker, patterns, config, vec![map], seed)
     }
 
-    /// Returns a robot that has maps of several mazes, written in these `patterns`, and stands
-    /// somewhere on one of them. It finds out on which and where first.
+    /// Returns a robot that is somewhere on one of several maps in these `patterns`. It first finds
+    /// out on which one, and where.
     ///
     /// # Errors
     /// [`CpmError`] if the first map has no place.
@@ -166,24 +165,24 @@ impl Cpm {
         })
     }
 
-    /// Tells it that the robot was carried elsewhere: it has to find out where it is.
+    /// Tells it that the robot was carried elsewhere, so that it localizes first.
     pub fn carried(&mut self) {
         self.standing = Stance::Anywhere;
     }
 
-    /// Returns which of its maps it takes itself to be on.
+    /// Returns the index of the map that it believes it is on.
     #[must_use]
     pub const fn on(&self) -> usize {
         self.on
     }
 
-    /// Returns the map and what decides by it; `None` before the first action.
+    /// Returns its explorer with the map; `None` before the first action.
     #[must_use]
     pub fn explorer(&self) -> Option<&Explorer> {
         self.layer.as_ref().map(Layer3::explorer)
     }
 
-    /// Returns the common patterns, those learned on the way among them.
+    /// Returns the common patterns, including those learned on the way.
     #[must_use]
     pub fn patterns(&self) -> &CommonPatterns {
         self.layer.as_ref().map_or(&self.patterns, Layer3::patterns)
@@ -201,7 +200,7 @@ impl Cpm {
         Ok(Standing::UnderWay)
     }
 
-    /// Comes to the next place on the way to knowing where it is.
+    /// Drives to the next place while it localizes.
     fn localize<R: CpmRobot>(&mut self, robot: &mut R) -> CpmResult<Standing, R> {
         let Some(layer) = &mut self.layer else {
             return Ok(Standing::gave_up("it has no map to find itself on"));
@@ -215,7 +214,7 @@ impl Cpm {
             Stance::Anywhere | Stance::AtPlace(_) => {
                 let here = layer.map().clone();
                 let mut maps = self.known.clone();
-                // It may have grown since.
+                // The map may have grown since.
                 match maps.get_mut(self.on) {
                     Some(known) => *known = here,
                     None => maps = vec![here],
@@ -303,8 +302,8 @@ impl Cpm {
         })
     }
 
-    /// Returns what to explore for: a map is checked until that has taken [`MOST_CHECKS`] times as
-    /// many walks as it has fragments.
+    /// Returns the aim of exploration. A finished map is checked with at most [`MOST_CHECKS`] times
+    /// as many walks as it has fragments.
     fn exploration_aim(&mut self) -> Aim {
         let explorer = self.explorer().filter(|_| self.config.checks > 0);
         let Some(Explorer { mapper, .. }) = explorer else {
@@ -316,7 +315,7 @@ impl Cpm {
         }
         let is_open = |place: &Junction| place.open_ports().next().is_some();
         let is_whole = !mapper.map().junctions().any(|(_, place)| is_open(place));
-        // What is doubtful anyway need not be checked.
+        // A doubtful map need not be checked.
         if is_whole && self.doubt().is_some() {
             return Aim::Explore;
         }
@@ -324,7 +323,7 @@ impl Cpm {
         Aim::Check
     }
 
-    /// Returns why its map is not to be believed, as far as it can tell.
+    /// Returns why its map is doubtful, or `None` if it finds no reason.
     fn doubt(&self) -> Option<MapDoubt> {
         self.explorer()?.mapper.doubt(self.apart())
     }
@@ -351,8 +350,8 @@ impl Cpm {
         }
     }
 
-    /// Drops a map that cannot be right, and begins another where the robot stands. Gives up after
-    /// [`MOST_MAPS`] of them, or on maps that it was given.
+    /// Drops an impossible map, and begins another where the robot is. Gives up after [`MOST_MAPS`]
+    /// of them, or on maps that it was given.
     fn begin_anew(&mut self, doubt: MapDoubt) -> Standing {
         if self.given_up >= MOST_MAPS || !self.known.is_empty() {
             return Standing::gave_up(format!("its map is doubtful: {doubt}"));
@@ -379,7 +378,8 @@ impl Cpm {
         Standing::UnderWay
     }
 
-    /// Drives one fragment of a plan. A robot that comes elsewhere than its map has there is lost.
+    /// Drives one fragment of a plan. If the robot arrives at another place than its map says, it
+    /// is lost.
     fn drive<R: CpmRobot>(
         &mut self,
         robot: &mut R,
@@ -400,7 +400,7 @@ impl Cpm {
             layer.explorer_mut().mapper.place(leg.arrive)?;
             self.standing = Stance::AtPlace(Box::new(walker.rest()));
         } else if sighting.landmark.map(Goal::Landmark) == Some(goal) {
-            // Elsewhere than it thought, but where it was sent.
+            // It is not where it thought, but where it was sent.
             return Ok(Standing::Done);
         }
         Ok(Standing::UnderWay)
@@ -415,7 +415,7 @@ impl Cpm {
         }
     }
 
-    /// Goes on towards a goal from a place of the map.
+    /// Drives on towards a goal from a place of the map.
     fn reach<R: CpmRobot>(
         &mut self,
         robot: &mut R,

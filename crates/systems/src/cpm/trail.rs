@@ -1,16 +1,16 @@
 use tolman_maps::cpm::{CpMap, MapUpdate, Port, Turn};
 
-/// The walks of a robot, from which its places on the present map follow. After a new explanation,
-/// or the merge of two places, the map has other names for them.
+/// The walks of a robot, from which its places on the present map follow. The map renames places
+/// when it explains the walks in another way, or merges two places.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Trail {
-    /// Places that it came to before a map that it has given up.
+    /// Number of places visited on maps that it has given up.
     forgotten: usize,
-    /// Starting points of walks that can be retraced from one another.
+    /// Starting points of walks that can be retraced on the map.
     bases: Vec<Base>,
 }
 
-/// Walks from a place on.
+/// A starting point, and the walks that followed.
 #[derive(Clone, Debug)]
 struct Base {
     at: Port,
@@ -21,19 +21,19 @@ struct Base {
 #[derive(Clone, Copy, Debug)]
 struct TrailStep {
     turn: Turn,
-    /// Port at which the map had it then.
+    /// Port that the walk led to, as the map named it then.
     then: Port,
 }
 
 impl Trail {
-    /// Begins at a port of a new map, which has no names for the places before.
+    /// Begins at a port of a new map, which has no names for the earlier places.
     pub(super) fn begin(&mut self, at: Port) {
         let walks = Vec::new();
         self.forgotten += self.count();
         self.bases = vec![Base { at, walks }];
     }
 
-    /// Returns how many places the robot came to on its map.
+    /// Returns the number of places that the robot came to on its map.
     fn count(&self) -> usize {
         self.bases.iter().map(|base| 1 + base.walks.len()).sum()
     }
@@ -45,13 +45,13 @@ impl Trail {
             base.walks.push(TrailStep { turn, then });
             return;
         }
-        // It goes on with what it found, apart from the rest.
+        // The trail continues from the place found, separate from the rest.
         let walks = Vec::new();
         self.bases.push(Base { at: then, walks });
     }
 
-    /// Returns the places that the robot came to, each as the map has it now. O(walks · log
-    /// fragments).
+    /// Returns the places that the robot came to, with their present names on the map. O(walks ·
+    /// log fragments).
     pub(super) fn places(&self, map: &CpMap) -> Vec<Option<u32>> {
         let mut places = vec![None; self.forgotten];
         let known = |at: Port| map.junction(at.junction).map(|_| at.junction.0);
@@ -67,7 +67,7 @@ impl Trail {
     }
 }
 
-/// Returns where a turn leads from a port that lies behind the robot.
+/// Returns the port that a turn leads to, from a port behind the robot.
 fn beyond(map: &CpMap, at: Port, turn: Turn) -> Option<Port> {
     let exit = turn.exit(at.number, map.degree(at.junction)).ok()?;
     map.beyond(at.junction.port(exit))

@@ -15,8 +15,8 @@ use super::reckoned::{Calibrated, Reckoned};
 use super::robot::CpmRobot;
 use super::walker_config::{HeadingBy, WalkerConfig};
 
-/// Walks fragments: the work of the lower layers between two decisions of layer 3, until the next
-/// junction, dead end or landmark (section 4).
+/// Walks fragments. This is the work of the lower layers between two decisions of layer 3, until
+/// the next junction, dead end or landmark (section 4).
 #[derive(Debug)]
 pub struct Walker<B: CpmRobot> {
     pilot: Pilot<Reckoned<B>>,
@@ -24,10 +24,10 @@ pub struct Walker<B: CpmRobot> {
     memory: Memory,
 }
 
-/// Memory of a walker between fragments.
+/// What a walker remembers between fragments.
 #[derive(Clone, Debug, Default)]
 struct Memory {
-    /// The branches of the place it stands at, rad, counter-clockwise from the port of entry.
+    /// Branches of its present place, rad, counter-clockwise from the port of entry.
     branches: Vec<f64>,
     /// Positions after each stride since it set off, in the frame in which it began.
     trail: Vec<Point>,
@@ -36,7 +36,7 @@ struct Memory {
     departed: Pose,
 }
 
-/// A [`Walker`] that rests between fragments, without the robot that it walks with.
+/// A [`Walker`] between fragments, without its robot.
 #[derive(Clone, Debug)]
 pub struct RestingWalker {
     memory: Memory,
@@ -49,15 +49,15 @@ pub struct RestingWalker {
 /// One observation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
-    /// The 11-d vector.
+    /// The 11-dimensional feature vector.
     pub feature: [f64; FEATURES],
-    /// That of the same place seen by a robot that walks the other way.
+    /// Feature vector of the same place for a robot that walks the other way.
     pub half_turned: [f64; FEATURES],
 }
 
 impl Observation {
-    /// Returns the observation of the surroundings that becomes a common pattern; `None` if fewer
-    /// than two ways are seen.
+    /// Returns the observation of the surroundings, from which a common pattern is learned; `None`
+    /// if fewer than two ways are seen.
     ///
     /// # Errors
     /// If the profile cannot be segmented.
@@ -79,48 +79,50 @@ impl Observation {
     }
 }
 
-/// A walk to its end.
+/// A walk to the end of a fragment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Walk {
-    /// Observations on the way, or until the robot turned round.
+    /// Observations on the way, up to the end or to where the robot turned round.
     pub observations: Vec<Observation>,
-    /// Ways out of the place as they seemed when it came into sight, counted as if it were entered.
+    /// Ways out of the place at the end as they appeared when it came into sight, numbered as if
+    /// the robot entered it.
     pub glimpse: Option<Bearings>,
-    /// The place that it led to; `None` if the robot turned round and is back where it began.
+    /// Place that the walk led to; `None` if the robot turned round and is back where it began.
     pub sighting: Option<Sighting>,
 }
 
-/// What a robot knows of a fragment when the place at its end comes into sight.
+/// What is known of a fragment when the place at its end comes into sight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prospect {
     /// Observations on the way.
     pub observations: Vec<Observation>,
-    /// Ways out of the place as they seem, counted as if it were entered.
+    /// Ways out of the place as they appear, numbered as if the robot entered it.
     pub glimpse: Option<Bearings>,
-    /// The landmark that stands there.
+    /// Landmark at the place, if any.
     pub landmark: Option<Landmark>,
 }
 
-/// Choice when a place comes into sight.
+/// What to do when a place comes into sight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BeforePlace {
-    /// To go into it.
+    /// Enter it.
     Enter,
-    /// To turn round, and go to the place at the other end of the fragment.
+    /// Turn round, and go to the place at the other end of the fragment.
     TurnRound,
 }
 
-/// A fragment under way.
+/// A walk along a fragment in progress.
 struct Course {
-    /// The middle of the place it leads from; none from amid the fragment, where that is long left.
+    /// Middle of the place that it leads from; `None` in mid-fragment, or if the place was left
+    /// long ago.
     origin: Option<Point>,
-    /// Distance driven at its beginning, m.
+    /// Distance driven when it began, m.
     begun: f64,
-    /// The landmark it comes from, until that is seen no longer.
+    /// Landmark that it comes from, until that is no longer seen.
     left: Option<Landmark>,
     track: Track,
     strides: u32,
-    /// Number of them that are driven without looking.
+    /// Number of strides still to drive without looking.
     skip: u32,
 }
 
@@ -131,7 +133,7 @@ enum Ahead {
     DeadEnd(View),
 }
 
-/// View from one place.
+/// What is seen from one position.
 struct View {
     profile: Profile,
     segments: Segments,
@@ -143,11 +145,13 @@ struct Seen {
     sighting: Sighting,
 }
 
-/// Positions at which the robot looked, each with its observation if it saw the path.
+/// Positions where the robot looked, each with its observation if it saw a path.
 type Track = Vec<(Point, Option<Observation>)>;
 
-/// Returns the observations of a track. A look without two ways gets the nearest observation before
-/// or after it; if it were left out, all that follow would shift.
+/// Returns the observations of a track.
+///
+/// A position without two ways gets the observation nearest to it. Leaving it out would shift all
+/// later observations.
 fn filled(track: &Track) -> Vec<Observation> {
     let seen = |index: usize| track.get(index).and_then(|(_, seen)| seen.clone());
     (0..track.len())
@@ -158,7 +162,7 @@ fn filled(track: &Track) -> Vec<Observation> {
         .collect()
 }
 
-/// Counts ways, which come counter-clockwise, from the one nearest to a direction on.
+/// Rotates `ways`, which are counter-clockwise, so that the one nearest to `direction` comes first.
 fn count_from(direction: f64, ways: &mut [f64]) {
     let off = |way: &f64| Heading::from_radians(*way - direction).radians().abs();
     let numbered = ways.iter().enumerate();
@@ -168,9 +172,10 @@ fn count_from(direction: f64, ways: &mut [f64]) {
     }
 }
 
-/// Returns the rotation of the ways against the robot's axes, rad, if they lead along two axes.
-/// This is the heading in the middle of a crossing, which has no walls. `None` for fewer than three
-/// ways.
+/// Returns the rotation of the ways relative to the robot's axes, rad, if they lead along two axes;
+/// `None` for fewer than three ways.
+///
+/// It gives the heading in the middle of a crossing, which has no walls.
 fn askew_of(segments: &Segments) -> Option<f64> {
     let (mut sine, mut cosine, mut count) = (0.0, 0.0, 0.0);
     for way in segments.spaces() {
@@ -181,45 +186,46 @@ fn askew_of(segments: &Segments) -> Option<f64> {
     (count >= 3.0 && agreement > 0.8 * count).then(|| libm::atan2(sine, cosine) / 4.0)
 }
 
-/// Standard deviations of a heading that is read off walls, and off the ways out of a crossing,
-/// rad.
+/// Standard deviations of a heading from walls, and from the ways out of a crossing, rad.
 const BY_WALLS: f64 = 0.02;
 const BY_WAYS: f64 = 0.1;
 
-/// Rounds of looking for a junction's middle.
+/// Maximum number of rounds to look for a junction's middle.
 const ROUNDS: u32 = 4;
 
 /// Radius of a junction, dead end or landmark, in corridor widths. Consecutive sightings of a
-/// junction within it are one, and observations within it are no part of a fragment.
+/// junction within it are one, and observations within it are not part of a fragment.
 const PLACE: f64 = 0.6;
 
-/// Two places are not nearer to each other than this, in corridors' widths.
+/// Minimum distance of two places, in corridor widths.
 const APART: f64 = 0.5;
 
 /// Distance from the first sighting of a landmark to its middle, in corridor widths. It is less
-/// than half, as before a wall the lower layers turn in the middle.
+/// than half, because the lower layers turn in the middle before a wall.
 const TO_LANDMARK: f64 = 0.4;
 
-/// Within this distance, in corridor widths, no way leads back to the place where it began.
+/// Distance in corridor widths within which no fragment leads back to the place where it began.
 const ROUND: f64 = 2.0;
 
-/// Distance from the middle of a place from which fragments are recorded, in corridor widths:
-/// nearer to it its posts are in the way.
+/// Distance from the middle of a place beyond which fragments are recorded, in corridor widths.
+/// Nearer to it, its posts are in the way.
 const TRIMMED: f64 = 0.8;
 
-/// A junction is seen from there on, in corridors' widths before its middle.
+/// Distance before its middle at which a junction comes into sight, in corridor widths.
 const IN_SIGHT: f64 = 0.5;
 
-/// One stride in this many is kept back for looking: two walks along one fragment differ by less.
+/// On a known way, one stride in this many is not skipped. Two walks along one fragment differ by
+/// less.
 const SPREAD: u32 = 20;
 
-/// A wall that reads more than this on average is nearer than any beside the middle of a corridor:
-/// the robot was off its path.
+/// Mean sensor value beyond which a wall is nearer than any beside the middle of a corridor. The
+/// robot was then off its path.
 const TOO_NEAR: f64 = 220.0;
 
-/// Standard deviation of the wheels' errors, as a share, at which calibration ends. A robot with
-/// walls to measure by turns round before it sets off, until it is reached or [`MOST_TURNS`] are
-/// made.
+/// Standard deviation of the wheels' errors, as a share, at which calibration ends.
+///
+/// A robot that measures its headings by walls turns in place before it sets off, until this is
+/// reached or [`MOST_TURNS`] are made.
 const CALIBRATED: f64 = 3e-3;
 const MOST_TURNS: u32 = 12;
 
@@ -228,11 +234,11 @@ const MOST_TURNS: u32 = 12;
 const ELSEWHERE: f64 = 0.03;
 const LEAST_CHANGED: usize = 2;
 
-/// Near enough to the middle, m.
+/// Distance from the middle that counts as reached, m.
 const NEAR: f64 = 0.015;
 
 impl<B: CpmRobot> Walker<B> {
-    /// Returns a walker that stands where its body stands.
+    /// Returns a walker at the pose of its body.
     pub fn new(body: B, config: WalkerConfig) -> Self {
         let resting = RestingWalker {
             memory: Memory::default(),
@@ -244,8 +250,7 @@ impl<B: CpmRobot> Walker<B> {
         Self::wake(body, config, resting)
     }
 
-    /// Goes on with the robot, which has not been moved since the walker was given its
-    /// [rest](Self::rest).
+    /// Continues with the robot, which must not have been moved since [`rest`](Self::rest).
     pub fn wake(body: B, config: WalkerConfig, resting: RestingWalker) -> Self {
         let calibrated = match config.heading {
             HeadingBy::Encoders => None,
@@ -265,7 +270,7 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Gives the robot back and keeps all else.
+    /// Releases the robot and returns everything else.
     pub fn rest(self) -> RestingWalker {
         RestingWalker {
             forward: *self.pilot.forward(),
@@ -281,17 +286,17 @@ impl<B: CpmRobot> Walker<B> {
         &self.pilot.robot().body
     }
 
-    /// Returns the body, to be lifted.
+    /// Returns the body, so that it can be lifted.
     pub const fn body_mut(&mut self) -> &mut B {
         &mut self.pilot.robot_mut().body
     }
 
-    /// Returns where it believes to be, in the frame in which it began.
+    /// Returns the believed pose, in the frame in which it began.
     pub const fn pose(&self) -> Pose {
         self.pilot.robot().pose
     }
 
-    /// Returns what is known of how its wheels roll.
+    /// Returns the calibration of its wheels.
     fn wheels(&self) -> WheelCalibration {
         let calibrated = &self.pilot.robot().calibrated;
         calibrated.map_or(WheelCalibration::UNKNOWN, |calibrated| calibrated.wheels)
@@ -304,7 +309,7 @@ impl<B: CpmRobot> Walker<B> {
         calibrated.map_or(0.0, |calibrated| calibrated.wheels.uncertainty())
     }
 
-    /// Microseconds since the robot was switched on.
+    /// Returns the time since the robot was switched on, µs.
     pub fn time_us(&self) -> u64 {
         self.pilot.robot().sensing().time_us
     }
@@ -319,25 +324,25 @@ impl<B: CpmRobot> Walker<B> {
         self.memory.observations
     }
 
-    /// Returns where it looked when it had turned into the fragment that it walked last.
+    /// Returns the pose at which the robot had turned into its last fragment.
     pub const fn departed(&self) -> Pose {
         self.memory.departed
     }
 
-    /// Returns the pose in `path`, one pose per step, at which the robot had turned into the
-    /// fragment that it walked last.
+    /// Returns the pose in `path`, one pose per step, at which the robot had turned into its last
+    /// fragment.
     pub fn departed_at(&self, path: &[Pose]) -> Option<Pose> {
         let step = self.memory.departed_us / self.config.pilot.step_us;
         path.get(usize::try_from(step).ok()?).copied()
     }
 
-    /// Returns the branches of the place it stands at, rad, relative to its heading:
-    /// counter-clockwise from the way it came by.
+    /// Returns the branches of its present place relative to its heading, rad, counter-clockwise
+    /// from the way it came by.
     pub fn branches(&self) -> &[f64] {
         &self.memory.branches
     }
 
-    /// Returns how far it drove so far, m.
+    /// Returns the distance driven so far, m.
     pub const fn driven(&self) -> f64 {
         self.pilot.robot().driven
     }
@@ -365,7 +370,7 @@ impl<B: CpmRobot> Walker<B> {
         Some(values.map(|value| curve.range(value).unwrap_or(curve.reach())))
     }
 
-    /// Sweeps where it stands.
+    /// Returns a sweep of the present surroundings.
     ///
     /// # Errors
     /// [`WalkError`].
@@ -373,12 +378,12 @@ impl<B: CpmRobot> Walker<B> {
         Ok(self.look()?.profile)
     }
 
-    /// Returns how it observes.
+    /// Returns its configuration.
     pub const fn config(&self) -> &WalkerConfig {
         &self.config
     }
 
-    /// Looks round and returns the place where it is. In mid-fragment it drives on to the first
+    /// Looks round and returns the place where it is. In mid-fragment it first drives to the next
     /// junction, dead end or landmark ("the robot continues moving forward until the first junction
     /// is found", section 8).
     ///
@@ -389,8 +394,8 @@ impl<B: CpmRobot> Walker<B> {
         walk.sighting.ok_or(WalkError::Lost)
     }
 
-    /// Begins like [`begin`](Self::begin) and returns also what it saw on the way; nothing if it
-    /// stands at a place.
+    /// Begins like [`begin`](Self::begin), and also returns what it saw on the way; nothing if it
+    /// starts at a place.
     ///
     /// When the place ahead comes into sight, `choose` decides what to do. If the robot turns
     /// round, it returns what it saw since then.
@@ -401,7 +406,7 @@ impl<B: CpmRobot> Walker<B> {
         &mut self,
         mut choose: impl FnMut(&Prospect) -> BeforePlace,
     ) -> WalkResult<Walk, B> {
-        // It may have been carried here.
+        // The robot may have been carried here.
         self.pilot.stand()?;
         self.calibrate()?;
         let begun = self.pose().position;
@@ -420,7 +425,7 @@ impl<B: CpmRobot> Walker<B> {
             if place.sighting.degree != 2 || landmark.is_some() {
                 return Ok(self.arrived(vec![(begun, seen)], place));
             }
-            // A bend that looked like a junction.
+            // It was a bend that looked like a junction.
             self.pilot.go_to(self.pose().inverse().transform(begun))?;
         }
         self.depart();
@@ -448,8 +453,10 @@ impl<B: CpmRobot> Walker<B> {
     }
 
     /// Leaves by branch `number`, counted counter-clockwise from the port of entry, and follows the
-    /// path to its end. The first `skip` strides are driven without looking. After `give_up_after`
-    /// observations it turns round and comes back.
+    /// fragment to its end.
+    ///
+    /// The first `skip` strides are driven without looking. After `give_up_after` observations it
+    /// turns round and comes back.
     ///
     /// # Errors
     /// [`WalkError`].
@@ -477,7 +484,7 @@ impl<B: CpmRobot> Walker<B> {
         (self.memory.departed_us, self.memory.departed) = (self.time_us(), self.pose());
     }
 
-    /// Returns a course from a place with its middle there, or from amid a fragment.
+    /// Returns a course from the place with its middle at `origin`, or from mid-fragment.
     fn course(&mut self, origin: Option<Point>, skip: u32) -> Course {
         let here = self.pose().position;
         self.memory.trail.clear();
@@ -511,8 +518,8 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Returns one stride along a fragment, and a look, unless it is one to skip: at what comes
-    /// into sight, or at the path.
+    /// Drives one stride along a fragment and looks, unless this stride is to be skipped. Returns
+    /// what comes into sight, or `None` for the path.
     fn stride(&mut self, course: &mut Course) -> WalkResult<Option<Ahead>, B> {
         if course.strides >= self.config.longest_fragment {
             return Err(WalkError::Endless {
@@ -555,20 +562,21 @@ impl<B: CpmRobot> Walker<B> {
         Ok(None)
     }
 
-    /// Returns whether a landmark that is seen beyond the place with the same one is that of
-    /// another place. Ours: the paper's robot has one goal.
+    /// Returns whether a landmark seen beyond a place with the same landmark is that of another
+    /// place. Ours: the paper's robot has one goal.
     fn tells_neighbours(&self) -> bool {
         self.config.heading == HeadingBy::Walls
     }
 
-    /// Returns whether the place that a course leads from lies more than `widths` corridor widths
-    /// back, where the robot has driven so far, m.
+    /// Returns whether the place that a course leads from is more than `widths` corridor widths
+    /// back, after `driven` m in all.
     fn is_beyond(&self, course: &Course, driven: f64, widths: f64) -> bool {
         course.origin.is_none() || driven - course.begun > widths * self.config.corridor_width
     }
 
-    /// Returns whether a middle is still that of the place that a course leads from: consecutive
-    /// sightings of a junction are one. This ends once the robot has had the time to come round.
+    /// Returns whether `middle` still belongs to the place that a course leads from: consecutive
+    /// sightings of a junction are one. It no longer does once the robot has had the time to come
+    /// round.
     fn is_origin(&self, course: &Course, driven: f64, middle: Point) -> bool {
         let width = self.config.corridor_width;
         course.origin.is_some_and(|origin| {
@@ -593,7 +601,7 @@ impl<B: CpmRobot> Walker<B> {
                 {
                     return Ok(Some(seen));
                 }
-                // The robot goes on from where it was, so that nothing of the path is left out.
+                // The robot continues from where it was, so that no part of the path is left out.
                 self.pilot.go_to(self.pose().inverse().transform(here))?;
                 if self.is_beyond(course, driven, TRIMMED) {
                     course.track.push((here, observation));
@@ -607,7 +615,8 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Returns what is known of a fragment before the place at its end, which has its middle there.
+    /// Returns what is known of a fragment before the robot enters the place at its end, whose
+    /// middle is at `middle`.
     fn prospect(&self, course: &Course, ahead: &Ahead, middle: Point) -> Prospect {
         let (glimpse, landmark) = match ahead {
             Ahead::Landmark(landmark) => (None, Some(*landmark)),
@@ -620,8 +629,7 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Returns where the middle of what is in sight seems to be, in the frame in which the robot
-    /// began.
+    /// Returns the estimated middle of the place in sight, in the frame in which the robot began.
     fn middle_ahead(&self, ahead: &Ahead) -> Point {
         self.pose().transform(match ahead {
             Ahead::Landmark(_) => Point::new(TO_LANDMARK * self.config.corridor_width, 0.0),
@@ -630,7 +638,7 @@ impl<B: CpmRobot> Walker<B> {
         })
     }
 
-    /// Drives on from where a landmark is first seen to near its middle.
+    /// Drives from where a landmark is first seen to near its middle.
     fn drive_to_landmark(&mut self) -> WalkResult<(), B> {
         let width = self.config.corridor_width;
         let begun = self.driven();
@@ -649,7 +657,7 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Returns what was seen before the robot came to the place with this middle.
+    /// Returns the observations before the robot came to the place with this `middle`.
     fn up_to(&self, mut track: Track, middle: Point) -> Vec<Observation> {
         let trimmed = TRIMMED * self.config.corridor_width;
         while track
@@ -659,13 +667,13 @@ impl<B: CpmRobot> Walker<B> {
         filled(&track)
     }
 
-    /// Returns where the middle of the junction that it sees seems to be, in its own frame.
+    /// Returns the estimated middle of the junction in view, in the robot's frame.
     fn middle_of(&self, view: &View) -> Point {
         view.profile
             .meet_point(&self.config.pilot.curve, &self.config.meet_point)
     }
 
-    /// Drives to the middle of the place in sight, and returns its kind.
+    /// Drives to the middle of the place in sight, and returns the place.
     fn settle(&mut self, mut view: View, landmark: Option<Landmark>) -> WalkResult<Seen, B> {
         let glimpse = self.glimpse(&view);
         for _ in 0..ROUNDS {
@@ -687,7 +695,7 @@ impl<B: CpmRobot> Walker<B> {
             count_from(entry, &mut self.memory.branches);
         }
         if self.memory.branches.is_empty() {
-            // Whoever came in can get out.
+            // Where the robot came in, it can get out.
             self.memory.branches.push(PI);
         }
         let sighting = Sighting {
@@ -697,7 +705,7 @@ impl<B: CpmRobot> Walker<B> {
         Ok(Seen { glimpse, sighting })
     }
 
-    /// Returns where the ways that it sees lead from the middle of the place ahead.
+    /// Returns the bearings of the visible ways out of the place ahead, from its middle.
     fn glimpse(&self, view: &View) -> Option<Bearings> {
         let middle = self.middle_of(view);
         let entry = self.entry(self.pose().transform(middle))?;
@@ -712,16 +720,18 @@ impl<B: CpmRobot> Walker<B> {
         Bearings::of_directions(&ways).ok()
     }
 
-    /// Returns the ways out of the present place, counted from the one by which the robot came;
-    /// `None` before it has come to one.
+    /// Returns the bearings of the ways out of the present place, counted from the one that the
+    /// robot came by; `None` before it has come to a place.
     pub fn bearings(&self) -> Option<Bearings> {
-        // Branches are found counter-clockwise.
+        // The branches are already counter-clockwise.
         Bearings::of_directions(&self.memory.branches).ok()
     }
 
-    /// Returns the direction of the way by which it came to a place, rad, relative to its heading:
-    /// that of its last position outside. Behind a bend the robot may stand askew in the middle of
-    /// a junction, so that another branch is nearer to straight behind.
+    /// Returns the direction of the way by which it came to a place, rad, relative to its heading.
+    /// It is the direction of its last position outside.
+    ///
+    /// Behind a bend the robot may stand askew in the middle of a junction. Another branch is then
+    /// nearer to straight behind.
     fn entry(&self, place: Point) -> Option<f64> {
         let width = self.config.corridor_width;
         let mut before = self.memory.trail.iter().rev();
@@ -732,10 +742,10 @@ impl<B: CpmRobot> Walker<B> {
     }
 
     /// Returns whether the only way out is the one it came by, and the wall across the path is
-    /// near.
+    /// within `widths` corridor widths.
     fn is_before_a_wall(&self, segments: &Segments, widths: f64) -> bool {
         let near = widths * self.config.corridor_width;
-        // In a bend, too, the robot may see no way but the one behind it for a moment.
+        // In a bend, too, the robot may for a moment see only the way behind it.
         segments.spaces().all(|space| space.abs() > FRAC_PI_2) && self.pilot.is_enclosed(near)
     }
 
@@ -754,7 +764,8 @@ impl<B: CpmRobot> Walker<B> {
         Ok(View { profile, segments })
     }
 
-    /// Turns round until the wheels' errors are known, if walls give a heading to measure by.
+    /// Turns in place until the wheels' errors are known, if walls give a heading to measure them
+    /// by.
     fn calibrate(&mut self) -> WalkResult<(), B> {
         for _ in 0..MOST_TURNS {
             if self.uncertainty() <= CALIBRATED {
@@ -768,8 +779,8 @@ impl<B: CpmRobot> Walker<B> {
         Ok(())
     }
 
-    /// Takes the drift out of the heading: walls stand at right angles, along the axes in which the
-    /// robot began.
+    /// Removes the drift from the heading: walls stand at right angles, along the axes of the frame
+    /// in which the robot began.
     fn true_up(&mut self, profile: &Profile, segments: &Segments) {
         if self.config.heading == HeadingBy::Encoders {
             return;
@@ -787,18 +798,17 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Returns how many strides lead from the middle of a place to within sight of the next where
-    /// `observations` observations were written down in between.
+    /// Returns the number of strides from the middle of a place to within sight of the next, if
+    /// there were `observations` observations in between.
     #[must_use]
     pub fn strides(&self, observations: u32) -> u32 {
-        // Between neighbouring places nothing is written down, and how far apart they are is not
-        // known.
+        // Between neighbouring places there are no observations, so their distance is unknown.
         if observations == 0 {
             return 0;
         }
         let stride = self.config.pilot.forward.speed * self.config.stride_s;
         let unwritten = (2.0 * TRIMMED - IN_SIGHT) * self.config.corridor_width;
-        // The longer the way, the less exactly it ends where it did.
+        // The longer the way, the more its end varies.
         observations - observations / SPREAD + libm::floor(unwritten / stride) as u32
     }
 
@@ -807,10 +817,10 @@ impl<B: CpmRobot> Walker<B> {
     }
 }
 
-/// Result of a walk of the body `B`, or why it ends early.
+/// Result of a walk of the body `B`, or the reason why it ended early.
 pub type WalkResult<T, B> = Result<T, WalkError<<B as Robot>::Error>>;
 
-/// Reason why a walk came to no end.
+/// Reason why a walk did not end at a place.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WalkError<E> {
@@ -833,10 +843,10 @@ pub enum WalkError<E> {
         /// Number of branches.
         branches: usize,
     },
-    /// No junction, dead end or landmark came.
+    /// The robot came to no junction, dead end or landmark.
     #[error(
-        "no junction, dead end or landmark within {strides} strides, {metres:.0} m: the way goes round where the robot sees none, as in an open \
-         room, or is longer, or the sensors fail: check the sensors and the maze"
+        "no junction, dead end or landmark within {strides} strides, {metres:.0} m: the fragment may be longer, the \
+         robot may be going round in an open room, or a sensor may fail; check the sensors and the maze"
     )]
     Endless {
         /// Number of strides driven.
@@ -844,7 +854,7 @@ pub enum WalkError<E> {
         /// Length of these strides, m.
         metres: f64,
     },
-    /// The robot turned back where it should not.
+    /// The robot turned back where it should not have.
     #[error("the robot does not know where it is; start it at a junction")]
     Lost,
 }

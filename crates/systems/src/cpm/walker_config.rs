@@ -23,15 +23,15 @@ pub struct WalkerConfig {
     pub pilot: PilotConfig,
     /// Averaging of the vectors of a sweep.
     pub alignment: SensorAlignment,
-    /// Segmentation by which junctions are told from paths.
+    /// Segmentation that tells junctions from paths.
     pub segments: SegmentConfig,
     /// Segmentation that makes features.
     pub features: SegmentConfig,
     /// Search for the middle of a junction.
     pub meet_point: MeetPointConfig,
-    /// From wall to wall, m.
+    /// Width of the corridors from wall to wall, m.
     pub corridor_width: f64,
-    /// Duration of a drive between two observations, s; the paper's 0.5.
+    /// Duration of a drive between two observations, s; 0.5 in the paper.
     pub stride_s: f64,
     /// Source of dead reckoning's headings.
     pub heading: HeadingBy,
@@ -51,12 +51,12 @@ pub enum HeadingBy {
 /// "The robot samples the sensor value … 100 times" (section 4.1).
 const SAMPLES: u32 = 100;
 
-/// The least turn, rad, that encoders tell which count no steps.
+/// Smallest turn that continuous encoders distinguish, rad.
 const EXACT: f64 = 1e-9;
 
 impl WalkerConfig {
     /// Returns how the paper's robot drives and observes in corridors `width` m wide. A sample of a
-    /// sweep takes a time step, so that the time step says how fast it sweeps.
+    /// sweep takes one time step, so the time step sets the speed of a sweep.
     #[must_use]
     pub fn paper(epuck: EpuckMeasures, width: f64) -> Self {
         let EpuckMeasures {

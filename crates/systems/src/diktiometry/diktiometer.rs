@@ -62,7 +62,7 @@ pub struct DiktiometerConfig {
 }
 
 impl DiktiometerConfig {
-    /// Returns a configuration that follows advice in 30 % of the cases, as the paper has it.
+    /// Returns a configuration that follows advice in 30 % of the cases, as in the paper.
     #[must_use]
     pub const fn paper(routines: RoutineConfig, mapper: Config) -> Self {
         Self {
@@ -89,7 +89,7 @@ pub enum DiktiometerError<E: Error + 'static> {
 #[derive(Clone, Debug, PartialEq, ThisError)]
 #[non_exhaustive]
 pub enum RefusedMove {
-    /// There was no map, and none can begin with a place that nothing is known of.
+    /// There is no map yet, and none can begin with a place that nothing is known about.
     #[error("begin with an observer of the log's first place")]
     Start(#[from] StartError),
     /// The observer refuses it.
@@ -196,7 +196,7 @@ impl<E> Mapper for Diktiometer<E> {
     }
 }
 
-/// Returns the bytes that standing places, links and frames take, but for the grids of where the
+/// Returns the size of the present places, links and frames, bytes, without the grids of where the
 /// robot has been.
 fn bytes(map: &Diktiometry) -> usize {
     let place = |place: &Place| {

@@ -15,7 +15,7 @@ pub enum RoutineError<E: Error + 'static> {
     /// A sensor is of no use.
     #[error(transparent)]
     Sense(#[from] SenseError),
-    /// A reading is no number.
+    /// A reading is not a number.
     #[error("odometry is not a number")]
     Reading(#[from] IntervalError),
     /// The robot's view is not a valid signature.

@@ -278,7 +278,7 @@ impl Guide {
         };
         let from = observer.place();
         if from == to {
-            // It was set down and takes itself to be there: a move will tell.
+            // It was put down and believes that it is there: a move will tell.
             return self.wander();
         }
         let Some(direction) = first_step(observer, to) else {

@@ -30,7 +30,7 @@ impl Odometer {
     /// `after`, the short way round.
     ///
     /// # Errors
-    /// [`IntervalError`] if a reading is no number.
+    /// [`IntervalError`] if a reading is not a number.
     pub fn roll(
         &mut self,
         distance: f64,
@@ -49,7 +49,7 @@ impl Odometer {
     /// went at most twice as far.
     ///
     /// # Errors
-    /// [`IntervalError`] if `asked` is no number.
+    /// [`IntervalError`] if `asked` is not a number.
     pub fn roll_unseen(
         &mut self,
         asked: f64,

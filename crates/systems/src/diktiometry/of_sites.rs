@@ -24,7 +24,7 @@ impl DiktiometryOfSites {
     #[must_use]
     pub fn indoor(corridor_width: f64) -> Self {
         let mapper = Config {
-            // Whoever comes from elsewhere finds the middle of a place elsewhere.
+            // A robot that comes from another side finds the middle of a place elsewhere.
             place_radius: 0.15 * corridor_width,
             // Two places less than a corridor's width apart, along both axes, would be one room.
             apart: Apart::Side,

@@ -29,7 +29,7 @@ pub(super) struct RouteFinder {
     walk: ChaCha8Rng,
 }
 
-/// Chance of a place from which on it is known to be that.
+/// Probability of a place from which the robot is sure that it is there.
 const SURE: f64 = 0.9;
 /// Chance that a landmark is not sensed at the place where it was learned.
 const UNSENSED: f64 = 0.05;

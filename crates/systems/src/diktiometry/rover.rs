@@ -19,7 +19,7 @@ pub trait Rover {
     /// If its sensors give nothing.
     fn look(&mut self) -> Result<Arrival, Self::Error>;
 
-    /// Goes in `direction` to the next place and returns what there is.
+    /// Goes in `direction` to the next place and returns what it finds.
     ///
     /// # Errors
     /// If the routine neither ends at a place nor is blocked.

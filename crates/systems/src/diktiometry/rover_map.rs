@@ -101,10 +101,10 @@ impl RoverMap {
         Ok(!has_other_exits && percepts.are_alike(seen.look.as_ref(), self.look.as_ref()))
     }
 
-    /// Lets `rover` go in `direction` and tells the map.
+    /// Lets `rover` go in `direction` and updates the map.
     ///
     /// # Errors
-    /// [`MapError`] if the rover cannot or the observer will not; the map is then as before.
+    /// [`MapError`] if the rover fails or the observer refuses the move; the map is then unchanged.
     pub fn go<R: Rover>(
         &mut self,
         rover: &mut R,

@@ -257,7 +257,7 @@ fn another_goes_on_with_the_map_and_knows_where_it_is() {
     assert!(near(at, expected), "{at} for {expected}");
 }
 
-/// Carries a robot off after three routines of its exploration, amid a corridor: no place looks
+/// Carries a robot off after three routines of its exploration, inside a corridor: no place looks
 /// like that. Returns its visits until then, and how the exploration ends.
 fn carried_off(system: &mut Diktiometer<LaserEye>) -> (Vec<Option<u32>>, Standing) {
     let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.0), at_the_end);

@@ -109,7 +109,7 @@ mod tests {
         apart: 0.6,
     };
 
-    /// Returns a corridor 1 m wide that runs east and west; the robot stands amid it, turned by
+    /// Returns a corridor 1 m wide that runs east and west, with the robot in its middle, turned by
     /// `heading`.
     fn corridor(heading: f64) -> LaserSensing {
         let ring = Ring::full(72, 2.0);

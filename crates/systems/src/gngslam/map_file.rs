@@ -28,7 +28,8 @@ pub struct MapFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// The header or the JSON is not sound, or names another system; or the map has no JSON form.
+    /// The header or the JSON is invalid, or names another system; or the map cannot be written as
+    /// JSON.
     #[error(transparent)]
     File(#[from] FileError),
     /// A landmark was sensed at a place that does not exist.

@@ -44,9 +44,9 @@ impl WandererConfig {
         }
     }
 
-    /// Returns the same, but for every record it goes up to things as near as chance has it: 0.22
-    /// to 1.1 m. So it gets to the edge of the floor, where the paper's limits let no robot go but
-    /// along it. Ours.
+    /// Returns the same, except that for every record it goes up to things by a random distance:
+    /// 0.22 to 1.1 m. So it gets to the edge of the floor, which the paper's limits only let it
+    /// follow. Ours.
     #[must_use]
     pub const fn near_and_far() -> Self {
         Self {
@@ -64,7 +64,7 @@ impl WandererConfig {
     }
 }
 
-/// Reason why there is no record of a place.
+/// Reason why a place has no record.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum WandererError<E> {

@@ -102,7 +102,7 @@ impl fmt::Display for Searcher {
     }
 }
 
-/// A name that no search bears.
+/// No search has this name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "there is no search {name:?}: choose certify, certify-worth, certify-plain, target, counter-50, counter-75 or random"

@@ -11,9 +11,9 @@ use crate::{Brain, Doing, TimeStep};
 /// MSLST as a whole: it records scans (Phase I), makes states of them and maps their topology
 /// (Phase II), and then navigates (Phase III).
 ///
-/// Whoever wanders, it learns of the time steps that it observes. Let an [`Actor`](crate::Actor)
-/// drive it, and [`Task::Explore`] is Phases I and II, [`Task::Reach`] with the landmark of the
-/// goal is Phase III.
+/// It learns from the time steps that it observes, whatever drives the robot. Let an
+/// [`Actor`](crate::Actor) drive it, and [`Task::Explore`] is Phases I and II, [`Task::Reach`] with
+/// the landmark of the goal is Phase III.
 #[derive(Clone, Debug)]
 pub struct Mslst {
     config: MslstConfig,

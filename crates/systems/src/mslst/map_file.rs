@@ -24,7 +24,7 @@ pub struct MapFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// The header or the JSON is not sound, or names another system.
+    /// The header or the JSON is invalid, or names another system.
     #[error(transparent)]
     File(#[from] FileError),
     /// The states are invalid.
@@ -62,7 +62,7 @@ struct SavedNode {
     /// True position of the robot, m, if it was recorded; for pictures only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     made_at: Option<[f64; 2]>,
-    /// The action of Phase II that made it, if somebody watched.
+    /// Action of Phase II that made it; `None` if it was not recorded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     made_by: Option<u32>,
 }

@@ -1,7 +1,7 @@
 use thiserror::Error;
 use tolman_quantizers::{Gng, GngConfig, InputError, Quantizer, QuantizerConfigError};
 
-/// Reason why there are no states.
+/// Reason why states cannot be learned.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StatesError {
@@ -49,10 +49,11 @@ impl States {
         Self::from_models(prototypes.map(Iterator::collect).collect())
     }
 
-    /// States that were learned before.
+    /// Returns states that were learned before.
     ///
     /// # Errors
-    /// If they are fewer than two, or differ in length or hold what is no number.
+    /// If there are fewer than two, they differ in length, or one holds a value that is not a
+    /// number.
     pub fn from_models(models: Vec<Vec<f64>>) -> Result<Self, StatesError> {
         let beams = models.first().map_or(0, Vec::len);
         let mut quantizer = Gng::new(beams, GngConfig::fritzke())?;

@@ -54,10 +54,10 @@ const CLIMBED: u32 = 8;
 const DOUBT: f64 = 16.0;
 
 impl PlacesMapper {
-    /// Returns a map of nothing.
+    /// Returns an empty map.
     ///
     /// # Errors
-    /// If the corridors' width is no length.
+    /// If the corridors' width is not a positive length.
     pub fn new(config: PlacesConfig) -> Result<Self, PlacesError> {
         let width = config.corridor_width;
         Ok(Self {

@@ -60,10 +60,10 @@ type Outcome<T, O> =
     Result<T, SiteMapperError<<O as OfSites>::Error, <<O as OfSites>::Mapper as Mapper>::Error>>;
 
 impl<O: OfSites> SiteMapper<O> {
-    /// Returns a mapper that was shown nothing.
+    /// Returns a mapper that has seen nothing.
     ///
     /// # Errors
-    /// If the corridors' width is no length.
+    /// If the corridors' width is not a positive length.
     pub fn new(config: PlacesConfig, of_sites: O) -> Result<Self, PlacesError> {
         Ok(Self {
             places: PlacesMapper::new(config.unrecognized())?,
@@ -165,7 +165,7 @@ impl<O: OfSites> Mapper for SiteMapper<O> {
         for place in &mut view.places {
             place.position = stood.get(&place.id).map(|points| middle(points));
         }
-        // A way whose end nobody has been at leads nowhere yet.
+        // A way whose end has not been visited leads nowhere yet.
         let known: BTreeSet<u32> = view.places.iter().map(|place| place.id).collect();
         view.links
             .retain(|link| known.contains(&link.from) && known.contains(&link.to));

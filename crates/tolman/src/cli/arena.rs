@@ -1,4 +1,4 @@
-//! `tolman arena`: systems in worlds of every kind, judged by the truth.
+//! `tolman arena`: sends systems into worlds of every kind and compares their maps with the truth.
 
 mod verdicts;
 
@@ -21,14 +21,15 @@ use tolman_papers::arena::{ArenaWorld, DrawnWorld};
 
 use super::{App, Failure, OrBadInput};
 
-/// Sends systems into worlds of every kind, and judges their maps and whether they reach the goal
+/// Sends systems into worlds of every kind; judges their maps, and whether they reach the goal
 #[derive(clap::Args)]
 #[command(after_help = "\
-Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam, gng-slam-better, micromouse, wall-belief; random, avoid,
-wall-follow, oracle and unlocalized-oracle, which only drive to the goal. `tolman maze generate --list` names the families. `tolman experiment arena` fills tables with the same.
+Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam, gng-slam-better, micromouse, wall-belief.
+Baselines, which only drive to the goal: random, avoid, wall-follow, oracle, unlocalized-oracle.
+`tolman maze generate --list` names the families. `tolman experiment arena` fills whole tables.
 
-Conditions: as-made; wheels-1, wheels-2 and wheels-5 (each wheel off by a constant of up to this many percent), compass-offset, constant-odometry,
-fresh-odometry, doors, kidnapping, drop-outs.
+Conditions: as-made, wheels-1, wheels-2, wheels-5 (each wheel is off by a constant of up to this many percent), compass-offset,
+constant-odometry, fresh-odometry, doors, kidnapping, drop-outs. docs/arena.md explains them.
 
 Examples:
   tolman arena --system cpm-better --family office --worlds 4
@@ -38,19 +39,19 @@ Examples:
   tolman arena --system micromouse --own-verdict --worlds 3
   tolman arena --system diktiometry-better --robot laser-pioneer --worlds 1")]
 pub(super) struct Arguments {
-    /// Mazes, or folders of mazes, in place of the families
+    /// Maze files, or folders of them, to use instead of the families
     #[arg(value_name = "MAZE")]
     mazes: Vec<PathBuf>,
-    /// The system, or all
+    /// System to send, or `all`
     #[arg(long, value_name = "NAME", default_value = "all")]
     system: String,
-    /// The robot
+    /// Robot that the systems drive
     #[arg(long, value_name = "NAME", default_value = "own")]
     robot: Robot,
-    /// The condition: how robots and worlds differ from how they are made
+    /// What is changed in the robots and worlds; the conditions are listed below
     #[arg(long, value_name = "NAME", default_value = "as-made")]
     condition: String,
-    /// The family of worlds, or all
+    /// Family of worlds, or `all`
     #[arg(
         long,
         value_name = "NAME",
@@ -58,12 +59,12 @@ pub(super) struct Arguments {
         conflicts_with = "mazes"
     )]
     family: String,
-    /// Number of worlds of each family, small and middle ones in turn; with --own-verdict at most
-    /// this many, by default 40 [default: 2]
+    /// Number of worlds of each family, small and middle sizes in turn; with --own-verdict the
+    /// maximum, by default 40 [default: 2]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     worlds: Option<u32>,
-    /// Number of times that a robot is put down in each world to find out where it is, and as often
-    /// to go to the goal
+    /// Number of times that a robot is put down in each world to localize, and again to drive to
+    /// the goal
     #[arg(long, value_name = "N", default_value_t = 1)]
     starts: u32,
     /// Seed of all random numbers: the same seed gives the same result
@@ -72,21 +73,20 @@ pub(super) struct Arguments {
     /// Write a line of JSON for each world instead of the table
     #[arg(long)]
     json: bool,
-    /// Measure how long a system thinks per time step of learning, without the simulator; plays one
-    /// world at a time
+    /// Measure the system's own computing time per time step of learning; plays one world at a time
     #[arg(long)]
     cost: bool,
-    /// Judge what systems say about their own maps, by 100 right and 100 wrong maps; worlds become
+    /// Judge what systems say about their own maps, on 100 right and 100 wrong maps; worlds become
     /// harder while most maps are right
     #[arg(long, conflicts_with_all = ["mazes", "json", "cost", "condition", "starts"])]
     own_verdict: bool,
 }
 
-/// Worlds of each family, and at most as many where maps are drawn for own verdicts.
+/// Default number of worlds of each family; the second is the maximum with `--own-verdict`.
 const WORLDS: u32 = 2;
 const MOST_WORLDS: u32 = 40;
 
-/// Returns the time since it was first asked.
+/// Returns the time since the first call.
 fn stopwatch() -> Duration {
     static BEGAN: OnceLock<Instant> = OnceLock::new();
     BEGAN.get_or_init(Instant::now).elapsed()
@@ -94,7 +94,7 @@ fn stopwatch() -> Duration {
 
 #[derive(Clone, Copy)]
 enum Robot {
-    /// That of its paper
+    /// The robot of the system's paper
     Own,
     LaserPioneer,
 }
@@ -113,7 +113,7 @@ impl clap::ValueEnum for Robot {
     }
 }
 
-/// The result of a contest, for `--json`.
+/// Result of a contest, for `--json`.
 #[derive(Serialize)]
 struct Line<'a> {
     system: &'a str,
@@ -123,13 +123,14 @@ struct Line<'a> {
     abstained: Option<&'a str>,
     right: Option<bool>,
     right_of_visited: Option<bool>,
-    /// What the system makes of its map.
+    /// The system's verdict on its own map.
     says: Option<&'static str>,
     purity: Option<f64>,
     link_recall: Option<f64>,
     metres_over_corridors: Option<f64>,
     bytes_per_place: Option<f64>,
-    /// Only where it was measured, as it is never the same.
+    /// Computing time per time step, µs. Written only with `--cost`, because it differs in every
+    /// run.
     #[serde(skip_serializing_if = "Option::is_none")]
     us_per_step: Option<f64>,
     found: Vec<&'static str>,
@@ -183,7 +184,7 @@ pub(super) fn carry_out(
     table(&contestants, robot, &worlds, &held, out)
 }
 
-/// Returns what learning costs each system: the means over the worlds in which it drove.
+/// Returns what learning costs each system, as means over the worlds in which it drove.
 fn costs(
     contestants: &[Contestant],
     worlds: &[DrawnWorld],
@@ -310,7 +311,7 @@ fn line<'a>(
     }
 }
 
-/// Returns a row for each system.
+/// Returns the table with one row for each system.
 fn table(
     contestants: &[Contestant],
     robot: ContestRobot,
@@ -379,7 +380,7 @@ fn table(
     Ok(why_not(contestants, worlds, held, out)?)
 }
 
-/// Returns why each system abstained, once.
+/// Returns why each system abstained, one line per system.
 fn why_not(
     contestants: &[Contestant],
     worlds: &[DrawnWorld],

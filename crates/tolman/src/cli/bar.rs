@@ -1,18 +1,18 @@
-//! Progress on a terminal.
+//! Progress shown on a terminal.
 
 use core::time::Duration;
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// The progress of a run, shown on a terminal when the run itself is not shown.
+/// Progress of a run, shown on a terminal unless the run itself is shown there.
 pub(super) struct Doing {
     bar: ProgressBar,
     next: Instant,
 }
 
 impl Doing {
-    /// Shows nothing if the run itself is shown.
+    /// Returns a progress display, which stays hidden if the run itself is shown.
     pub(super) fn new(is_shown: bool) -> Self {
         let bar = match is_shown {
             true => ProgressBar::hidden(),
@@ -24,7 +24,7 @@ impl Doing {
         }
     }
 
-    /// Shows the text that `words` returns, at most once in each [`PERIOD`].
+    /// Shows the text that `words` returns, at most once every [`PERIOD`].
     pub(super) fn show(&mut self, words: impl FnOnce() -> String) {
         if !self.bar.is_hidden() && Instant::now() >= self.next {
             self.next = Instant::now() + PERIOD;
@@ -39,10 +39,10 @@ impl Doing {
     }
 }
 
-/// How often progress is shown again.
+/// Shortest time between two updates.
 const PERIOD: Duration = Duration::from_millis(200);
 
-/// Returns a bar on stderr that shows, on a terminal, how much of `length` is done.
+/// Returns a progress bar of `length` steps on stderr; it is drawn only on a terminal.
 pub(super) fn bar(length: u32, template: &str) -> ProgressBar {
     let style = ProgressStyle::with_template(template);
     let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());

@@ -1,4 +1,4 @@
-//! How the command was called.
+//! The command line of this process, for messages and reports.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -8,19 +8,19 @@ use tolman_experiment::shell::quoted;
 
 static PROGRAM: OnceLock<&str> = OnceLock::new();
 
-/// Says what the program is called.
+/// Sets the name of the program.
 pub(super) fn set(program: &'static str) {
-    // Whoever runs the command twice has one program.
+    // A second call in one process has the same name.
     let _ = PROGRAM.set(program);
 }
 
-/// Returns the command line as it can be pasted again.
+/// Returns the command line, quoted so that it can be pasted into a shell.
 pub(super) fn command() -> String {
     let program = PROGRAM.get().copied().unwrap_or("tolman");
     behind(program)
 }
 
-/// Returns the command line that goes on with an interrupted run that is kept in `file`.
+/// Returns the command line that continues the interrupted run saved in `file`.
 pub(super) fn going_on(file: &Path) -> String {
     let program = PROGRAM.get().copied().unwrap_or("tolman");
     let arguments = std::env::args_os().skip(1);
@@ -31,7 +31,7 @@ pub(super) fn going_on(file: &Path) -> String {
     format!("{program} {}", words.join(" "))
 }
 
-/// Returns arguments with `file` for `--from`, whatever they had for it.
+/// Returns `given` with `--from` set to `file`, in place of an earlier `--from`.
 fn with_from(given: impl Iterator<Item = String>, file: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut skip = false;
@@ -48,7 +48,7 @@ fn with_from(given: impl Iterator<Item = String>, file: &str) -> Vec<String> {
     words
 }
 
-/// [`command`] of an experiment, which `cargo xtask` may have started.
+/// Returns the [`command`] of an experiment, which `cargo xtask` may have started.
 pub(super) fn experiment() -> String {
     let program = PROGRAM.get().copied().unwrap_or("tolman");
     behind(Program::current(program).command())

@@ -1,4 +1,4 @@
-//! `tolman completions`: what a shell needs to complete our command lines.
+//! `tolman completions`: scripts with which a shell completes our command lines.
 
 use std::io::Write;
 
@@ -13,12 +13,12 @@ use super::Failure;
 Example:
   tolman completions bash > tolman.bash")]
 pub(super) struct Arguments {
-    /// The shell that completes
+    /// Shell to write the script for
     shell: Shell,
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    // The generator panics where it cannot write, so it writes to memory.
+    // The generator panics if it cannot write, so it writes to memory.
     let mut script = Vec::new();
     let mut command = super::Arguments::command();
     clap_complete::generate(arguments.shell, &mut command, "tolman", &mut script);

@@ -1,4 +1,4 @@
-//! `tolman demo`: something to look at, without a file or an argument.
+//! `tolman demo`: a first run to watch, without any file or argument.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -15,8 +15,8 @@ use super::replay_file::{self, Overwrite};
 use super::watched::Watched;
 use super::{Failure, OrBadInput, file, maze};
 
-/// Lets a robot explore an unknown maze, puts it down elsewhere, and lets it find out where it is
-/// and drive to the goal; leaves a replay to open in a browser
+/// Lets a robot explore an unknown maze, moves it elsewhere, and lets it localize and drive to the
+/// goal; writes a replay to open in a browser
 #[derive(clap::Args)]
 #[command(after_help = "\
 Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better,
@@ -33,39 +33,39 @@ Examples:
   tolman demo --system micromouse --out mouse.html
   tolman demo --maze mazes/forks.maze --seed 3 --svg forks.svg")]
 pub(super) struct Arguments {
-    /// The system that drives
+    /// System that drives
     #[arg(long, value_name = "NAME", default_value = "mslst-better")]
     system: String,
-    /// The maze, which marks a goal [default: one that comes with the program]
+    /// Maze file with a goal [default: a maze that comes with the program]
     #[arg(long, value_name = "FILE")]
     maze: Option<PathBuf>,
-    /// Seed of all noise and of the place where the robot is put down
-    /// [default: one that shows the system well]
+    /// Seed of all noise, and of the place where the robot is put down [default: one that shows the
+    /// system well]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// The file to write
+    /// Replay file to write
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Overwrite the file even if it is not a replay
     #[arg(long, requires = "out")]
     force: bool,
-    /// Also write a moving picture
+    /// Also write an animated SVG
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Show the run on the terminal with the map and the believed pose; space pauses, → steps, +
-    /// and - change the speed, q stops showing it
+    /// Show the run on the terminal with the map and the believed pose. Space pauses, → steps, +
+    /// and - change the speed, q closes the view
     #[arg(long)]
     live: bool,
 }
 
-/// The mazes come with the program, so that it runs in any folder.
+/// Maze of the demo. It is part of the program, so that the demo runs in any folder.
 const MAZE: &str = include_str!("../../mazes/demo.maze");
-/// For who maps a large maze slowly, or does not find itself in it.
+/// Maze for systems that map a large maze slowly or do not localize in it.
 const SMALL: &str = include_str!("../../mazes/star.maze");
 
-/// Returns the contestant of a name as `tolman arena` or `tolman systems` has it.
+/// Returns the contestant called `name` by `tolman arena` or `tolman systems`.
 fn contestant(name: &str) -> Result<Contestant, Failure> {
-    // What `tolman learn` calls so is the better one.
+    // `tolman learn` calls the better one `gngslam`.
     if name == "gngslam" {
         return Ok(Contestant::GngSlamBetter);
     }
@@ -131,7 +131,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     }
 }
 
-/// What a moving picture shows in turn.
+/// Returns the chapters of the animated SVG, in order.
 fn chapters(record: &ShowRecord, replay: &Replay) -> Vec<Chapter> {
     let chapter = |from, caption: &str, seconds| Chapter {
         from,
@@ -161,7 +161,7 @@ fn named(file: MazeFile) -> (String, Maze) {
     (file.name.unwrap_or_default(), file.maze)
 }
 
-/// Shows the contestant, and returns what came of it with the replay.
+/// Plays the demo, and returns its record and its replay.
 fn shown(contest: &Contest<'_>, is_live: bool) -> Result<(ShowRecord, Replay), Failure> {
     let mut live: Option<Result<Watched, Failure>> = None;
     let mut film: Option<Film> = None;
@@ -210,7 +210,7 @@ fn shown(contest: &Contest<'_>, is_live: bool) -> Result<(ShowRecord, Replay), F
     Ok((record, replay))
 }
 
-/// What happened, in lines of at most 80 columns.
+/// Writes what happened, in lines of at most 80 columns.
 fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Result<(), Failure> {
     let ShowRecord {
         learned,
@@ -236,10 +236,9 @@ fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Resu
             "Put down elsewhere, it found out where it is after {} moves, {:.1} m.",
             found.actions, found.metres
         )?,
-        (LocateOutcome::Wrong, true) => writeln!(
-            out,
-            "Put down elsewhere, it took itself to be where it is not."
-        )?,
+        (LocateOutcome::Wrong, true) => {
+            writeln!(out, "Put down elsewhere, it named a place where it is not.")?;
+        }
         (LocateOutcome::Abstained { .. }, true) => {
             writeln!(out, "Put down elsewhere, it did not find out where it is.")?;
         }
@@ -254,7 +253,7 @@ fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Resu
     Ok(())
 }
 
-/// Why the demo did not show what it is to show.
+/// Returns why the demo did not show all it should, or `None` if it did.
 fn failure(record: &ShowRecord) -> Option<String> {
     let found = &record.found;
     match (&found.outcome, record.home) {
@@ -268,7 +267,7 @@ fn failure(record: &ShowRecord) -> Option<String> {
     }
 }
 
-/// Returns a name that nothing has yet.
+/// Returns a file name that is still free.
 fn free_name() -> Result<PathBuf, Failure> {
     let names = (1..1000).map(|number| match number {
         1 => "tolman-demo.html".to_owned(),

@@ -1,4 +1,4 @@
-//! `tolman drive`: a robot goes to the goal by a learned map.
+//! `tolman drive`: a robot drives to the goal by a learned map.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -19,8 +19,8 @@ use crate::system::MapText;
 /// Puts a robot down in a maze or a world and sends it to the goal by a learned map; exits 1 if it
 /// does not arrive
 ///
-/// It finds out where it is, drives, and plans again where something differs from the map. Given
-/// maps of several mazes, it finds out which one fits.
+/// The robot localizes, drives, and plans again where the world differs from the map. Given maps of
+/// several mazes, it finds out which one fits.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -35,7 +35,7 @@ Examples:
 
 Ctrl-C saves the drive; --from FILE continues it, bit for bit as if it had not been interrupted.")]
 pub(super) struct Arguments {
-    /// The map, made by `tolman learn`; may be given several times, if the system can tell maps
+    /// Map file, written by `tolman learn`; may be given several times, if the system can tell maps
     /// apart
     #[arg(long, value_name = "FILE", required = true)]
     map: Vec<PathBuf>,
@@ -74,7 +74,7 @@ pub(super) fn carry_out(
     arguments.sent_out.refuse_preset()?;
     let terrain = arguments.sent_out.terrain()?;
     let mut setup = arguments.sent_out.setup(&terrain);
-    // The robot that learned the map, if nothing else is said.
+    // Unless --robot names another, the robot that learned the map drives.
     setup.robot = setup.robot.or(Some(&maps[0].origin.robot));
     let context = || format!("{} cannot drive in {}", system.name(), setup.world);
     let outing = system.driver(&maps, &setup);

@@ -1,4 +1,4 @@
-//! `tolman experiment`: runs papers' tables and shows them beside the papers'.
+//! `tolman experiment`: fills the tables of the papers and shows the papers' values beside ours.
 
 mod tour;
 
@@ -32,9 +32,9 @@ Examples:
   tolman experiment diktiometry --table 3b --runs 2
   tolman experiment baselines --replay '2 (J)' Avoid 137")]
 pub(super) struct Arguments {
-    /// The experiment; without it, a tour of the main tables of all
+    /// Experiment to run; without it, a tour of the main tables of all
     name: Option<String>,
-    /// Run all experiments in turn, with the papers' own counts
+    /// Run all experiments in turn, with the papers' own numbers of runs
     #[arg(long)]
     all: bool,
     /// List the experiments and exit
@@ -46,28 +46,27 @@ pub(super) struct Arguments {
     #[arg(long, num_args = 3, value_names = ["TABLE", "ROW", "RUN"], requires = "name")]
     #[arg(allow_hyphen_values = true, conflicts_with_all = ["check", "json", "list"])]
     replay: Vec<String>,
-    /// Compare two folders of results and exit: say which runs differ and in what; exits 1 if any
-    /// do
+    /// Compare two folders of results, list the runs that differ, and exit; exits 1 if any do
     #[arg(long, num_args = 2, value_names = ["DIR", "DIR"], exclusive = true)]
     compare: Vec<PathBuf>,
-    /// Play one run of each row of a folder of results again, or --runs of them, and exit; exits 1
-    /// if a value differs in a bit, a line has another checksum, or the summary is not that of the
-    /// runs
+    /// Play one run of each row of a folder of results again, or --runs of them, and exit. Exits 1
+    /// if a value differs in a bit, a line has another checksum, or the summary does not follow
+    /// from the runs
     #[arg(long, value_name = "DIR", requires = "name")]
     #[arg(conflicts_with_all = ["check", "json", "list", "out", "replay"])]
     verify: Option<PathBuf>,
     /// Exit with 3 if a table disagrees with the paper, or no value of the paper could be judged
     #[arg(long, requires = "which")]
     check: bool,
-    /// Write each summary.json on standard output instead of the tables
+    /// Write each summary.json to standard output instead of the tables
     #[arg(long, requires = "which")]
     json: bool,
 }
 
-/// What is run, and how.
+/// Which runs are played, and how.
 #[derive(clap::Args)]
 pub(super) struct Choice {
-    /// Master seed: the same one gives the same results
+    /// Master seed: the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Number of runs of each row, at most 100000, instead of the paper's number
@@ -82,19 +81,19 @@ pub(super) struct Choice {
     /// Number of runs at a time, at most 256, instead of one per core; results do not depend on it
     #[arg(long, value_name = "N")]
     jobs: Option<u32>,
-    /// A maze file of any format in place of the experiment's own; may be given several times
+    /// Maze file of any format, instead of the experiment's own mazes; may be given several times
     #[arg(long = "maze", value_name = "FILE", requires = "which")]
     mazes: Vec<PathBuf>,
-    /// Time steps after which a run in a maze has failed, instead of the experiment's own limit
-    /// (baselines, mslst)
+    /// Number of time steps after which a run in a maze has failed, instead of the experiment's own
+    /// limit (baselines, mslst)
     #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..))]
     #[arg(requires = "which")]
     limit: Option<u32>,
-    /// The folder of results, instead of results/NAME, or of results/tour for the tour; with
-    /// --all, the folder of those folders
+    /// Folder for the results, instead of results/NAME, or of results/tour for the tour; with
+    /// --all, the folder that holds those folders
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Make few runs, for a first look
+    /// Play few runs, for a first look
     #[arg(long, requires = "which")]
     quick: bool,
 }
@@ -126,7 +125,7 @@ pub(super) fn carry_out(
     if arguments.name.is_none() && !arguments.all {
         return tour::carry_out(app, &arguments.choice.options(app), out);
     }
-    // The first Ctrl-C lets the runs that are being played finish.
+    // The first Ctrl-C lets runs in progress finish.
     let stop = interrupt::flag()?;
     let mut disagreements = Vec::new();
     let chosen = arguments.chosen(app);
@@ -148,7 +147,7 @@ pub(super) fn carry_out(
                 writeln!(out)?;
             }
         }
-        // The next experiment takes its time: show what there is.
+        // The next experiment may take long, so show what there is now.
         out.flush()?;
         disagreements.extend(outcome.analysis.disagreements().filter_map(told));
         let has_paper = !experiment.entry.source.is_empty();
@@ -164,14 +163,14 @@ pub(super) fn carry_out(
     Ok(())
 }
 
-/// Shows the tables, and where the report lies.
+/// Writes the tables, and the path of the report.
 pub(super) fn show(outcome: &ExperimentOutcome, out: &mut dyn Write) -> Result<(), Failure> {
     let tables = tables_as_text(&outcome.analysis, ink());
     let report = outcome.folder.join("report.html");
     Ok(writeln!(out, "{tables}\nThe report: {}", report.display())?)
 }
 
-/// Plays a sample of a folder's runs again.
+/// Plays a sample of a folder's runs again and compares every value.
 fn verified(
     app: &App<'_>,
     arguments: &Arguments,
@@ -189,7 +188,7 @@ fn verified(
         }
         if stop.load(Ordering::Relaxed) {
             return Err(Failure::Interrupted(anyhow!(
-                "interrupted; until then, {found}"
+                "interrupted; up to then, {found}"
             )));
         }
         writeln!(out, "{found}")?;
@@ -197,7 +196,7 @@ fn verified(
     Ok(())
 }
 
-/// Writes the replay of one run.
+/// Plays one run again and writes its replay.
 fn replay(
     app: &App<'_>,
     arguments: &Arguments,
@@ -219,13 +218,13 @@ fn replay(
     Ok(())
 }
 
-/// The line above an experiment that is one of several.
+/// Returns the line above an experiment that is one of several.
 fn heading(number: usize, all: usize, title: &str) -> String {
     format!("{number} of {all} · {title}")
 }
 
 impl Arguments {
-    /// Returns the experiments asked for, each with its options.
+    /// Returns the chosen experiments, each with its options.
     fn chosen<'a>(&'a self, app: &App<'a>) -> Vec<(&'a str, Options)> {
         let options = self.choice.options(app);
         if let Some(name) = &self.name {
@@ -240,7 +239,7 @@ impl Arguments {
         chosen.collect()
     }
 
-    /// The one experiment that a command names, with its options.
+    /// Returns the one experiment that the command names, with its options.
     pub(super) fn named(&self, app: &App<'_>) -> Option<(&str, Options)> {
         Some((self.name.as_deref()?, self.choice.options(app)))
     }
@@ -264,7 +263,7 @@ impl Choice {
 }
 
 pub(super) fn classify(mut error: Error) -> Failure {
-    // The caller's own command goes on, whichever of its experiments was at work.
+    // To continue, the user repeats the whole command, not that of the one experiment at work.
     if let Error::Interrupted { command, .. } = &mut error {
         *command = called::experiment();
     }
@@ -276,10 +275,11 @@ pub(super) fn classify(mut error: Error) -> Failure {
     failure(error.into())
 }
 
-/// Returns why nothing of an experiment that has a paper was judged; `None` if something was.
+/// Returns why no value of an experiment's paper was judged; `None` if one was, or if there is no
+/// paper.
 fn unjudged(tally: VerdictTally) -> Option<String> {
     match (tally.all(), tally.judged()) {
-        (0, _) => Some("its tables have no value of a paper, so nothing was judged".to_owned()),
+        (0, _) => Some("no table has a value from the paper, so nothing was judged".to_owned()),
         (all, 0) => Some(format!(
             "none of the paper's {all} values could be judged; give it more --runs, or the files that it lacks"
         )),
@@ -287,7 +287,7 @@ fn unjudged(tally: VerdictTally) -> Option<String> {
     }
 }
 
-/// Returns a value that does not match the paper's.
+/// Returns a line about a value that disagrees with the paper's; `None` for one that agrees.
 fn told((table, metric, measured): (&Table, &Metric, &Measured)) -> Option<String> {
     let verdict = measured.verdict.as_ref()?;
     let (paper, accepted) = (measured.paper.as_ref()?, verdict.accepted?);

@@ -1,8 +1,8 @@
-//! What a verb can end with, and how it is told.
+//! How a verb can fail, and how failures are reported.
 //!
-//! One rule for all verbs: 0 where all was done that was asked for, robots that were sent to a
-//! place arrived, mice that were to solve a maze solved it; else the code of the [`Failure`], and a
-//! message on stderr. What was found is written either way.
+//! All verbs follow one rule. The exit code is 0 if everything asked for was done: robots arrived,
+//! and mice solved their mazes. Otherwise it is the code of the [`Failure`], with a message on
+//! stderr. Results found so far are written in both cases.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -14,14 +14,14 @@ use super::interrupt::INTERRUPTED;
 /// Reason why a verb did not do what it was asked for.
 #[derive(Debug)]
 pub(super) enum Failure {
-    /// Whoever called is to give something else.
+    /// The caller has to give something else.
     BadInput(anyhow::Error),
-    /// The input was sound, but the machine was not, or the work came to nothing: a robot did not
-    /// arrive, no way is known.
+    /// The input was valid, but the machine failed or the work had no result: a robot did not
+    /// arrive, or no way is known.
     Failed(anyhow::Error),
-    /// All was done, but `--check` found a table to disagree with the paper.
+    /// All was done, but `--check` found a table that disagrees with the paper.
     Disagrees(anyhow::Error),
-    /// Ctrl-C was heard before all was done.
+    /// Ctrl-C came before all was done.
     Interrupted(anyhow::Error),
 }
 
@@ -35,7 +35,7 @@ impl Failure {
         })
     }
 
-    /// Returns whether the reader of our output went away.
+    /// Returns whether the reader of standard output has gone.
     pub(super) fn is_closed_pipe(&self) -> bool {
         let broken = |cause: &(dyn core::error::Error + 'static)| {
             let error = cause.downcast_ref::<io::Error>();
@@ -44,7 +44,7 @@ impl Failure {
         self.error().chain().any(broken)
     }
 
-    /// Tells it on stderr, the causes behind it in one line.
+    /// Prints the failure on stderr, with its causes in one line.
     pub(super) fn complain(&self) {
         complain(self.error());
     }
@@ -59,22 +59,22 @@ impl Failure {
     }
 }
 
-/// Tells an error on stderr, in colour where colours are wanted.
+/// Prints an error on stderr, in colour if colours are wanted.
 pub(super) fn complain(error: &anyhow::Error) {
     let red = Style::new().bold().fg_color(Some(AnsiColor::Red.into()));
     let told = told(error);
-    // Nobody is left to be told that stderr cannot be written.
+    // If stderr cannot be written, there is no other place to report it.
     let _ = writeln!(anstream::stderr(), "{red}error:{red:#} {told}");
 }
 
-/// Tells something that is no error on stderr, such as what was skipped.
+/// Prints a note on stderr, about something skipped for example.
 pub(super) fn note(what: &str) {
-    // Nobody is left to be told that stderr cannot be written.
+    // If stderr cannot be written, there is no other place to report it.
     let _ = writeln!(anstream::stderr(), "note: {what}");
 }
 
-/// Returns an error and the causes behind it in one line, each told once: some errors tell their
-/// cause themselves.
+/// Returns an error and its causes in one line. A cause that the error's own text already contains
+/// is left out.
 fn told(error: &anyhow::Error) -> String {
     let mut told = String::new();
     for cause in error.chain().map(ToString::to_string) {
@@ -93,9 +93,9 @@ impl<E: Into<anyhow::Error>> From<E> for Failure {
     }
 }
 
-/// Marks an error as the caller's to mend.
+/// Marks an error as bad input.
 pub(super) trait OrBadInput<T> {
-    /// Exit code 2 instead of 1.
+    /// Returns the value, or a failure with exit code 2 instead of 1.
     fn or_bad_input(self) -> Result<T, Failure>;
 }
 

@@ -1,4 +1,4 @@
-//! The files that the command line asks for.
+//! Files that the command line asks for.
 
 use std::path::Path;
 
@@ -7,10 +7,10 @@ use tolman_experiment::files;
 
 use super::Failure;
 
-/// Writes `contents` to the file at `path`, whole or not at all.
+/// Writes `contents` to the file at `path`. A file is written completely or not at all.
 ///
 /// # Errors
-/// A failure that names the file and a repair.
+/// A failure that names the file and says what to do.
 pub(super) fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), Failure> {
     Ok(
         files::write_whole(path, contents.as_ref()).with_context(|| {

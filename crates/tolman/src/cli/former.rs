@@ -1,26 +1,26 @@
-//! Verbs that have another name now.
+//! Verbs that have a new name.
 
 use anyhow::anyhow;
 
 use super::Failure;
 
-/// Arguments of a verb that has another name now.
+/// Arguments of a verb that has a new name.
 #[derive(clap::Args)]
 #[command(disable_help_flag = true)]
 pub(super) struct Arguments {
-    /// Its words, which are ignored.
+    /// Ignored arguments.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
     rest: Vec<String>,
 }
 
-/// Refuses a former verb by the name it has now.
+/// Returns the failure that names the verb's new name.
 pub(super) fn refuse(former: &str, now: &str) -> Failure {
     Failure::BadInput(anyhow!(
-        "`tolman {former}` is `tolman {now}` now: see `tolman {now} --help`"
+        "`tolman {former}` is now called `tolman {now}`: see `tolman {now} --help`"
     ))
 }
 
-/// Refuses a verb of `tolman cpm`.
+/// Returns the failure for a verb of `tolman cpm`.
 pub(super) fn refuse_cpm(arguments: &Arguments) -> Failure {
     match arguments.rest.first().map(String::as_str) {
         Some("learn") => refuse("cpm learn", "learn --system cpm"),

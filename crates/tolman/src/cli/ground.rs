@@ -1,4 +1,4 @@
-//! Where robots are sent: `--maze FILE`, or `--world FILE` with `--goal` and `--corridor`.
+//! The maze or world of a run: `--maze FILE`, or `--world FILE` with `--goal` and `--corridor`.
 
 use std::path::{Path, PathBuf};
 
@@ -13,15 +13,15 @@ use super::kind::Kind;
 use super::unfinished::Call;
 use super::{Failure, OrBadInput, maze};
 
-/// Where robots are sent.
+/// The maze or world that robots are sent into.
 #[derive(clap::Args)]
 #[command(group(ArgGroup::new("ground").args(["maze", "world"])))]
 pub(super) struct Ground {
-    /// The maze file, of any format; - reads standard input
+    /// Maze file of any format; - reads standard input
     #[arg(long, value_name = "FILE")]
     maze: Option<PathBuf>,
-    /// A world with free walls, instead of a maze: a tolman-world file (JSON), or the .yaml of a
-    /// ROS map with its picture beside it, in which unknown cells count as occupied; - reads a
+    /// World with free walls, instead of a maze: a tolman-world file (JSON), or the .yaml of a ROS
+    /// map with its picture beside it. Unknown cells of a ROS map count as occupied; - reads a
     /// tolman-world from standard input
     #[arg(long, value_name = "FILE")]
     world: Option<PathBuf>,
@@ -33,34 +33,34 @@ pub(super) struct Ground {
         allow_hyphen_values = true
     )]
     goal: Option<Goal>,
-    /// Width of the corridors of --world as the robot takes them, m; by default that of the robot's
+    /// Width of the corridors of --world that the robot assumes, m; by default that of the robot's
     /// mazes: 0.95 for the Pioneer, 0.25 for the e-puck
     #[arg(long, value_name = "WIDTH", requires = "world", value_parser = width)]
     corridor: Option<f64>,
 }
 
-/// That one of the two has to be given.
+/// Returns the group that requires one of `--maze` and `--world`.
 pub(super) fn required() -> ArgGroup {
     let either = ArgGroup::new("either").args(["maze", "world"]);
     either.required(true)
 }
 
-/// What `--goal` can say.
+/// A destination as `--goal` gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Goal {
     centre: Point,
-    /// In metres.
+    /// Radius of the disc, m.
     radius: f64,
 }
 
-/// Of a goal of which nothing else is said, m.
+/// Radius of a destination if `--goal` gives none, m.
 const RADIUS: f64 = 0.5;
 
 impl Ground {
-    /// Reads the maze or the world, with its name.
+    /// Returns the maze or the world, with its name.
     ///
     /// # Errors
-    /// Bad input if there is none.
+    /// Bad input if neither is given, or it cannot be read.
     pub(super) fn read(&self) -> Result<(String, Terrain), Failure> {
         if let Some(path) = &self.maze {
             self.refuse_in_maze()?;
@@ -81,7 +81,7 @@ impl Ground {
         Ok((maze::name(path), Terrain::Free(free)))
     }
 
-    /// Returns the beginning of what a run of this verb on `course` depends on.
+    /// Returns the first part of what a run of this verb on `course` depends on.
     pub(super) fn call(&self, verb: &str, course: &Course) -> Call {
         Call::new(verb)
             .with("the world's name", Some(&course.name))
@@ -89,13 +89,17 @@ impl Ground {
             .with("--corridor", self.corridor)
     }
 
-    /// Refuses what a maze file says by itself.
+    /// Refuses flags for which a maze file has marks of its own.
     fn refuse_in_maze(&self) -> Result<(), Failure> {
         let error = match self {
-            Self { goal: Some(_), .. } => "--goal is of a --world: mark the goal of a maze with G",
+            Self { goal: Some(_), .. } => {
+                "--goal is only for --world: in a maze file, mark the goal with G"
+            }
             Self {
                 corridor: Some(_), ..
-            } => "--corridor is of a --world: a maze file says `corridor_width` in its header",
+            } => {
+                "--corridor is only for --world: in a maze file, give `corridor_width` in the header"
+            }
             _ => return Ok(()),
         };
         Err(Failure::BadInput(anyhow!(error)))
@@ -107,7 +111,7 @@ impl Ground {
         };
         if world.zone(DESTINATION).is_some() {
             return Err(anyhow!(
-                "it has a zone `{DESTINATION}` of its own: leave --goal out"
+                "the world has a zone `{DESTINATION}` already: leave --goal out"
             ));
         }
         Ok(world.with_zone(goal.zone())?)
@@ -134,7 +138,7 @@ fn is_yaml(path: &Path) -> bool {
     matches!(extension, Some("yaml" | "yml"))
 }
 
-/// Returns a map of ROS as a grid for the simulator. What nobody has seen is not to be driven on.
+/// Returns a ROS map as a grid for the simulator. Unknown cells count as occupied.
 fn occupancy(map: RosMap) -> Occupancy {
     Occupancy {
         width: map.width,
@@ -168,14 +172,12 @@ impl core::str::FromStr for Goal {
         };
         match radius > 0.0 {
             true => Ok(Self { centre, radius }),
-            false => Err(format!(
-                "a radius of {radius} m holds nothing; give a positive one"
-            )),
+            false => Err(format!("the radius is {radius} m; give a positive number")),
         }
     }
 }
 
-/// Returns the width of a corridor.
+/// Returns the corridor width in `text`, m.
 fn width(text: &str) -> Result<f64, String> {
     let width = number(text)?;
     match width > 0.0 {

@@ -1,4 +1,4 @@
-//! `tolman host`: a program in any language drives a simulated robot, and is scored.
+//! `tolman host`: a program in any language drives a simulated robot and is scored.
 
 use core::time::Duration;
 use std::io::Write;
@@ -23,11 +23,12 @@ use super::{Failure, OrBadInput, interrupt, keep};
 use crate::start::Start;
 use crate::system::{Settings, Setup, slug, start_anywhere};
 
-/// Lets a program of yours, in any language, drive a simulated robot to the goal, and scores it;
-/// exits 1 if it does not arrive
+/// Lets your program, in any language, drive a simulated robot to the goal, and scores it; exits 1
+/// if the robot does not arrive
 ///
-/// The program reads lines of JSON from its standard input: what the robot is, then what it senses
-/// in each time step. It answers each of the latter with a line: a command, or that it is done.
+/// The program reads lines of JSON from its standard input. The first describes the robot; each of
+/// the others holds what it senses in one time step. The program answers each of the latter with
+/// one line: a command, or that it is done.
 #[derive(clap::Args)]
 #[command(
     group(ground_or_template()),
@@ -50,7 +51,7 @@ pub(super) struct Arguments {
     /// Seed of all random numbers: the same seed gives the same noise and the same start
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// The robot: laser-pioneer or e-puck
+    /// Robot to drive: laser-pioneer or e-puck
     #[arg(long, value_name = "NAME")]
     robot: Option<String>,
     /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
@@ -60,19 +61,18 @@ pub(super) struct Arguments {
     /// Stop after this many time steps
     #[arg(long, value_name = "LIMIT", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(1..))]
     steps: u32,
-    /// Stop the program after so much time
+    /// Stop the program after this many seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 600, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     time_limit: u64,
     /// Show what the program writes to stderr
     #[arg(long)]
     log: bool,
-    /// Write a program in Python that follows the wall on the right of a laser-pioneer, to start
-    /// yours from
+    /// Write a sample program in Python, which follows the right-hand wall on a laser-pioneer
     #[arg(long)]
     template: bool,
     #[command(flatten)]
     looks: Looks,
-    /// The program and its arguments
+    /// Program and its arguments
     #[arg(
         last = true,
         required_unless_present = "template",
@@ -81,10 +81,10 @@ pub(super) struct Arguments {
     program: Vec<String>,
 }
 
-/// What `--template` writes.
+/// Program that `--template` writes.
 const TEMPLATE: &str = include_str!("host/brain.py");
 
-/// That a maze or a world has to be given, or the template asked for.
+/// Returns the group that requires a maze, a world or `--template`.
 fn ground_or_template() -> ArgGroup {
     let either = ArgGroup::new("either").args(["maze", "world", "template"]);
     either.required(true)
@@ -109,7 +109,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     };
     let outing = arguments.outing(&setup, &launch);
     let mut outing = outing
-        .with_context(|| format!("nobody can be hosted in {world}"))
+        .with_context(|| format!("cannot host a program in {world}"))
         .or_bad_input()?;
     let task = Task::Reach(Goal::Landmark(Landmark::Goal));
     let word = arguments.program.join(" ");
@@ -132,7 +132,7 @@ impl Arguments {
         }
     }
 
-    /// Starts the program, and puts its robot on the course.
+    /// Starts the program and puts its robot on the course.
     fn outing(&self, setup: &Setup<'_>, launch: &Launch<'_>) -> Result<Box<dyn Outing>, Error> {
         match setup.robot(&[LASER_PIONEER, Epuck::NAME])? {
             LASER_PIONEER => self.outing_of(LaserPioneer::new(calibrated())?, setup, launch),
@@ -212,7 +212,7 @@ impl Arguments {
     }
 }
 
-/// Returns the way that the robot drove, m.
+/// Returns the distance that the robot drove, m.
 fn driven(outing: &dyn Outing) -> f64 {
     let pairs = outing.path().windows(2);
     pairs

@@ -1,4 +1,4 @@
-//! Ctrl-C, and what else asks a program to end.
+//! Ctrl-C and other signals that ask a program to end.
 
 use alloc::sync::Arc;
 use core::sync::atomic::AtomicBool;
@@ -8,15 +8,16 @@ use signal_hook::flag::{register, register_conditional_shutdown};
 
 use super::Failure;
 
-/// The exit code by which shells know a program that Ctrl-C ended.
+/// Exit code that shells expect of a program ended by Ctrl-C.
 pub(super) const INTERRUPTED: u8 = 130;
 
-/// Returns a flag that the first Ctrl-C raises, as `kill` does; the second ends the program, and so
-/// does the first when the flag is up already.
+/// Returns a flag that the first Ctrl-C, or the first `kill`, raises.
+///
+/// The second one ends the program. So does the first if the flag is already raised.
 pub(super) fn flag() -> Result<Arc<AtomicBool>, Failure> {
     let asked = Arc::new(AtomicBool::new(false));
     for (signal, code) in [(SIGINT, INTERRUPTED), (SIGTERM, 143)] {
-        // In this order: a signal must not find the flag that it raises itself.
+        // The order matters: a signal must not see the flag that it raises itself.
         register_conditional_shutdown(signal, code.into(), Arc::clone(&asked))?;
         register(signal, Arc::clone(&asked))?;
     }

@@ -1,10 +1,11 @@
-//! `tolman keep`: the process between a verb and a foreign program, which leaves nothing behind.
+//! `tolman keep`: a process between a verb and a foreign program. It makes sure that nothing stays
+//! behind.
 
 use std::ffi::OsString;
 
 use super::Failure;
 
-/// Runs a program for another process, and ends it with that process
+/// Runs a program for another process, and ends it when that process ends
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Process id of the caller
@@ -14,8 +15,8 @@ pub(super) struct Arguments {
     words: Vec<String>,
 }
 
-/// The command that keeps a program, for [`Launch`](tolman_arena::foreign::Launch): this very
-/// executable, even if its file has been replaced.
+/// Returns the command that keeps a program, for [`Launch`](tolman_arena::foreign::Launch). It is
+/// this very executable, even if its file has been replaced.
 pub(super) fn keeper() -> Vec<OsString> {
     match cfg!(target_os = "linux") {
         true => vec!["/proc/self/exe".into(), "keep".into()],
@@ -33,6 +34,6 @@ pub(super) fn carry_out(arguments: &Arguments) -> Result<(), Failure> {
 pub(super) fn carry_out(arguments: &Arguments) -> Result<(), Failure> {
     let Arguments { parent, words } = arguments;
     Err(Failure::Failed(anyhow::anyhow!(
-        "process {parent} cannot have {words:?} kept: that needs Linux"
+        "`tolman keep` needs Linux: cannot run {words:?} for process {parent}"
     )))
 }

@@ -1,4 +1,4 @@
-//! What a file is that was given where another kind is asked for.
+//! Recognizes a file that was given where another kind was expected.
 
 use anyhow::Error;
 use serde_json::Value;
@@ -10,16 +10,16 @@ pub(super) enum Kind {
     /// A map that a system has learned.
     Map,
     Trace,
-    /// A world whose walls stand anywhere.
+    /// A world with free walls.
     World,
-    /// A run that was interrupted.
+    /// An interrupted run.
     Unfinished,
 }
 
 impl Kind {
-    /// Returns what a text is, if it is known.
+    /// Returns the kind of a text, or `None` if it is unknown.
     fn of(text: &str) -> Option<Self> {
-        // A trace is many lines, the first of which names its kind.
+        // A trace has many lines; the first names its kind.
         let whole = serde_json::from_str(text).ok();
         let value: Option<Value> =
             whole.or_else(|| serde_json::from_str(text.lines().next()?).ok());
@@ -35,37 +35,37 @@ impl Kind {
         }
     }
 
-    /// Returns whether a text is of this kind, as far as its head says.
+    /// Returns whether a text is of this kind, judged by its head.
     pub(super) fn is_of(self, text: &str) -> bool {
         Self::of(text) == Some(self)
     }
 
-    /// Returns what it is called and who takes it.
+    /// Returns what a file of this kind is called, and which verb takes it.
     const fn told(self) -> &'static str {
         match self {
             Self::Maze => "a maze: give it to `tolman maze show` or to --maze",
             Self::Map => "a learned map: give it to `tolman map show` or to `tolman drive --map`",
             Self::Trace => "a trace: give it to `tolman replay`",
-            Self::World => "a world of free walls: give it to --world",
-            Self::Unfinished => {
-                "a run that was interrupted: give it to --from of the verb that was"
-            }
+            Self::World => "a world with free walls: give it to --world",
+            Self::Unfinished => "an interrupted run: give it to --from of the verb that wrote it",
         }
     }
 
-    /// Returns how a file of this kind comes to be.
+    /// Returns how to make a file of this kind.
     const fn made(self) -> &'static str {
         match self {
             Self::Maze => "`tolman maze generate` writes a maze",
             Self::Map => "`tolman learn` writes a map",
             Self::Trace => "--trace of a verb that drives writes a trace",
-            Self::World => "docs/worlds.md tells how a world of free walls is written",
-            Self::Unfinished => "a run that Ctrl-C interrupts is written by the verb that made it",
+            Self::World => "docs/worlds.md says how to write a world with free walls",
+            Self::Unfinished => "a verb that Ctrl-C interrupts writes its run to a file",
         }
     }
 
-    /// Returns what a reader of this kind complained of in `text`: where the text is of another
-    /// kind, what it is, which verb takes it, and where one of this kind comes from.
+    /// Returns the message for a `text` that could not be read as this kind.
+    ///
+    /// If the text is of another known kind, the message says which, which verb takes it, and how
+    /// to make a file of the expected kind. Otherwise it is `error` with the file's `name`.
     pub(super) fn explain(self, text: &str, name: &str, error: impl Into<Error>) -> Error {
         match Self::of(text) {
             Some(found) if found != self => {

@@ -21,11 +21,11 @@ use crate::system::MapText;
 /// Lets a system learn a map of a maze or a world, and writes the map to a file
 #[derive(clap::Args)]
 #[command(after_help = "\
-Exit code 1: no map was learned, or the map that was written is known to be wrong or unfinished. `tolman systems`
-lists systems, presets and robots; an unknown --set is answered with the known ones.
+Exit code 1: no map was learned, or the map that was written is known to be wrong or unfinished.
+`tolman systems` lists systems, presets and robots. The error about an unknown --set lists the known ones.
 
-Ctrl-C writes the map so far, and saves the run beside it; --from FILE.unfinished continues that run, and the map
-becomes the same, bit for bit, as without an interruption.
+Ctrl-C writes the map so far, and saves the run beside it. --from FILE.unfinished continues that run. The map is
+then the same, bit for bit, as without the interruption.
 
 Examples:
   tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
@@ -35,7 +35,7 @@ Examples:
   tolman learn --system diktiometry --maze mazes/j-long.maze --from j-survey.json --out j-survey.json
   tolman learn --system cpm --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json")]
 pub(super) struct Arguments {
-    /// The system that learns
+    /// System that learns
     #[arg(long, value_name = "NAME")]
     system: String,
     #[command(flatten)]
@@ -43,17 +43,17 @@ pub(super) struct Arguments {
     /// When to stop learning
     #[arg(long, default_value = "explored", value_parser = words(UNTIL))]
     until: Task,
-    /// Continue a map that was learned before, or an interrupted run; for a run, repeat all other
+    /// Continue from a map learned before, or from an interrupted run; for a run, repeat all other
     /// options as they were
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
     /// Continue the map in another maze, or with another robot
     #[arg(long, requires = "from")]
     anyway: bool,
-    /// The file to write the map to
+    /// Map file to write
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Save the run to this file once a second, so that it can be continued whatever ends it
+    /// Save the run to this file once a second, so that it can be continued after any interruption
     /// [default: the name of --out with .unfinished appended]
     #[arg(long, value_name = "FILE")]
     unfinished: Option<PathBuf>,
@@ -61,14 +61,14 @@ pub(super) struct Arguments {
     looks: Looks,
 }
 
-/// What learning goes on with.
+/// What learning continues from.
 struct From {
     map: Option<MapText>,
     former: Option<Former>,
 }
 
 impl From {
-    /// Reads a map, or an interrupted run and the map that it went on with.
+    /// Reads a map, or an interrupted run with the map that it continued.
     fn read(path: &Path) -> Result<Self, Failure> {
         let map = map_text_or(path, |text| Former::of_text(path, text))?;
         match map {
@@ -89,7 +89,7 @@ impl From {
 }
 
 impl Arguments {
-    /// Returns what keeps the run if it is interrupted.
+    /// Returns the keeper that saves the run if it is interrupted.
     fn keeper(
         &self,
         outing: &dyn Outing,
@@ -115,7 +115,7 @@ impl Arguments {
     }
 }
 
-/// When a system has learned enough.
+/// Values of `--until`: when a system has learned enough.
 const UNTIL: [(&str, &str, Task); 2] = [
     ("explored", "It has nothing left to learn", Task::Explore),
     (
@@ -156,7 +156,7 @@ pub(super) fn carry_out(
     let complaint = match &ended.end {
         TaskEnd::Done => outing.complaint(task),
         TaskEnd::OutOfTime => {
-            Some("the time was up before it had learned all: give it more --steps".to_owned())
+            Some("it ran out of time before it had learned all: give it more --steps".to_owned())
         }
         TaskEnd::GaveUp { why } => Some(why.clone()),
     };
@@ -198,5 +198,5 @@ pub(super) fn carry_out(
     }
 }
 
-/// Number of lines of a map that are printed; `tolman map show` prints all.
+/// Maximum number of lines printed about a map; `tolman map show` prints all.
 const MOST_LINES: usize = 4;

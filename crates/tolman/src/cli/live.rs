@@ -1,7 +1,7 @@
-//! A run shown as it goes: on the terminal, or as one line where there is none to draw on.
+//! A run shown while it goes: on the terminal, or as one line where nothing can be drawn.
 //!
-//! Nothing of the run depends on who looks: it is made step by step as ever, and each step waits
-//! until it has been shown.
+//! The run does not depend on the viewer. Every step is made as always, and then waits until it has
+//! been shown.
 
 #[cfg(not(feature = "live"))]
 #[path = "live/no_terminal.rs"]
@@ -22,19 +22,19 @@ use tolman_papers::Glimpse;
 use crate::cli::Failure;
 use crate::cli::bar::bar;
 
-/// Somebody's view of a run.
+/// A view of a run.
 #[derive(Debug)]
 pub(super) enum Live {
-    /// On the whole terminal, at the pace of who looks.
+    /// Drawn on the whole terminal, at the pace of the viewer.
     Screen(Box<Screen>),
-    /// As a line on stderr, as fast as it goes.
+    /// One line on stderr, at full speed.
     Line(ProgressBar),
-    /// No more: who looked has seen enough, or the terminal has gone.
+    /// Closed by the viewer, or the terminal has gone.
     Closed(io::Result<()>),
 }
 
 impl Live {
-    /// Returns a view of the run that is about to be made.
+    /// Returns a view of the run that is about to begin.
     pub(super) fn open(scene: Scene) -> Result<Self, Failure> {
         let limit = scene.step_limit;
         if let Some(screen) = terminal::screen(scene)? {
@@ -65,7 +65,7 @@ impl Live {
         }
     }
 
-    /// Takes in what the system knows by now, which only a picture shows.
+    /// Shows what the system knows now. Only a picture uses it.
     pub(super) fn know(&mut self, glimpse: impl FnOnce() -> Glimpse) {
         if let Self::Screen(screen) = self {
             screen.know(glimpse());
@@ -82,10 +82,10 @@ impl Live {
         }
     }
 
-    /// Shows the outcome until who looks has seen enough.
+    /// Shows the outcome, `told` in words, until the viewer closes it.
     ///
     /// # Errors
-    /// If the terminal has gone meanwhile.
+    /// If the terminal has gone.
     pub(super) fn close(self, told: &str) -> io::Result<()> {
         match self {
             Self::Screen(mut screen) => screen.until_closed(told),

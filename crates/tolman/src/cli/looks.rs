@@ -5,11 +5,11 @@ use anyhow::anyhow;
 use super::Failure;
 use super::replay_file::{self, Overwrite};
 
-/// Views of a run.
+/// Options that say how a run is shown and written down.
 #[derive(clap::Args)]
 pub(super) struct Looks {
-    /// Show the run on the terminal; space pauses, → steps, + and - change the speed, q stops
-    /// showing it
+    /// Show the run on the terminal. Space pauses, → steps, + and - change the speed, q closes the
+    /// view
     #[arg(long)]
     pub(super) live: bool,
     /// Draw the robot's way over the maze or the world
@@ -19,8 +19,8 @@ pub(super) struct Looks {
     /// the outcome and the readings of every step
     #[arg(long, value_name = "FILE")]
     pub(super) trace: Option<PathBuf>,
-    /// Write a replay: one HTML file that plays the run in any browser; or, if the name ends in
-    /// .mcap and the feature `mcap` is on, a file for Foxglove
+    /// Write a replay: one HTML file that plays the run in any browser. If the name ends in .mcap
+    /// and the feature `mcap` is on, the file is for Foxglove
     #[arg(long, value_name = "FILE")]
     pub(super) replay: Option<PathBuf>,
     /// Overwrite the replay's file even if it is not a replay
@@ -32,10 +32,10 @@ pub(super) struct Looks {
 }
 
 impl Looks {
-    /// Refuses to look at more than one run.
+    /// Refuses to show more than one run.
     ///
     /// # Errors
-    /// Bad input if `path` holds several `mazes` and one of them was to be looked at.
+    /// Bad input if `path` holds several `mazes` and an option needs a single one.
     pub(super) fn of_one(&self, path: &Path, mazes: usize) -> Result<(), Failure> {
         let flags = [
             ("--live", self.live),
@@ -52,15 +52,15 @@ impl Looks {
         }
     }
 
-    /// Returns whether a run is to be looked at.
+    /// Returns whether any option asks to show the run.
     pub(super) const fn any(&self) -> bool {
         self.live || self.svg.is_some() || self.trace.is_some() || self.replay.is_some()
     }
 
-    /// Returns what the replay may overwrite, before the work is done.
+    /// Returns which file the replay may overwrite. It is called before the work begins.
     ///
     /// # Errors
-    /// Bad input if its file exists and is not a replay.
+    /// Bad input if the file exists and is not a replay.
     pub(super) fn overwrite(&self) -> Result<Overwrite, Failure> {
         let overwrite = Overwrite::if_forced(self.force);
         if let Some(path) = &self.replay {

@@ -1,4 +1,4 @@
-//! `tolman merge`: makes an experiment's results of its shares.
+//! `tolman merge`: combines the shares of an experiment into its results.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -20,12 +20,12 @@ Examples:
   tolman trial --experiment baselines --chunk 1/1 --quick --out whole
   tolman merge whole")]
 pub(super) struct Arguments {
-    /// The folder given to `tolman trial` with --out
+    /// Folder that `tolman trial` was given with --out
     #[arg(value_name = "DIR")]
     results: PathBuf,
 }
 
-/// The command of which the shares are parts, without the program.
+/// The command whose shares are merged, without the program's name.
 #[derive(Parser)]
 struct Whole {
     #[command(flatten)]

@@ -24,25 +24,25 @@ use super::{Failure, OrBadInput, interrupt, keep, maze};
 #[derive(clap::Args)]
 #[command(after_help = "\
 The mouse starts in the south-west cell and looks north; the goal is the middle of the maze. Its score
-is the best run's turns and effective distance plus a tenth of all turns and effective distance: less is
-better, 2000 means unsolved. The code of mms measures in half-steps, its README in cells; both scores are shown.
+is the best run's turns and effective distance, plus a tenth of all turns and effective distance. Less is
+better, and 2000 means unsolved. The code of mms measures in half-steps, its README in cells; both scores are shown.
 
---live, --svg, --trace and --replay need a single maze, whose cells are drawn 0.18 m wide, and show the mouse as it was hosted. A line of
---trace has a move or turn, its answer, where it led, and which walls the mouse had asked for before it. --json writes one
-object per maze, one per line.
+--live, --svg, --trace and --replay need a single maze, whose cells are drawn 0.18 m wide. A line of --trace has a move or
+turn, its answer, where it led, and the walls that the mouse had asked about before it. --json writes one object per
+maze, one per line.
 
-A mouse is ended with all processes that it started, however this program ends (on Linux). Ctrl-C ends the
-mice and shows the scores so far.
+When this program ends, however it does, the mouse is ended with all processes that it started (on Linux).
+Ctrl-C ends the mice and shows the scores so far.
 
 Examples:
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/braided-2.txt
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --json
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --replay hosted.html")]
 pub(super) struct Arguments {
-    /// The mouse's command, split into words like a shell does, but run without one
+    /// Command that starts the mouse; split into words as a shell would, but run without one
     #[arg(long, value_name = "CMD")]
     mouse: String,
-    /// A maze file of any format, or a folder of them
+    /// Maze file of any format, or a folder of them
     #[arg(long, value_name = "FILE|DIR")]
     maze: PathBuf,
     /// Stop a mouse after this time in a maze
@@ -121,7 +121,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     if !looks.json {
         tell_replay(looks, out)?;
     }
-    // What was hosted stands before what could not be, wherever the two streams end up.
+    // Results come before complaints, even if both streams go to one place.
     out.flush()?;
     unsound.complain(mazes.len())?;
     if stop.load(Ordering::Relaxed) {
@@ -166,11 +166,11 @@ impl Arguments {
     }
 }
 
-/// What a mouse does, as it is shown.
+/// A mouse whose movements are shown.
 struct Watched {
     way: Way,
     grid: Grid,
-    /// Sides that the mouse asked for since its last movement.
+    /// Sides that the mouse has asked about since its last movement.
     sensed: Vec<SideSeen>,
 }
 
@@ -198,8 +198,8 @@ impl Watched {
     }
 }
 
-/// Returns a maze as mms has it, whatever else it says: the mouse starts in the south-west, and the
-/// goal is the middle.
+/// Returns a maze as mms has it, whatever the file says: the mouse starts in the south-west, and
+/// the goal is the middle.
 fn of_mms(maze: &Maze) -> Maze {
     let mut maze = maze.clone();
     maze.set_start(Some((Cell::new(0, 0), Direction::North)));
@@ -207,7 +207,7 @@ fn of_mms(maze: &Maze) -> Maze {
     maze
 }
 
-/// Returns a movement as it is shown.
+/// Returns a movement as a step to show.
 fn way_step(exchange: &Exchange, sensed: &[SideSeen]) -> WayStep {
     let Exchange {
         line,
@@ -241,7 +241,7 @@ fn way_step(exchange: &Exchange, sensed: &[SideSeen]) -> WayStep {
     }
 }
 
-/// Returns what became of a mouse, in words.
+/// Returns the outcome of a mouse in words.
 fn outcome(hosted: &Hosted) -> String {
     let came = if hosted.solved {
         "solved"
@@ -261,7 +261,7 @@ fn outcome(hosted: &Hosted) -> String {
     )
 }
 
-/// No mouse is given more than a day.
+/// Longest time limit that can be given: a day.
 const LONGEST: Duration = Duration::from_secs(24 * 60 * 60);
 
 fn how(ended: MouseExit) -> &'static str {
@@ -270,8 +270,8 @@ fn how(ended: MouseExit) -> &'static str {
         MouseExit::Failed => "ended with a failure",
         MouseExit::OutOfTime => "out of time",
         MouseExit::OutOfMovements => "out of movements",
-        MouseExit::LineTooLong => "wrote a line that no command can be",
-        MouseExit::TooMuchOutput => "wrote more than a mouse has to say",
+        MouseExit::LineTooLong => "wrote a line longer than any command",
+        MouseExit::TooMuchOutput => "wrote more than a mouse ever needs to",
         MouseExit::ClosedOutput => "closed its stdout and ran on",
         MouseExit::Interrupted => "interrupted",
         _ => "stopped",

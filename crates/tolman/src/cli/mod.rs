@@ -1,7 +1,7 @@
-//! The command line, one verb a file.
+//! The command line, one file for each verb.
 //!
 //! Results go to stdout, everything else to stderr. A verb writes to the `out` it is given and
-//! returns a [`Failure`] if there is something to complain about.
+//! returns a [`Failure`] if it did not do all it was asked for.
 
 mod arena;
 mod audit;
@@ -57,7 +57,7 @@ use tolman_experiment::choices;
 use crate::system::{MapText, SystemEntry};
 use crate::{Build, Catalogue, Family};
 
-/// Robots with laser rings in mazes: runs them, measures them, and sets them beside the papers.
+/// Runs systems and robots in mazes, measures them, and compares them with published papers.
 #[derive(Parser)]
 #[command(name = "tolman", version, arg_required_else_help = true, after_help = EXAMPLES)]
 struct Arguments {
@@ -121,14 +121,14 @@ enum Verb {
     Cpm(former::Arguments),
 }
 
-/// What the verbs are given beside their arguments.
+/// What every verb is given beside its arguments.
 struct App<'a> {
     catalogue: &'a Catalogue,
     build: &'a Build,
 }
 
 impl App<'_> {
-    /// Returns the system of that name.
+    /// Returns the system called `name`.
     ///
     /// # Errors
     /// Bad input if there is none.
@@ -144,7 +144,7 @@ impl App<'_> {
         })
     }
 
-    /// Returns the family of worlds of that name.
+    /// Returns the family of worlds called `name`.
     ///
     /// # Errors
     /// Bad input if there is none.
@@ -162,7 +162,7 @@ impl App<'_> {
     /// Returns the system that learned a map.
     ///
     /// # Errors
-    /// Bad input if it is unknown.
+    /// Bad input if this program does not know it.
     fn system_of(&self, map: &MapText) -> Result<&'static dyn SystemEntry, Failure> {
         let mut systems = self.catalogue.systems.iter();
         let named = systems.find(|system| system.name() == map.system);
@@ -176,8 +176,10 @@ impl App<'_> {
     }
 }
 
-/// Returns the command: parses the command line, does what it says by what `catalogue` knows, and
-/// returns the exit code. `build` is what reports say they were made by.
+/// Runs the command: parses the command line, carries it out with the systems and experiments of
+/// `catalogue`, and returns the exit code.
+///
+/// `build` is named in reports as the program that made them.
 #[must_use]
 pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
     called::set(catalogue.program);
@@ -186,12 +188,12 @@ pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
     let done = arguments
         .verb
         .carry_out(&App { catalogue, build }, &mut out);
-    // What was found stands before what failed, wherever the two streams end up.
+    // Results come before the failure, even if both streams go to one place.
     let written = out.flush();
     let done = done.and_then(|()| Ok(written?));
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        // Whoever reads has seen enough, as in `tolman maze show … | head -1`.
+        // The reader has seen enough, as in `tolman maze show … | head -1`.
         Err(failure) if failure.is_closed_pipe() => ExitCode::SUCCESS,
         Err(failure) => {
             failure.complain();

@@ -1,5 +1,5 @@
-//! `tolman mouse`: a micromouse explores mazes, proves its run and makes it, under the paper's
-//! rules or those of mms.
+//! `tolman mouse`: a micromouse explores mazes, proves its run and drives it, under the rules of
+//! the paper or of mms.
 
 mod drawing;
 mod mms;
@@ -25,17 +25,20 @@ use super::words::words;
 use super::{Failure, OrBadInput, maze};
 pub(super) use way::{Came, Way, WayStep, half_cells};
 
-/// Sends a micromouse through mazes: it explores, proves its run, and makes it
+/// Sends a micromouse through mazes: it explores, proves its run, and drives it
 #[derive(clap::Args)]
 #[command(after_help = "\
 The rules are those of \"Plot and Navigate a Virtual Maze\": at most 1000 steps for both runs. A step is a quarter turn or
 none, then up to three cells. The score is a thirtieth of the steps of the first run plus those of the second. The
-floor is the score of a mouse that knows the maze. With --mms the rules are those of the simulator mms, which hosts the
-mouse: they exchange lines on stdin and stdout, and the mouse logs to stderr.
+floor is the score of a mouse that knows the maze.
 
---live, --svg, --trace and --replay need a single maze, whose cells are drawn 0.18 m wide. A line of --trace has a step's \"rotation\"
-(-90, 0, 90 or \"Reset\") and \"movement\" (-3 to 3 cells or \"Reset\"), where it led, and how many cells the mouse had seen open to its left,
-ahead and to its right before it. --json writes one object per maze, one per line.
+With --mms the rules are those of the simulator mms, which hosts the mouse. They exchange lines on stdin and stdout,
+and the mouse logs to stderr.
+
+--live, --svg, --trace and --replay need a single maze, whose cells are drawn 0.18 m wide. A line of --trace has a step's
+\"rotation\" (-90, 0, 90 or \"Reset\") and \"movement\" (-3 to 3 cells or \"Reset\"), and where it led. It also has the number
+of open cells that the mouse saw to its left, ahead and to its right before the step. --json writes one object per
+maze, one per line.
 
 Examples:
   tolman mouse mazes/grid/braided-2.txt
@@ -44,13 +47,13 @@ Examples:
   tolman mouse mazes/grid/perfect-1.txt --replay mouse.html --trace mouse.jsonl
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt")]
 pub(super) struct Arguments {
-    /// A maze file of any format, or a folder of them
+    /// Maze file of any format, or a folder of them
     #[arg(value_name = "FILE|DIR", required_unless_present = "mms")]
     maze: Option<PathBuf>,
     /// Speak the protocol of the simulator mms on stdin and stdout
     #[arg(long, conflicts_with_all = ["maze", "search", "seed", "worst", "jobs", "json", "live", "svg", "trace", "replay"])]
     mms: bool,
-    /// When the mouse has explored enough; by default once its run is proven, with --mms once it
+    /// When the mouse has explored enough; by default when its run is proven, with --mms when it
     /// has been at the goal
     #[arg(long, value_parser = words(UNTIL), conflicts_with = "search")]
     until: Option<Until>,
@@ -62,7 +65,7 @@ pub(super) struct Arguments {
     /// Seed of the searches that use random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Draw this many of the mazes with the worst score above the floor
+    /// Draw this many of the mazes, those with the worst score above the floor
     #[arg(long, value_name = "N", default_value_t = 1)]
     worst: usize,
     /// Number of mazes at a time, instead of one per core
@@ -72,7 +75,7 @@ pub(super) struct Arguments {
     looks: Looks,
 }
 
-/// When a mouse has explored enough.
+/// Values of `--until`: when a mouse has explored enough.
 const UNTIL: [(&str, &str, Until); 3] = [
     (
         "goal",
@@ -91,7 +94,7 @@ const UNTIL: [(&str, &str, Until); 3] = [
     ),
 ];
 
-/// One maze and what became of the mouse in it.
+/// A maze, and how the mouse did in it.
 struct Tried<'a> {
     file: &'a Path,
     maze: &'a Maze,
@@ -100,7 +103,7 @@ struct Tried<'a> {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    // clap asks for one of the two.
+    // clap makes sure that one of the two is given.
     let Some(path) = arguments.maze.as_ref().filter(|_| !arguments.mms) else {
         return mms::carry_out(arguments.until.unwrap_or(Until::Goal), out);
     };
@@ -109,7 +112,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let files = mazes.len() + unsound.len();
     arguments.looks.of_one(path, files)?;
     arguments.looks.overwrite()?;
-    // A maze that no mouse can run in must not void the others.
+    // A maze that no mouse can run in must not stop the others.
     let sent = maze::each(&mazes, arguments.jobs, |file, maze| {
         Ok(arguments.send(search, file, maze))
     })?;
@@ -142,7 +145,7 @@ impl Arguments {
     /// Returns how to explore under the paper's rules.
     ///
     /// # Errors
-    /// Bad input if that is not done under them.
+    /// Bad input if the options only fit `--mms`.
     fn search(&self) -> Result<Searcher, Failure> {
         match self.until {
             None => Ok(self.search),
@@ -173,7 +176,7 @@ impl Arguments {
         Ok(writeln!(out, "{name}: {}", tried.outcome())?)
     }
 
-    /// Sends the mouse through a maze, and shows its way while it goes, if that is asked for.
+    /// Sends the mouse through a maze, and shows its way meanwhile if that is asked for.
     fn send<'a>(
         &self,
         search: Searcher,
@@ -205,7 +208,7 @@ impl Arguments {
         Ok((tried, way))
     }
 
-    /// Returns the way that the mouse is about to go.
+    /// Returns the way that the mouse is about to go, with no steps yet.
     fn way(&self, search: Searcher, file: &Path, maze: &Maze) -> Result<Way, Failure> {
         let header = json!({
             "rules": "Plot and Navigate a Virtual Maze",
@@ -256,7 +259,7 @@ fn way_step(step: &RefereedStep, pose: Pose) -> WayStep {
     }
 }
 
-/// Returns an order in words: "left, 3 cells".
+/// Returns an order in words, such as "left, 3 cells".
 fn in_words(order: Order) -> String {
     let turn = match order.rotation {
         Rotation::Degrees(-90) => "left",
@@ -271,7 +274,8 @@ fn in_words(order: Order) -> String {
     }
 }
 
-/// Returns those that did not finish first, then by how far they are above the floor.
+/// Draws `count` mazes: those not finished first, then those with the highest score above the
+/// floor.
 fn draw_worst(tried: &[Tried<'_>], count: usize, out: &mut dyn Write) -> Result<(), Failure> {
     let mut order: Vec<&Tried<'_>> = tried.iter().collect();
     order.sort_by(|a, b| {

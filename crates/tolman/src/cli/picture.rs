@@ -1,4 +1,4 @@
-//! A run drawn over its maze.
+//! Draws a run over its maze.
 
 use tolman_arena::course::Course;
 use tolman_draw::{Figure, Series};
@@ -7,12 +7,12 @@ use tolman_geom::{Point, Pose};
 /// Width of the picture, user units.
 const WIDTH: f64 = 640.0;
 
-/// Returns the SVG text of the maze with the robot's way through it; `told` says the outcome.
+/// Returns the SVG text of the maze with the robot's way through it. `told` is the caption.
 pub(super) fn of(course: &Course, path: &[Pose], told: &str) -> String {
     of_runs(course, &[path], told)
 }
 
-/// Returns the same of several ways; the last is in the first colour and over the others.
+/// Returns the SVG text of the maze with several ways. The last one is on top, in the first colour.
 pub(super) fn of_runs(course: &Course, paths: &[&[Pose]], told: &str) -> String {
     let mut plan = tolman_papers::plan_of_course(course, WIDTH);
     let paths = paths.iter().filter(|path| !path.is_empty());

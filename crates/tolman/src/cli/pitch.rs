@@ -1,4 +1,4 @@
-//! `tolman pitch`: the arenas of the place map, and the data that is gathered in them.
+//! `tolman pitch`: arenas for the place map, and data sets gathered in them.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use tolman_maps::place_map::{
 use super::share::share;
 use super::{Failure, OrBadInput, file};
 
-/// Arenas of the place map of GNG-SLAM, and data sets gathered in them
+/// Writes arenas for the place map of GNG-SLAM, and gathers data sets in them
 ///
 /// An arena is `pitch`, the paper's, `hall`, `l-room`, or `random-` with a number, such as
 /// `random-7`.
@@ -39,22 +39,21 @@ Example:
   tolman pitch world random-7 --out arena.json
   tolman learn --system gngslam --world arena.json --out map.json")]
 pub(super) struct World {
-    /// The arena
+    /// Name of the arena
     #[arg(value_name = "ARENA")]
     name: String,
-    /// The file to write, instead of standard output
+    /// File to write, instead of standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
 
-/// Lets a Pioneer 2-DX wander in an arena, and writes the records of places that it takes, with the
-/// truth
+/// Lets a Pioneer 2-DX wander in an arena, and writes its records of places with the true poses
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
   tolman pitch gather pitch --seed 1 --out records.jsonl")]
 pub(super) struct Gather {
-    /// The arena
+    /// Name of the arena
     #[arg(value_name = "ARENA")]
     name: String,
     /// Number of records; the paper has 1006
@@ -63,10 +62,10 @@ pub(super) struct Gather {
     /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Maximum calibration error of each wheel, as a share
+    /// Maximum calibration error of each wheel, as a share of the way that it rolled
     #[arg(long, value_name = "SHARE", default_value = "0", value_parser = share)]
     calibration: f64,
-    /// The file to write: a line of JSON for all, then one per record
+    /// File to write: one line of JSON about the data set, then one per record
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
@@ -78,7 +77,7 @@ Example:
   tolman pitch gather pitch --records 50 --out records.jsonl
   tolman pitch show records.jsonl --svg records.svg")]
 pub(super) struct Show {
-    /// The data set, made by `tolman pitch gather`
+    /// Data set, written by `tolman pitch gather`
     file: PathBuf,
     /// Draw where the records were taken
     #[arg(long, value_name = "FILE")]
@@ -88,7 +87,7 @@ pub(super) struct Show {
     json: bool,
 }
 
-/// Learns the paper's place map of a data set (40 × 30 pixels hsv and odometry, Table 3.1) and
+/// Learns the paper's place map from a data set (40 × 30 pixels hsv and odometry, Table 3.1) and
 /// scores it
 #[derive(clap::Args)]
 #[command(after_help = "\
@@ -96,12 +95,12 @@ Example:
   tolman pitch gather pitch --records 300 --out records.jsonl
   tolman pitch score records.jsonl --growth-period 60")]
 pub(super) struct Score {
-    /// The data set, made by `tolman pitch gather`
+    /// Data set, written by `tolman pitch gather`
     file: PathBuf,
     /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// λ: one new node per this many records; if not given, the middle of the paper's range
+    /// λ: add a node per this many records; if not given, the middle of the paper's range
     #[arg(long, value_name = "RECORDS", value_parser = clap::value_parser!(u32).range(1..))]
     growth_period: Option<u32>,
     /// Write the figures as JSON
@@ -141,7 +140,7 @@ fn gathered(arguments: &Gather, out: &mut dyn Write) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Reads a data set.
+/// Returns the data set of a file.
 ///
 /// # Errors
 /// Bad input with the file's name.
@@ -157,13 +156,14 @@ fn read(path: &Path) -> Result<DataSet, Failure> {
         .or_bad_input()
 }
 
-/// Returns the number of records whose cell was written down wrongly.
+/// Returns the number of records with a wrong cell.
 fn mislabelled(data: &DataSet) -> usize {
     let records = data.records.iter();
     records.filter(|record| record.label != record.cell).count()
 }
 
-/// Returns how far the odometry is from the truth at the last record, m: both begin at the first.
+/// Returns the distance between odometry and truth at the last record, m. Both begin at the first
+/// record.
 fn drift(data: &DataSet) -> f64 {
     let (Some(first), Some(last)) = (data.records.first(), data.records.last()) else {
         return 0.0;
@@ -214,7 +214,7 @@ fn show(arguments: &Show, out: &mut dyn Write) -> Result<(), Failure> {
 /// Width of the picture, user units.
 const WIDTH: f64 = 640.0;
 
-/// Returns the places of the records in their arena; those that show the goals are filled.
+/// Returns the arena with the places of the records. Filled ones show the goals best.
 fn picture(data: &DataSet) -> Result<String, Failure> {
     let pitch = Pitch::named(&data.arena).or_bad_input()?;
     let mut plan = FloorPlan::of_world(&pitch.world, WIDTH);

@@ -1,5 +1,5 @@
-//! `tolman race`: a micromouse of the competitions explores mazes, proves its fast run with
-//! diagonals, and hands out its moves.
+//! `tolman race`: a competition micromouse explores mazes, proves its fast run with diagonals, and
+//! writes its moves.
 
 mod params;
 mod shown;
@@ -22,20 +22,21 @@ use super::words::words;
 use super::{Failure, OrBadInput, maze};
 use params::Params;
 
-/// Sends a micromouse of the competitions through mazes: it explores, proves its fast run, and
-/// hands out its moves
+/// Sends a competition micromouse through mazes: it explores, proves its fast run, and writes its
+/// moves
 #[derive(clap::Args)]
 #[command(after_help = "\
-The mouse drives cell by cell and looks at the walls around it. Once it has been at a goal and no run can be faster than the
-one it knows, whatever the walls it has not seen, it drives home. The fast run has straights, diagonals and slalom turns; --mouse
-sets their speeds. Without it, mazes of more than 16 cells a side are driven as half-size ones. A mouse with a wall
-ahead of its start turns to the next open side, clockwise.
+The mouse drives cell by cell and looks at the walls around it. It drives home once it has been at a goal, and no run
+can be faster than the one it knows, whatever the unseen walls are. The fast run has straights, diagonals and slalom
+turns; --mouse sets their speeds. Without it, mazes of more than 16 cells a side are driven as half-size ones. A mouse
+with a wall ahead of its start turns to the next open side, clockwise.
 
-The search is the way until it is first at a goal, the proof the way from there until no run can be faster.
---json writes one object per maze, one per line: the cells of search, proof and way home, and the run's moves with their times. Both
-ways are also given as letters, those of kerikun11/micromouse-maze-library. Exploring: S a cell ahead, L and R to the left and right, T
-back. Running: S a cell, w half a diagonal, z c F45, q Q F90, a d F135, u U F180, p P FV90 to the left and right, and Z C A D
-out of a diagonal.
+The search is the way until the mouse is first at a goal. The proof is the way from there until no run can be faster.
+--json writes one object per maze, one per line: the cells of search, proof and way home, and the run's moves with
+their times. Both ways are also given as the letters of kerikun11/micromouse-maze-library:
+  exploring   S a cell ahead, L and R to the left and right, T back
+  running     S a cell, w half a diagonal; to the left and right z c F45, q Q F90, a d F135, u U F180, p P FV90;
+              Z C A D out of a diagonal
 
 --live, --svg, --trace and --replay need a single maze.
 
@@ -45,10 +46,10 @@ Examples:
   tolman race --template > mine.toml
   tolman race mazes/grid/braided-2.txt --mouse mine.toml --json")]
 pub(super) struct Arguments {
-    /// A maze file of any format, or a folder of them
+    /// Maze file of any format, or a folder of them
     #[arg(value_name = "MAZE|DIR", required_unless_present = "template")]
     maze: Option<PathBuf>,
-    /// How the mouse drives: times, speeds, accelerations, cell size
+    /// File that says how the mouse drives: times, speeds, accelerations, cell size
     #[arg(long, value_name = "PARAMS.toml")]
     mouse: Option<PathBuf>,
     /// Print a file for --mouse that explains every number
@@ -62,7 +63,7 @@ pub(super) struct Arguments {
     looks: Looks,
 }
 
-/// A kind of mazes.
+/// Kinds of mazes.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     Classic,
@@ -74,13 +75,13 @@ const KINDS: [(&str, &str, Kind); 2] = [
     ("half-size", "Cells of 90 mm, up to 32 × 32", Kind::HalfSize),
 ];
 
-/// A maze and what came of its exploration.
+/// A maze and the mouse's exploration of it.
 struct Raced<'a> {
     file: &'a Path,
     config: SpeedRunConfig,
-    /// None where no way that the mouse can drive leads to a goal.
+    /// The exploration; `None` if there is no way to a goal that the mouse can drive.
     explored: Option<SpeedRunExploration>,
-    /// The cells that the exploration drove through, as letters.
+    /// Cells that the exploration drove through, as letters.
     search_path: String,
 }
 
@@ -96,7 +97,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let looks = &arguments.looks;
     looks.of_one(path, mazes.len() + unsound.len())?;
     looks.overwrite()?;
-    // A maze that no mouse can run in must not void the others.
+    // A maze that no mouse can run in must not stop the others.
     let sent = maze::each(&mazes, arguments.jobs, |file, maze| {
         Ok(send(file, maze, &params, looks))
     })?;
@@ -120,7 +121,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     maze::all_solved(solved.iter().map(|raced| (raced.file, raced.is_proven())))
 }
 
-/// Explores a maze, and shows the way while it is driven if that is asked for.
+/// Explores a maze, and shows the way meanwhile if that is asked for.
 fn send<'a>(
     file: &'a Path,
     maze: &'a Maze,

@@ -1,4 +1,4 @@
-//! `tolman replay`: traces made visible.
+//! `tolman replay`: makes replays of traces.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -13,22 +13,22 @@ use super::kind::Kind;
 use super::replay_file::{self, Overwrite};
 use super::{Failure, OrBadInput, maze};
 
-/// Makes a replay of a trace: one HTML file that plays it in any browser
+/// Makes a replay from a trace: one HTML file that plays it in any browser
 #[derive(clap::Args)]
 #[command(after_help = "\
-Traces are written by `--trace` of `tolman run`, `learn` and `drive`. Several of the same world play side by side on one slider. The
-step at which each first differs from the first trace is reported and marked.
+`tolman run`, `learn` and `drive` write traces with --trace. Several traces of the same world play side by side on one
+slider. The step at which each first differs from the first trace is reported and marked.
 
 Examples:
   tolman run wall-follow --maze mazes/j.maze --trace one.jsonl
   tolman run avoid --maze mazes/j.maze --trace two.jsonl
   tolman replay one.jsonl two.jsonl --out compared.html")]
 pub(super) struct Arguments {
-    /// The traces; - reads standard input
+    /// Trace files; - reads standard input
     #[arg(required = true, value_name = "TRACE")]
     traces: Vec<PathBuf>,
-    /// The file to write; by default beside the first trace, with the extension .html. With .mcap,
-    /// and the feature `mcap`, it is one for Foxglove
+    /// File to write; by default beside the first trace, with the extension .html. With .mcap, and
+    /// the feature `mcap`, it is for Foxglove
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Overwrite the file even if it is not a replay
@@ -50,7 +50,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     for path in &arguments.traces {
         texts.push((path, text(path)?));
     }
-    // Each kind of robot has its own lines; the first trace says which.
+    // Each kind of robot has its own lines; those of the first trace decide.
     let first = texts.first().and_then(|(_, text)| text.lines().next());
     let has = |field: &str| {
         let header: Option<Value> = first.and_then(|line| serde_json::from_str(line).ok());
@@ -73,7 +73,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
 }
 
 impl Arguments {
-    /// Returns where the replay goes.
+    /// Returns the path of the replay.
     fn path(&self) -> Result<PathBuf, Failure> {
         match (&self.out, self.traces.first()) {
             (Some(path), _) => Ok(path.clone()),
@@ -84,7 +84,7 @@ impl Arguments {
         }
     }
 
-    /// Returns the name of a trace without its folder, unless another one has the same.
+    /// Returns the name of a trace without its folder, unless another trace has the same name.
     fn short_name(&self, path: &Path) -> String {
         let file_name = path.file_name();
         let same = |other: &PathBuf| other.file_name() == file_name && other != path;
@@ -95,7 +95,7 @@ impl Arguments {
     }
 }
 
-/// Returns the replay of traces of one kind of robot.
+/// Returns the replay of traces from one kind of robot.
 fn of<M: Portrait>(
     arguments: &Arguments,
     texts: &[(&PathBuf, String)],
@@ -109,7 +109,7 @@ fn of<M: Portrait>(
     Replay::of_traces(&traces).or_bad_input()
 }
 
-/// Reads the trace at `path`.
+/// Returns the text of the trace at `path`.
 fn text(path: &Path) -> Result<String, Failure> {
     let text = if path.as_os_str() == "-" {
         input::text_of(std::io::stdin().lock())

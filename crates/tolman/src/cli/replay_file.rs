@@ -1,4 +1,4 @@
-//! Replays as files.
+//! Writes replays to files.
 
 use std::fs::File;
 use std::io::Read;
@@ -9,24 +9,24 @@ use tolman_replay::{Replay, is_replay, page};
 
 use super::{Failure, OrBadInput, called, file};
 
-/// Whether a file that is no replay may be overwritten.
+/// Which existing files may be overwritten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Overwrite {
-    /// Only replays are.
+    /// Only replays.
     Replays,
-    /// Anything is.
+    /// Any file.
     Anything,
 }
 
 impl Overwrite {
-    /// Returns what `--force` says.
+    /// Returns what `--force` asks for.
     pub(super) const fn if_forced(force: bool) -> Self {
         if force { Self::Anything } else { Self::Replays }
     }
 }
 
-/// Writes a replay to the file at `path`, whole or not at all: a page, or what Foxglove reads if
-/// the name ends in `.mcap`.
+/// Writes a replay to the file at `path`, completely or not at all. It is a web page, or a file for
+/// Foxglove if the name ends in `.mcap`.
 ///
 /// # Errors
 /// Bad input if the file exists and is not a replay; a failure if it cannot be written.
@@ -50,7 +50,7 @@ fn mcap(replay: &Replay) -> Result<Vec<u8>, Error> {
     Ok(tolman_replay::mcap(replay)?)
 }
 
-/// [`check`] has refused it before.
+/// Never called: [`check`] has refused the file before.
 #[cfg(not(feature = "mcap"))]
 fn mcap(_: &Replay) -> Result<Vec<u8>, Error> {
     Err(anyhow!(NO_MCAP))
@@ -59,13 +59,14 @@ fn mcap(_: &Replay) -> Result<Vec<u8>, Error> {
 const NO_MCAP: &str =
     "this tolman writes no MCAP: build it with --features mcap, or name a file that ends in .html";
 
-/// What an MCAP file begins with.
+/// First bytes of an MCAP file.
 const MCAP: &[u8] = b"\x89MCAP0\r\n";
 
-/// Checks before the work is done that the file at `path` does not exist yet, or is a replay.
+/// Checks that the file at `path` does not exist, or is a replay. It is called before the work
+/// begins.
 ///
 /// # Errors
-/// Bad input if it is anything else, or is to be one for Foxglove and this program writes none.
+/// Bad input if it is another file, or an MCAP file that this build cannot write.
 pub(super) fn check(path: &Path, overwrite: Overwrite) -> Result<(), Failure> {
     if is_mcap(path) && !cfg!(feature = "mcap") {
         return Err(Failure::BadInput(anyhow!("{}: {NO_MCAP}", path.display())));
@@ -87,7 +88,7 @@ pub(super) fn check(path: &Path, overwrite: Overwrite) -> Result<(), Failure> {
     )))
 }
 
-/// Returns the address at which a browser opens the file.
+/// Returns the address with which a browser opens the file.
 pub(super) fn address(path: &Path) -> String {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/-_.~:".contains(&byte);

@@ -14,9 +14,8 @@ pub(super) use outing::{Name, Outing, carry_out as send};
 /// Sends one robot through a maze or a world and reports the result
 #[derive(clap::Args)]
 #[command(after_help = "\
-The same brain, maze, start and seed make the same run, on any machine. With the seed of a line of
-runs.jsonl, the default start and the step_limit of its world in config.toml as --steps, it is the run of
-that line.
+The same brain, maze, start and seed make the same run, on any machine. To repeat the run of a line in runs.jsonl,
+give its --seed, and as --steps the step_limit of its world in config.toml.
 
 Examples:
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
@@ -26,14 +25,14 @@ Examples:
   tolman run wall-follow --world mazes/worlds/rooms.json --seed 3
   tolman run wall-follow --world mazes/worlds/hall.yaml --goal 2,0 --seed 2")]
 pub(super) struct Arguments {
-    /// The brain that chooses the actions
+    /// Brain that chooses the actions
     #[arg(value_parser = words(BRAINS.map(|(word, agent)| (word, agent.description(), (word, agent)))))]
     brain: (&'static str, Agent),
     #[command(flatten)]
     outing: Outing,
 }
 
-/// The agents by the names the command line has for them.
+/// The agents with their names on the command line.
 const BRAINS: [(&str, Agent); 5] = [
     ("avoid", Agent::Avoid),
     ("wall-follow", Agent::WallFollow),

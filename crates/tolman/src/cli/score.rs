@@ -1,4 +1,4 @@
-//! `tolman score`: how right a trajectory is.
+//! `tolman score`: the error of a trajectory.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ use tolman_robot::Trajectory;
 
 use super::{Failure, OrBadInput};
 
-/// Measures the error of a trajectory: against relative poses that were verified, or against
+/// Measures the error of a trajectory: against relative poses that a person verified, or against
 /// another trajectory
 #[derive(clap::Args)]
 #[command(
@@ -25,7 +25,7 @@ Example:
   tolman score --trajectory office/odometry.tum --truth office/noted.tum --json"
 )]
 pub(super) struct Arguments {
-    /// The trajectory, one pose per line, `time x y z qx qy qz qw`; plain or packed by gzip
+    /// Trajectory, one pose per line, `time x y z qx qy qz qw`; plain or gzipped
     #[arg(long, value_name = "FILE")]
     trajectory: PathBuf,
     /// Relative poses, one per line, `from to x y z roll pitch yaw`, in the times of the trajectory
@@ -60,7 +60,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     tell_aligned(arguments.json, &score, out)
 }
 
-/// Positions of two trajectories at the times of the second.
+/// Returns pairs of positions, of both trajectories at the times of the second.
 fn pairs(found: &Trajectory, truth: &Trajectory) -> Vec<(Point, Point)> {
     let times = truth.poses().iter();
     let pair = times.filter_map(|truth| {
@@ -137,7 +137,7 @@ fn tell_aligned(as_json: bool, score: &AlignedScore, out: &mut dyn Write) -> Res
     )?)
 }
 
-/// Returns a number of things in words.
+/// Returns a count with its noun, such as "3 poses".
 fn counted(count: usize, thing: &str) -> String {
     match count {
         1 => format!("1 {thing}"),

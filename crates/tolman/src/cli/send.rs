@@ -1,4 +1,4 @@
-//! Any outing carried out: looked at while it goes, and written down.
+//! Carries out any outing: shows it meanwhile and writes it down.
 
 use core::sync::atomic::Ordering;
 use std::io::Write;
@@ -16,18 +16,18 @@ use super::{Failure, file, interrupt, picture, replay_file};
 use crate::system::{MapText, Setup, slug};
 use tolman_papers::Film;
 
-/// What became of an outing.
+/// Outcome of an outing.
 pub(super) struct Pursued {
     pub(super) ended: Ended,
-    /// The same in words.
+    /// Outcome in words.
     pub(super) told: String,
 }
 
-/// Lets a system pursue a task to its end, shows it to who looks, and writes down what was asked
-/// for. `keeper` keeps the run if somebody interrupts it.
+/// Lets a system pursue a task to its end, shows it, and writes what was asked for. `keeper` saves
+/// the run if it is interrupted.
 ///
 /// # Errors
-/// If robot or system fail, somebody interrupts, or a file cannot be written.
+/// If robot or system fail, the run is interrupted, or a file cannot be written.
 pub(super) fn send(
     outing: &mut dyn Outing,
     task: Task,
@@ -61,7 +61,7 @@ pub(super) fn send(
         }
         if let (Some(live), Some(film)) = (&mut live, &film) {
             match keeper.again() {
-                // What is made again was seen before.
+                // Repeated actions were shown before.
                 Some(_) => live.skip(outing),
                 None => live.see(outing, film),
             }
@@ -106,7 +106,7 @@ pub(super) fn send(
     Ok(Pursued { ended, told })
 }
 
-/// Returns all but the robot's way that came of a run so far.
+/// Returns the state of a run so far as a text, without the robot's way.
 fn state(outing: &dyn Outing) -> Result<String, BoxError> {
     let map = outing.map_file()?.unwrap_or_default();
     Ok(format!("{}\n{map}", outing.words()))
@@ -139,7 +139,7 @@ fn told(ended: &Ended, outing: &dyn Outing, word: &str) -> String {
     )
 }
 
-/// Tells where the replay lies, if there is one.
+/// Writes where the replay is, if there is one.
 pub(super) fn tell_replay(looks: &Looks, out: &mut dyn Write) -> Result<(), Failure> {
     if let Some(path) = &looks.replay {
         writeln!(out, "replay: {}", replay_file::address(path))?;
@@ -150,7 +150,7 @@ pub(super) fn tell_replay(looks: &Looks, out: &mut dyn Write) -> Result<(), Fail
 /// Refuses a map that was learned in another world or on another robot.
 ///
 /// # Errors
-/// Bad input with what differs.
+/// Bad input that says what differs.
 pub(super) fn check_origin(map: &MapText, outing: &dyn Outing) -> Result<(), Failure> {
     let (course, robot) = (outing.course(), outing.robot().name);
     let origin = &map.origin;

@@ -8,7 +8,7 @@ use super::unfinished::Call;
 use crate::start::Start;
 use crate::system::{Settings, Setup};
 
-/// Where and how a system is sent out.
+/// Options for sending out a system.
 #[derive(clap::Args)]
 #[command(group(required()))]
 pub(super) struct SentOut {
@@ -17,18 +17,18 @@ pub(super) struct SentOut {
     /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// The robot, if the system can drive several
+    /// Robot to drive, if the system can drive several
     #[arg(long, value_name = "NAME")]
     robot: Option<String>,
-    /// The system's preset
+    /// Preset of the system's settings
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Change a setting of the preset; may be given several times
     #[arg(long, value_name = "SETTING=VALUE", value_parser = setting)]
     set: Vec<(String, String)>,
-    /// Where the robot starts: random, marked (the maze's start), X,Y or X,Y,DEG in metres and
-    /// degrees, from the south-west corner of a maze or in a world's own frame, counter-clockwise
-    /// from east
+    /// Where the robot starts: random, marked (the maze's start), X,Y or X,Y,DEG. X and Y are in
+    /// metres from the south-west corner of a maze, or in a world's own frame; DEG in degrees,
+    /// counter-clockwise from east
     #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
     start: Option<Start>,
     /// Give up after this many time steps
@@ -37,18 +37,18 @@ pub(super) struct SentOut {
 }
 
 impl SentOut {
-    /// Reads the maze or the world, with its name.
+    /// Returns the maze or the world, with its name.
     ///
     /// # Errors
-    /// Bad input if there is none.
+    /// Bad input if neither is given, or it cannot be read.
     pub(super) fn terrain(&self) -> Result<(String, Terrain), Failure> {
         self.ground.read()
     }
 
-    /// Refuses a preset where a map says how the system was set.
+    /// Refuses a preset, because the map already holds the system's settings.
     ///
     /// # Errors
-    /// Bad input if there is one.
+    /// Bad input if a preset is given.
     pub(super) fn refuse_preset(&self) -> Result<(), Failure> {
         match &self.preset {
             Some(preset) => Err(Failure::BadInput(anyhow!(
@@ -76,7 +76,7 @@ impl SentOut {
             .with("--steps", self.steps)
     }
 
-    /// Returns what a robot is sent out with.
+    /// Returns the setup with which a system is sent out.
     pub(super) fn setup<'a>(&'a self, (world, terrain): &'a (String, Terrain)) -> Setup<'a> {
         Setup {
             world,

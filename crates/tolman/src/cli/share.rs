@@ -1,9 +1,9 @@
 //! Shares and similarities on the command line.
 
-/// Returns a number within 0 … 1, for `value_parser`.
+/// Parses a number from 0 to 1, for `value_parser`.
 ///
 /// # Errors
-/// Anything else.
+/// If it is not a number, or out of that range.
 pub(super) fn share(text: &str) -> Result<f64, String> {
     let share = text.parse::<f64>().ok();
     share

@@ -1,10 +1,10 @@
-//! Standard output with a name in its errors.
+//! Standard output that is named in its errors.
 
 use std::io::{self, BufWriter, StdoutLock, Write};
 
 use tolman_experiment::Ink;
 
-/// Where results go. Unlike `println!` it does not panic when nobody reads on.
+/// Where results go. Unlike `println!` it does not panic when the reader has gone.
 pub(super) struct Stdout(BufWriter<StdoutLock<'static>>);
 
 impl Stdout {
@@ -30,7 +30,7 @@ fn named(error: &io::Error) -> io::Error {
     )
 }
 
-/// Returns whether colours are wanted there.
+/// Returns whether standard output is coloured.
 pub(super) fn ink() -> Ink {
     match anstream::AutoStream::choice(&io::stdout()) {
         anstream::ColorChoice::Never => Ink::Plain,

@@ -1,4 +1,4 @@
-//! `tolman systems`: which systems there are.
+//! `tolman systems`: lists the systems.
 
 use std::io::Write;
 

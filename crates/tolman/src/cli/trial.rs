@@ -19,10 +19,10 @@ Examples:
   tolman trial --experiment baselines --chunk 2/2 --quick --out shared
   tolman merge shared")]
 pub(super) struct Arguments {
-    /// The experiment
+    /// Experiment to play a share of
     #[arg(id = "name", long = "experiment", value_name = "NAME")]
     name: String,
-    /// The share: the I-th of K, such as 3/8
+    /// Which share: I of K, such as 3/8
     #[arg(long, value_name = "I/K")]
     chunk: Chunk,
     #[command(flatten)]

@@ -1,8 +1,8 @@
-//! Runs that were interrupted, and go on.
+//! Saves runs that are interrupted, and continues them.
 //!
-//! A run depends on nothing but how it was called. So the file of an interrupted run holds the
-//! call, how far it came, and a checksum of all that had come of it. To go on is to make the same
-//! again with nobody looking, to compare the checksum, and to make the rest.
+//! A run depends only on its command line. So the file of an interrupted run holds the command
+//! line, how far the run came, and a checksum of its results so far. To continue, the program
+//! repeats these steps without showing them, compares the checksum, and then goes on.
 
 use core::time::Duration;
 use std::fs;
@@ -18,23 +18,23 @@ use tolman_geom::Pose;
 use super::kind::Kind;
 use super::{Failure, OrBadInput, called, file};
 
-/// How an interrupted run is saved and continued, for verbs that keep nothing else.
+/// Options to save and continue an interrupted run, for verbs that save nothing else.
 #[derive(clap::Args)]
 pub(super) struct GoingOn {
     /// Continue an interrupted run; repeat all other options as they were
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
-    /// Save the run to this file once a second, so that it can be continued whatever ends it.
+    /// Save the run to this file once a second, so that it can be continued after any interruption.
     /// Ctrl-C always saves it, by default to drive.unfinished or run.unfinished
     #[arg(long, value_name = "FILE")]
     unfinished: Option<PathBuf>,
 }
 
 impl GoingOn {
-    /// Returns what keeps a run that was called so.
+    /// Returns the keeper of a run with the command line `call`.
     ///
     /// # Errors
-    /// Bad input if there is nothing to go on with.
+    /// Bad input if there is no run to continue.
     pub(super) fn keeper(&self, call: Call) -> Result<Keeper, Failure> {
         let verb = call.verb();
         let path = self.unfinished.clone();
@@ -48,7 +48,7 @@ impl GoingOn {
     }
 }
 
-/// What a run depends on: flags with their values, the verb first.
+/// What a run depends on: its verb, then its flags with their values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Call(Vec<(String, String)>);
 
@@ -57,7 +57,7 @@ impl Call {
         Self(vec![("the verb".to_owned(), verb.to_owned())])
     }
 
-    /// Adds what a flag was given; nothing if it was not.
+    /// Adds a flag and its value; nothing if the flag was not given.
     #[must_use]
     pub(super) fn with(mut self, flag: &str, value: Option<impl ToString>) -> Self {
         self.0
@@ -69,7 +69,7 @@ impl Call {
         self.0.first().map_or("", |(_, verb)| verb)
     }
 
-    /// Returns what this says otherwise than `former`: the flag, what was said then, and now.
+    /// Returns the first difference from `former`: the flag, its value then, and its value now.
     fn difference(&self, former: &Self) -> Option<String> {
         let differs = |flag: &str| {
             let of = |call: &Self| {
@@ -92,7 +92,7 @@ enum Format {
     Unfinished,
 }
 
-/// The version that is written and read.
+/// Version of the format that is written and read.
 const VERSION: u32 = 1;
 
 /// An interrupted run as a file.
@@ -102,21 +102,21 @@ pub(super) struct Unfinished {
     format: Format,
     version: u32,
     call: Call,
-    /// How far it came.
+    /// How far the run came.
     done: Done,
-    /// Of everything that came of it until then.
+    /// Checksum of its results until then.
     checksum: String,
-    /// The map that it went on with, if it did.
+    /// The map from which it continued, if any.
     map: Option<FormerMap>,
 }
 
-/// A map that a run went on with, whatever becomes of its file.
+/// A map from which a run continued. It is kept here, because its file may change.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FormerMap {
-    /// What messages call it.
+    /// Name in messages.
     pub(super) name: PathBuf,
-    /// All of it.
+    /// Text of the whole file.
     pub(super) text: String,
 }
 
@@ -124,9 +124,9 @@ pub(super) struct FormerMap {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Done {
-    /// Actions begun.
+    /// Number of actions begun.
     pub(super) actions: u32,
-    /// Time steps made.
+    /// Number of time steps made.
     pub(super) steps: u32,
 }
 
@@ -134,7 +134,7 @@ impl Unfinished {
     /// Reads the text of an interrupted run.
     ///
     /// # Errors
-    /// If it is another kind of file, or of a later version.
+    /// If it is another kind of file, or has a later version.
     fn of_text(text: &str) -> Result<Self, Error> {
         let read: Self = serde_json::from_str(text)?;
         match read.version {
@@ -145,23 +145,23 @@ impl Unfinished {
         }
     }
 
-    /// Returns the map that it went on with.
+    /// Returns the map from which the run continued, if any.
     pub(super) const fn map(&self) -> Option<&FormerMap> {
         self.map.as_ref()
     }
 }
 
-/// An interrupted run, with its file.
+/// An interrupted run and the path of its file.
 pub(super) struct Former {
     path: PathBuf,
     run: Unfinished,
 }
 
 impl Former {
-    /// Returns the run of a file with this text; `None` if it is a file of another kind.
+    /// Returns the interrupted run in `text`; `None` if it is another kind of file.
     ///
     /// # Errors
-    /// Bad input with what is wrong in it.
+    /// Bad input that says what is wrong in it.
     pub(super) fn of_text(path: &Path, text: &str) -> Result<Option<Self>, Failure> {
         if !Kind::Unfinished.is_of(text) {
             return Ok(None);
@@ -194,43 +194,44 @@ fn read(path: &Path) -> Result<Former, Failure> {
 /// When a run is saved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Saving {
-    /// Never: what drives it cannot be made to do the same again.
+    /// Never: its driver cannot be made to do the same again.
     Never,
-    /// When it is interrupted.
+    /// When Ctrl-C interrupts it.
     AtItsEnd,
-    /// Now and then, too, for whatever else may end it.
+    /// Also about once a second, in case something else ends it.
     WhileItGoes,
 }
 
-/// A run as it goes: what of the former one is still to be made again, and when it is saved.
+/// A run in progress: what is still to be repeated of the former run, and when to save.
 pub(super) struct Keeper {
     path: PathBuf,
     call: Call,
     saving: Saving,
     map: Option<FormerMap>,
-    /// The former run; `None` once all of it was made again, or if there is none.
+    /// The former run; `None` once it has been repeated, or if there is none.
     former: Option<Former>,
     trail: Trail,
     done: Done,
     next: Instant,
-    /// The files that hold this run.
+    /// Files in which this run is saved.
     written: Vec<PathBuf>,
 }
 
-/// The time between two saves, at least.
+/// Minimum time between two saves.
 const PERIOD: Duration = Duration::from_secs(1);
 
-/// The time between two saves, at least, as a multiple of what one takes.
+/// Minimum time between two saves, as a multiple of the time that a save takes.
 const PATIENCE: u32 = 20;
 
-/// All but the robot's way that came of a run so far, as a text, or why there is none.
+/// State of a run so far as a text, without the robot's way; or why it has none.
 type State = Result<String, BoxError>;
 
 impl Keeper {
-    /// Keeps a run that was called so in the file at `path`, and goes on with `former`.
+    /// Returns the keeper of a run with the command line `call`, which saves it to `path` and
+    /// repeats `former` first.
     ///
     /// # Errors
-    /// Bad input if that was called otherwise.
+    /// Bad input if `former` has another command line.
     pub(super) fn new(path: PathBuf, call: Call, former: Option<Former>) -> Result<Self, Failure> {
         if let Some(former) = &former
             && let Some(difference) = call.difference(&former.run.call)
@@ -253,7 +254,7 @@ impl Keeper {
         })
     }
 
-    /// Keeps nothing of a run.
+    /// Returns a keeper that never saves.
     pub(super) fn of_nothing(verb: &str) -> Self {
         Self {
             path: PathBuf::new(),
@@ -268,26 +269,27 @@ impl Keeper {
         }
     }
 
-    /// Says when it is saved.
+    /// Sets when the run is saved.
     pub(super) fn saving(self, saving: Saving) -> Self {
         Self { saving, ..self }
     }
 
-    /// Says which map the run goes on with.
+    /// Sets the map from which the run continues.
     pub(super) fn with_map(self, map: Option<FormerMap>) -> Self {
         let map = map.or(self.map);
         Self { map, ..self }
     }
 
-    /// Returns how far the former run came, while that is made again.
+    /// Returns how far the former run came, while it is still being repeated.
     pub(super) fn again(&self) -> Option<Done> {
         self.former.as_ref().map(|former| former.run.done)
     }
 
-    /// Takes notice that the run has come as far as `done`, on this way and with these bumps.
+    /// Records that the run has come as far as `done`, with its way and its bumps so far. Saves it
+    /// if that is due.
     ///
     /// # Errors
-    /// If what came of the former run is something else.
+    /// If the repeated part differs from the former run.
     pub(super) fn went(
         &mut self,
         done: Done,
@@ -306,17 +308,18 @@ impl Keeper {
         let is_time = self.saving == Saving::WhileItGoes && Instant::now() >= self.next;
         if is_time && self.former.is_none() {
             let began = Instant::now();
-            // What cannot be saved now is saved, or complained of, at the end.
+            // If it cannot be saved now, it is saved, or complained of, at the end.
             let _ = self.save(&state);
             self.next = Instant::now() + PERIOD.max(began.elapsed() * PATIENCE);
         }
         Ok(())
     }
 
-    /// Saves the run as it is now. A former run of which not all was made again stays as it was.
+    /// Saves the run as it is now. While a former run is still being repeated, its file stays as it
+    /// was.
     ///
     /// # Errors
-    /// If its file cannot be written.
+    /// If the file cannot be written.
     pub(super) fn save(&mut self, state: &impl Fn() -> State) -> Result<(), Failure> {
         if self.saving == Saving::Never {
             return Ok(());
@@ -339,7 +342,7 @@ impl Keeper {
         Ok(())
     }
 
-    /// Returns how an interrupted run is gone on with.
+    /// Returns how to continue an interrupted run, in words.
     pub(super) fn told(&self) -> String {
         let Done { actions, steps } = self.again().unwrap_or(self.done);
         let told = format!("interrupted after {actions} actions, {steps} steps");
@@ -349,16 +352,16 @@ impl Keeper {
         }
     }
 
-    /// Removes what was saved of a run that has come to its end.
+    /// Removes the files of a run that has ended.
     ///
     /// # Errors
-    /// If it came to its end before the former run did, so that it is another.
+    /// If it ended before the former run was repeated, so that it is another run.
     pub(super) fn finish(self) -> Result<(), Failure> {
         if let Some(former) = &self.former {
             return Err(parted(former));
         }
         for path in self.written {
-            // Somebody may have taken it away already.
+            // The file may already have been removed.
             let _ = fs::remove_file(path);
         }
         Ok(())
@@ -388,7 +391,7 @@ pub(super) fn checksum(text: &str) -> String {
     format!("{:016x}", trail.hash)
 }
 
-/// A checksum of a robot's way that grows with it: FNV-1a, 64 bits.
+/// Running checksum of a robot's way: FNV-1a, 64 bits.
 #[derive(Clone, Debug)]
 struct Trail {
     hash: u64,
@@ -407,7 +410,7 @@ impl Default for Trail {
 }
 
 impl Trail {
-    /// Takes in what is new. O(new).
+    /// Adds what is new since the last call. O(new).
     fn follow(&mut self, path: &[Pose], bumped: &[u32]) {
         for pose in path.iter().skip(self.poses) {
             let Pose { position, heading } = pose;

@@ -1,4 +1,4 @@
-//! An outing on the terminal, with its map and its belief.
+//! Shows an outing on the terminal, with its map and its belief.
 
 use anyhow::Context;
 use tolman_arena::Outing;
@@ -7,16 +7,16 @@ use tolman_papers::Film;
 use super::Failure;
 use super::live::{Live, Now, Scene};
 
-/// Somebody's view of an outing.
+/// A view of an outing.
 #[derive(Debug)]
 pub(super) struct Watched {
     live: Live,
-    /// The poses of the path that have been shown.
+    /// Number of poses of the path that have been shown.
     shown: usize,
 }
 
 impl Watched {
-    /// Opens the view of an outing that is about to be made: `word` says who drives.
+    /// Opens the view of an outing that is about to begin. `word` names the system that drives.
     ///
     /// # Errors
     /// If there is no terminal, or it is too small.
@@ -38,7 +38,7 @@ impl Watched {
         Ok(Self { live, shown: 1 })
     }
 
-    /// Shows what an action came to, and what the system knows after it.
+    /// Shows the steps of an action, and what the system knows after it.
     pub(super) fn see(&mut self, outing: &dyn Outing, film: &Film) {
         let words = outing.words();
         let (path, bumped) = (outing.path(), outing.bumped());
@@ -55,15 +55,15 @@ impl Watched {
         self.skip(outing);
     }
 
-    /// Passes over what was driven so far and not shown.
+    /// Skips the steps driven so far that have not been shown.
     pub(super) fn skip(&mut self, outing: &dyn Outing) {
         self.shown = outing.path().len();
     }
 
-    /// Shows the outcome until who looks has seen enough.
+    /// Shows the outcome until the viewer closes it.
     ///
     /// # Errors
-    /// If the terminal has gone meanwhile.
+    /// If the terminal has gone.
     pub(super) fn close(self, told: &str) -> Result<(), Failure> {
         Ok(self.live.close(told).context("the terminal has gone")?)
     }

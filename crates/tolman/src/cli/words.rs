@@ -1,8 +1,8 @@
-//! Words of the command line that stand for values.
+//! Words on the command line that stand for values.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-/// Takes one of some words, each with its help and what it stands for.
+/// Returns a parser of the given words, each with its help and its value.
 pub(super) fn words<T: Clone + Send + Sync + 'static, const N: usize>(
     words: [(&'static str, &'static str, T); N],
 ) -> impl TypedValueParser<Value = T> {

@@ -25,7 +25,7 @@ use tolman_systems::cpm::{
 use crate::start::Start;
 use crate::system::{LearnedMap, MapText, Setup, SystemEntry, pioneer_at};
 
-/// [`cpm`] on the e-puck, or on the laser Pioneer taken for one.
+/// [`cpm`] on the e-puck, or on the laser Pioneer used as one.
 #[derive(Clone, Copy, Debug)]
 pub struct CpmEntry;
 
@@ -44,7 +44,7 @@ const PRESETS: [(&str, &str); 3] = [
     ),
 ];
 
-/// Returns what each preset stands for.
+/// Returns the configurations of the presets.
 fn modes() -> [Mode; 3] {
     [
         Mode::Reckoned(CpmConfig::robust()),
@@ -55,7 +55,7 @@ fn modes() -> [Mode; 3] {
 
 const EPUCK: &str = "e-puck";
 
-/// Where common patterns are learned.
+/// Maze in which common patterns are learned.
 const LEARNING_MAZE: &str = include_str!("../../mazes/cpm-learning.maze");
 
 impl SystemEntry for CpmEntry {
@@ -111,7 +111,7 @@ impl SystemEntry for CpmEntry {
     }
 }
 
-/// Reads maps that are written in the same patterns.
+/// Returns the maps of all files, which must use the same patterns.
 fn read_all(maps: &[MapText]) -> Result<Vec<MapFile>, Error> {
     let mut files: Vec<MapFile> = Vec::new();
     for map in maps {
@@ -132,7 +132,7 @@ fn read_all(maps: &[MapText]) -> Result<Vec<MapFile>, Error> {
     Ok(files)
 }
 
-/// Where a robot is sent out, and how it walks there.
+/// The course that a robot is sent into, and how it walks there.
 struct Ground {
     robot: &'static str,
     course: Course,
@@ -160,7 +160,7 @@ impl Ground {
         })
     }
 
-    /// Returns the common patterns that its robot learns in the learning maze (section 4.1).
+    /// Returns the common patterns that the robot learns in the learning maze (section 4.1).
     fn patterns(&self, seed: u64) -> Result<CommonPatterns, Error> {
         match self.robot {
             EPUCK => patterns_of_epuck(seed),
@@ -231,8 +231,8 @@ impl Ground {
     }
 }
 
-/// Time steps after which a robot has failed where nothing else is said: in a maze its own patience
-/// ends it.
+/// Returns the default limit of time steps. In a maze there is none: the robot's own patience ends
+/// its walk.
 fn patient(course: &Course) -> u32 {
     match course.is_free() {
         true => course.step_limit().saturating_mul(FREE_STEPS),
@@ -240,7 +240,8 @@ fn patient(course: &Course) -> u32 {
     }
 }
 
-/// Limit of its time steps in a free world, as a multiple of those of a run to the goal.
+/// Maximum number of time steps in a world with free walls, as a multiple of those of a run to the
+/// goal.
 const FREE_STEPS: u32 = 500;
 
 fn walker(robot: &str, width: f64) -> Result<WalkerConfig, Error> {
@@ -254,7 +255,7 @@ fn epuck_at(course: &Course, start: Pose, seed: u64) -> Result<SimulatedEpuck, E
     Ok(course.robot_at(start, Epuck::new(epuck())?, seed)?)
 }
 
-/// Returns the laser Pioneer as an e-puck.
+/// Returns the laser Pioneer, used as an e-puck.
 fn ring_at(course: &Course, start: Pose, seed: u64) -> Result<RingAsEpuck<CoursePioneer>, Error> {
     let pioneer = pioneer_at(course, start, seed)?;
     let measures = ring_measures(&calibrated(), course.corridor_width);
@@ -280,8 +281,8 @@ fn keep(cpm: &cpm::Cpm, mode: Mode, origin: &Origin) -> Result<Option<String>, B
     Ok(Some(file.to_json()?))
 }
 
-/// Returns why a map of a free world is unfinished, as far as it knows itself: nobody has counted
-/// what is there.
+/// Returns why a map of a world with free walls is unfinished, by its own account; `None` if it is
+/// not. The true number of fragments is unknown there.
 fn unfinished(map: &CpMap) -> Option<String> {
     let open = map.open_ports().count();
     (open > 0).then(|| {
@@ -289,8 +290,8 @@ fn unfinished(map: &CpMap) -> Option<String> {
     })
 }
 
-/// Returns why a map is not that of the whole maze, where the robot began as the maze says or
-/// elsewhere.
+/// Returns why a map is not that of the whole maze; `None` if it is. `at_start` says whether the
+/// robot began at the maze's start.
 fn complaint(map: &CpMap, maze: &Maze, at_start: bool) -> Option<String> {
     let (found, there_are) = (map.fragments().len(), TrueFragments::of(maze).count());
     if found != there_are as usize {
@@ -415,7 +416,7 @@ impl LearnedMap for MapFile {
             return match unfinished(&self.map) {
                 Some(why) => Ok(Some(why)),
                 None => Err(anyhow!(
-                    "nothing is missing by the map itself, and the true fragments of a world of free walls are unknown: \
+                    "the map has no unexplored ports, but nobody knows the true fragments of a world with free walls: \
                      drive by it with `tolman drive`"
                 )),
             };
@@ -425,7 +426,7 @@ impl LearnedMap for MapFile {
     }
 }
 
-/// Returns the maze that a map was learned in, made ready for the robot that learned it.
+/// Returns the maze that a map was learned in, prepared for the robot that learned it.
 fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, Error> {
     Ok(match &*file.origin.robot {
         EPUCK => epuck_course_on(&file.origin.world, terrain)?,
@@ -433,7 +434,8 @@ fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, Error> {
     })
 }
 
-/// Observations from the start of the map to the goal, by the best way it knows.
+/// Returns the number of observations from the start of the map to the goal, by the best way that
+/// it knows.
 fn observations_to_goal(map: &CpMap) -> Option<u32> {
     let plan = map.plan(map.start()?, |junction| map.has(junction, Landmark::Goal));
     plan.map(|plan| plan.length)

@@ -34,21 +34,20 @@ const PRESETS: [(&str, &str); 1] = [(
     "As the paper's robot, which heeds advice in 30 % of the cases",
 )];
 
-/// What of it works in mazes alone.
+/// The part of this system that needs mazes, for error messages.
 const OFFICE: &str = "the diktiometry's office";
 
-/// What can be set when it learns: of the robot's walk, and of the world, which is made of the
-/// maze.
+/// Settings for learning: of the robot's walk, and of the world that is made of the maze.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Learning {
-    /// How many moves to make, each from a place to the next.
+    /// Number of moves to make, each from one place to the next.
     moves: u32,
-    /// How likely the robot begins a script when the map advises one, 0 … 1.
+    /// Probability that the robot begins a script when the map advises one, 0 … 1.
     heed: f64,
-    /// How many colours the walls have.
+    /// Number of colours that the walls have.
     colours: u32,
-    /// Which share of the passages are doorways, 0 … 1.
+    /// Share of the passages that are doorways, 0 … 1.
     doorways: f64,
 }
 
@@ -59,7 +58,7 @@ const LEARNING: Learning = Learning {
     doorways: 0.0,
 };
 
-/// What can be set when it goes on with a map: the world is furnished as it was.
+/// Settings for continuing a map. The world stays furnished as it was.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct GoingOn {
@@ -67,7 +66,7 @@ struct GoingOn {
     heed: f64,
 }
 
-/// What can be set when it drives.
+/// Settings for driving.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Driving {
@@ -105,7 +104,7 @@ impl SystemEntry for DiktiometryEntry {
                 moves: LEARNING.moves,
                 heed: before.config.heed,
             })?;
-            // The maze that is given, furnished as that which was learned.
+            // The given maze, furnished like the one in which the map was learned.
             let maze = setup.terrain.maze(OFFICE)?;
             let office = Office::new(&maze.maze, before.office.config())?;
             before.office = Arc::new(office.named(setup.world));
@@ -164,7 +163,7 @@ impl SystemEntry for DiktiometryEntry {
             observer,
             ..
         } = &file;
-        // The maze that is given, furnished as that which was learned.
+        // The given maze, furnished like the one in which the map was learned.
         let maze = setup.terrain.maze(OFFICE)?;
         let office = Office::new(&maze.maze, file.office.config())?;
         let office = office.named(setup.world);
@@ -173,7 +172,7 @@ impl SystemEntry for DiktiometryEntry {
             .routines(office.config().corridor_width)
             .with_doorways(office.config().doorway_width());
         let steps = setup.steps.unwrap_or(100_000);
-        // Where it sensed the goal when it learned.
+        // The place where it sensed the goal when it learned.
         let goal = file.goal();
         let name = setup.robot(&[config.robot.name()])?;
         if let Some(start) = setup.start {
@@ -210,22 +209,22 @@ impl SystemEntry for DiktiometryEntry {
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
         let file = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
-        // Chance has no part in looking.
+        // Showing a map takes no random numbers.
         let survey = file.survey(0)?;
         Ok(Box::new(Surveyed { file, survey }))
     }
 }
 
-/// A survey under way: a move is an action.
+/// A survey in progress; each move is an action.
 struct Surveying {
     survey: Survey,
-    /// Moves to make.
+    /// Number of moves to make.
     moves: u32,
-    /// Time steps after which it ends all the same.
+    /// Number of time steps after which it ends in any case.
     most_steps: u32,
     world: String,
     seed: u64,
-    /// Moves made.
+    /// Number of moves made so far.
     made: u32,
 }
 
@@ -304,7 +303,7 @@ impl Outing for Surveying {
 
     fn put_down(&mut self, _pose: Pose) -> Result<Standing, BoxError> {
         Ok(Standing::gave_up(
-            "a survey is made in one go: its robot is not lifted",
+            "a survey does not localize: its robot is never moved elsewhere",
         ))
     }
 
@@ -352,7 +351,7 @@ fn complaint(survey: &Survey) -> Option<String> {
     None
 }
 
-/// A survey that was read.
+/// A survey read from a file.
 struct Surveyed {
     file: SurveyFile,
     survey: Survey,
@@ -465,7 +464,7 @@ fn direction(link: &Link) -> String {
     way(link.action)
 }
 
-/// Returns what an action of a survey's map is called.
+/// Returns the name of an action on a survey's map.
 fn way(Action(action): Action) -> String {
     let direction = Direction::ALL.get(action as usize);
     direction.map_or_else(|| format!("action {action}"), ToString::to_string)

@@ -38,10 +38,11 @@ const PRESETS: [(&str, &str); 2] = [
 
 const ROBOTS: [&str; 2] = [PIONEER_2DX, LASER_PIONEER];
 
-/// The wheels of the Pioneer 2-DX count wrongly by up to this share, each its own, by the seed.
+/// Maximum calibration error of each wheel of the Pioneer 2-DX, as a share. Each wheel has its own,
+/// drawn from the seed.
 const CALIBRATION: f64 = 0.03;
 
-/// Time steps after which a robot that learns, or drives, has failed where nothing else is said.
+/// Default number of time steps after which a robot that learns, or drives, has failed.
 const LEARNING_STEPS: u32 = 60_000;
 const DRIVING_STEPS: u32 = 20_000;
 
@@ -126,7 +127,7 @@ fn read(map: &MapText) -> Result<MapFile, Error> {
     MapFile::from_json(&map.text).with_context(|| map.name.clone())
 }
 
-/// Our values for a robot.
+/// Returns our values for a robot.
 fn usual(robot: &str) -> OnlineSlamConfig {
     match robot {
         LASER_PIONEER => {
@@ -149,26 +150,26 @@ fn body_of(robot: &str) -> Body {
     }
 }
 
-/// Where a robot is sent out.
+/// The course that a robot is sent into.
 struct Ground {
     robot: &'static str,
     course: Course,
     start: Pose,
 }
 
-/// What it is sent out with.
+/// What a robot is sent out with.
 struct Mission {
     system: OnlineSlam,
-    /// Where the robot truly was when each place that it already knows was made.
+    /// True position of the robot when each place that it already knows was made, m.
     sites: Vec<Point>,
-    /// Where the origin of its map truly lies.
+    /// True pose of its map's origin in the world.
     world_from_map: Pose,
     config: OnlineSlamConfig,
-    /// Time steps that it has, if nothing else is said.
+    /// Default number of time steps that it has.
     steps: u32,
 }
 
-/// Puts the robot down and sends it out with what `mission` gives it.
+/// Puts the robot down and returns it ready for its `mission`.
 fn send(
     setup: &Setup<'_>,
     mission: impl FnOnce(&Ground) -> Mission,
@@ -241,25 +242,26 @@ impl Ground {
     }
 }
 
-/// Returns where the robot truly was when each place was made: those of before, and the new ones.
+/// Returns the true position of the robot when each place was made: those of before, then the new
+/// ones.
 fn with(before: &[Point], made: &[Founding]) -> Vec<Point> {
     let new = made.iter().skip(before.len()).map(|site| site.position);
     before.iter().copied().chain(new).collect()
 }
 
-/// Places of a right map are off by less than this, as the root of the mean square, m.
+/// Limit of the places' error in a right map, root mean square, m.
 const MOST_ERROR: f64 = 0.5;
 
-/// A place shows what is this near: in a maze as a share of the corridors' width, in a free world
-/// m.
+/// Distance within which a place covers the floor: in a maze as a share of the corridors' width, in
+/// a world with free walls in m.
 const NEAR_IN_MAZE: f64 = 0.8;
 const NEAR: f64 = 1.5;
 
-/// The share of the floor that a finished map has places near.
+/// Minimum share of the floor that a finished map covers.
 const MOST_COVERED: f64 = 0.9;
 
-/// Returns why a map is wrong or unfinished as one of this course, of which it is known where the
-/// robot truly was when each place was made; `None` if it is right.
+/// Returns why a map is wrong or unfinished as one of this course; `None` if it is right. `sites`
+/// are the robot's true positions when each place was made.
 fn complaint(
     graph: &PlaceGraph,
     sightings: &[LandmarkSighting],
@@ -406,7 +408,7 @@ fn goals(file: &MapFile) -> usize {
         .count()
 }
 
-/// Returns the place amid those where the goal was sensed.
+/// Returns the place in the middle of those where the goal was sensed.
 fn goal_of(file: &MapFile) -> Option<u32> {
     let system = OnlineSlam::on(file.graph.clone(), file.config, 0);
     system
@@ -414,7 +416,7 @@ fn goal_of(file: &MapFile) -> Option<u32> {
         .place_with(Landmark::Goal)
 }
 
-/// Returns the maze or world that a map was learned in, for the robot that learned it.
+/// Returns the maze or world that a map was learned in, prepared for the robot that learned it.
 fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, Error> {
     let body = body_of(&file.origin.robot);
     Ok(terrain.course(&file.origin.world, &body)?)

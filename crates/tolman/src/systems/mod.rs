@@ -1,4 +1,4 @@
-//! The systems of this project, each with the robots that it drives here.
+//! The systems of this project, each with the robots that it can drive.
 
 mod cpm;
 mod diktiometry;

@@ -26,13 +26,13 @@ pub struct MslstBetterEntry;
 
 const PRESETS: [(&str, &str); 1] = [("pioneer", "As in the tables, row Better")];
 
-/// Places of a right map are off by less than this, as the root of the mean square, m.
+/// Limit of the places' error in a right map, root mean square, m.
 const MOST_ERROR: f64 = 0.5;
 
-/// A place shows what is this near, as a share of the corridors' width.
+/// Distance within which a place covers the floor, as a share of the corridors' width.
 const NEAR: f64 = 0.8;
 
-/// The share of the floor that a finished map has places near.
+/// Minimum share of the floor that a finished map covers.
 const LEAST_COVERED: f64 = 0.9;
 
 impl SystemEntry for MslstBetterEntry {
@@ -60,7 +60,7 @@ impl SystemEntry for MslstBetterEntry {
         let config: BetterConfig = setup.settings.over(&preset)?;
         config.check().context("--set")?;
         let origin = setup.origin(&course, LASER_PIONEER);
-        // The map begins where the robot stands, its axes are the compass's.
+        // The map's origin is where the robot starts; its axes are those of the compass.
         let start = robot.truth().pose.position;
         let world_from_map = Pose::new(start, Heading::EAST);
         let brain = BetterMslst::new(config, calibrated().ring);
@@ -120,15 +120,15 @@ fn read(map: &MapText) -> Result<BetterMapFile, Error> {
     BetterMapFile::from_json(&map.text).with_context(|| map.name.clone())
 }
 
-/// Returns where the robot truly was when each place was made: the first one before its first
-/// action.
+/// Returns the true position of the robot when each place was made. The first place was made before
+/// the first action.
 fn sites(start: Point, made: &[Founding]) -> Vec<Point> {
     let first = made.first().map(|_| start);
     let others = made.iter().skip(1).map(|site| site.position);
     first.into_iter().chain(others).collect()
 }
 
-/// Returns how a map lies over the world, if somebody watched.
+/// Returns how a map lies over the world; `None` if the true poses were not recorded.
 fn laid(file: &BetterMapFile) -> Option<LaidOver> {
     laid_over(&file.chart, &file.sites)
 }
@@ -138,8 +138,8 @@ fn laid_over(chart: &ScanChart, sites: &[Point]) -> Option<LaidOver> {
     LaidOver::of_places(places, sites)
 }
 
-/// Returns why a map is wrong or unfinished as one of this course, of which it is known where the
-/// robot truly was when each place was made; `None` if it is right.
+/// Returns why a map is wrong or unfinished as one of this course; `None` if it is right. `sites`
+/// are the robot's true positions when each place was made.
 fn complaint(chart: &ScanChart, sites: &[Point], course: &Course) -> Option<String> {
     if let Some(doubt) = chart.doubt() {
         return Some(doubt.to_owned());
@@ -167,7 +167,7 @@ fn complaint(chart: &ScanChart, sites: &[Point], course: &Course) -> Option<Stri
     })
 }
 
-/// Numbers of the places where the goal was sensed.
+/// Returns the numbers of the places where the goal was sensed.
 fn goals(chart: &ScanChart) -> impl Iterator<Item = u32> + '_ {
     let is_goal = |place: &ScanPlace| place.landmark == Some(Landmark::Goal);
     let numbered = (0..).zip(chart.places());
@@ -176,7 +176,7 @@ fn goals(chart: &ScanChart) -> impl Iterator<Item = u32> + '_ {
         .map(|(number, _)| number)
 }
 
-/// Returns how many ways lead from place to place, each counted once.
+/// Returns the number of ways between places, each counted once.
 fn ways(chart: &ScanChart) -> usize {
     chart.view().links.len() / 2
 }
@@ -259,7 +259,7 @@ impl LearnedMap for BetterMapFile {
     }
 }
 
-/// Returns a step of a way from place to place, in words.
+/// Returns a step of the way from place to place in words.
 fn leg(places: &[ScanPlace], step: &[u32]) -> String {
     let [a, b] = [step[0], step[1]].map(|place| places[place as usize].position);
     let way = b - a;

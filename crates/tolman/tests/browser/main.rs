@@ -30,7 +30,7 @@ fn tab() -> Option<Tab> {
 
 /// Writes a line on stderr. Not with a macro: the test harness keeps what those print.
 fn tell(line: &str) {
-    // Nobody is left to be told that stderr cannot be written.
+    // If stderr cannot be written, there is no other place to report it.
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 

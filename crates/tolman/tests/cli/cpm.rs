@@ -143,7 +143,7 @@ fn a_robot_that_knows_two_mazes_is_put_down_anywhere_in_one() {
         assert_eq!(told["reached"], true, "{told}");
         assert_eq!(told["map"], "fork.json", "{told}");
     }
-    // From the start, which it is not told of; amid a corridor, askew.
+    // From the start, which it is not told; then askew in mid-corridor.
     let told = solve(&[&both[..], &["--start", "marked"]].concat()).done();
     let taken = "fork.json is taken for the map";
     assert!(told.contains(taken), "{told}");

@@ -77,7 +77,7 @@ fn a_file_of_another_kind_is_named_with_the_verb_that_takes_it() {
         ),
         (
             "maze show world.json",
-            "is a world of free walls",
+            "is a world with free walls",
             "--world",
         ),
         ("replay a.maze --out a.html", "a.maze is a maze", "--maze"),

@@ -131,7 +131,7 @@ fn a_survey_is_gone_on_with_by_the_robot_that_made_it_and_furnished_as_it_was() 
     let drive = "drive --map laser.json --maze ring.maze --preset paper";
     carry_out(drive).refused(2, &["leave --preset out"]);
     let in_time = format!("{survey} --steps 500 --out short.json");
-    carry_out(&in_time).failed(1, &["the time was up"]);
+    carry_out(&in_time).failed(1, &["ran out of time"]);
 }
 
 #[test]

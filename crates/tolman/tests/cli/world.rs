@@ -150,7 +150,7 @@ fn a_world_that_does_not_serve_is_refused() {
     );
     refused(
         &["--maze", "corridor.maze", "--goal", "1,1"],
-        &["--goal is of a --world", "G"],
+        &["--goal is only for --world", "G"],
     );
     refused(
         &["--maze", "corridor.maze", "--corridor", "1"],

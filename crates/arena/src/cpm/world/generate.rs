@@ -44,7 +44,7 @@ pub enum Likeness {
     Kinds(u32),
 }
 
-/// Reason why there is no such world.
+/// Reason why a world cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MazeConfigError {
@@ -66,7 +66,7 @@ pub enum MazeConfigError {
         /// Its number.
         corridor: u32,
     },
-    /// The drawing is no world.
+    /// The drawing is not a world.
     #[error(transparent)]
     World(#[from] PlaneMazeError),
     /// The dictionary refuses a pattern.

@@ -58,7 +58,7 @@ pub(in crate::cpm) fn shortest_covering_walk(graph: &impl Graph, start: u32) -> 
         if done.count_ones() as usize + 1 == odd.len() {
             repeated = repeated.min(sum);
         }
-        // All have to be paired but one: the first may be it, which is tried by its being paired
+        // All but one have to be paired. The first may be that one, which is tried by pairing it
         // last.
         for first in core::iter::once(first).chain(left.clone().take(1)) {
             for second in (0..odd.len()).filter(|place| *place != first && done >> place & 1 == 0) {

@@ -13,7 +13,7 @@ use tolman_systems::cpm::{Aim, Done, Explorer, JunctionDecision, Leg};
 /// Errors of a walker's senses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WalkerNoise {
-    /// The chance that an observation is taken for another pattern, any; 0 to 1.
+    /// Probability that an observation is replaced by another random pattern, 0 … 1.
     pub substitution: f64,
     /// The chance of an additional observation, any pattern, after each; 0 to 1.
     pub insertion: f64,
@@ -192,8 +192,8 @@ impl<'a> PlaneWalker<'a> {
         }
     }
 
-    /// Puts it into the midst of a corridor, entered at an end, after `passed` observations,
-    /// and lets it walk on to the other end. None if there is no such corridor.
+    /// Puts it into a corridor, entered at an end, after `passed` observations, and lets it walk on
+    /// to the other end. Returns `None` if there is no such corridor.
     pub fn walk_on(
         &mut self,
         enter: CorridorEnd,

@@ -40,9 +40,8 @@ impl ViewIndex {
         }
     }
 
-    /// Returns the places that look most like a percept: of the sets that are found within more and
-    /// more, the first that is not empty. Nobody asks for the sets after it. The places are those
-    /// that stand now, by id.
+    /// Returns the places that look most like a percept, by id. Of the sets found within ever
+    /// larger distances it is the first that is not empty; later ones are not searched.
     pub(crate) fn most_alike(
         &self,
         percept: &Signature,

@@ -17,7 +17,7 @@ pub(super) struct Constraints {
     contradict: bool,
 }
 
-/// One place lies at most so far beyond another, m.
+/// An upper bound for how far one place is beyond another, m.
 #[derive(Clone, Copy, Debug)]
 struct Most {
     by: f64,

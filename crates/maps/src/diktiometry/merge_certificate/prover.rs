@@ -120,7 +120,7 @@ impl Prover<'_> {
                 _ => None,
             });
         let merges: Vec<[PlaceId; 2]> = merges.collect();
-        // A place that nobody had visited is the one that the move made.
+        // A place that was not visited before is the one that the move made.
         let mut arrived: BTreeSet<PlaceId> = merges.iter().flatten().copied().collect();
         arrived.insert(here);
         let is_new = arrived.iter().any(|place| !self.visits.contains_key(place));

@@ -1,8 +1,8 @@
 use super::{JournalSpan, LookEvidence, MergeCertificate, MergeProof};
 use crate::diktiometry::Action;
 
-/// A checksum of numbers: FNV-1a of 64 bits (Fowler, Noll and Vo). It tells that something was
-/// changed by accident, and is no protection from those who mean to.
+/// A checksum of numbers: FNV-1a, 64 bits (Fowler, Noll and Vo). It detects accidental changes, and
+/// is no protection against manipulation.
 struct Seal(u64);
 
 impl Seal {

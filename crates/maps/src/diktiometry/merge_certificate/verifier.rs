@@ -35,13 +35,13 @@ pub enum MergeCertificateError {
         /// Number of the certificate.
         number: usize,
     },
-    /// It is said to rest on looks and does not, or the other way round.
+    /// It claims to rest on looks and does not, or the reverse.
     #[error("certificate {number} states wrongly whether it rests on looks")]
     Ground {
         /// Number of the certificate.
         number: usize,
     },
-    /// Looks that prove nothing: there is no pair, or it is as likely as not at two places.
+    /// Its looks prove nothing: there is no pair, or they are as likely as not at two places.
     #[error("certificate {number} has looks that two places would have as well")]
     NoEvidence {
         /// Number of the certificate.
@@ -154,7 +154,7 @@ impl Verifier<'_> {
                 let between = self.between(number, certificate.visits, routes)?;
                 let least = least_distance(certificate.visits, self.config, self.journal);
                 let most = self.config.apart.most(between);
-                // A bound that is no number proves nothing.
+                // A bound that is not a number proves nothing.
                 if most.is_nan() || most >= least {
                     return Err(MergeCertificateError::TooWide {
                         number,

@@ -81,8 +81,8 @@ impl Pen {
         cells.filter(|cell| self.maze.degree(*cell) > 0).collect()
     }
 
-    /// Returns the maze with this start, looking through its first opening, and the drawn cell
-    /// farthest from it as goal: of several one by chance.
+    /// Returns the maze with this start, looking through its first opening. The goal is the drawn
+    /// cell farthest from it, a random one if there are several.
     pub(super) fn finish(mut self, start: Cell, rng: &mut impl Rng) -> Maze {
         let steps = self.maze.steps_to(&[start]);
         let drawn = self.drawn();

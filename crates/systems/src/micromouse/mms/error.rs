@@ -26,7 +26,7 @@ pub enum PlayError {
     /// The maze is larger than the mouse's map.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
-    /// It sees walls where it has seen none, or the other way round.
+    /// It sees walls where it has seen none, or the reverse.
     #[error("the reading contradicts the mouse's map")]
     Observe(#[from] ObserveError),
     /// No way leads to the goal.

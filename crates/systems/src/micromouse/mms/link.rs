@@ -1,4 +1,4 @@
-//! The mouse's end of the two pipes: a command a line out, a reply a line in.
+//! The mouse's end of the two pipes: it writes one command per line and reads one reply per line.
 
 use std::io::{self, BufRead, Read, Write};
 

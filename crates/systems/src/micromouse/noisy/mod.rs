@@ -1,11 +1,11 @@
-//! The paper's mouse on wheels that slip, with sensors that err, among walls that have a thickness
-//! (its section 6).
+//! The paper's mouse with slipping wheels and noisy sensors, among walls that have a thickness (the
+//! paper's section 6).
 //!
-//! Rules and search are those of the paper; but a step is driven by motors that miss, and the mouse
-//! knows where it is from its commands and its range sensors alone. It holds a
+//! Rules and search are those of the paper. But its motors are inexact, and it estimates its pose
+//! only from its commands and its range sensors. It holds a
 //! [`PoseFilter`](tolman_maps::wall_belief::PoseFilter) on a
 //! [`WallBelief`](tolman_maps::wall_belief::WallBelief) that grows with what it sees. It drives any
-//! robot that turns and translates, has range sensors and a bumper.
+//! robot that turns and translates, and has range sensors and a bumper.
 
 mod config;
 mod mouse;

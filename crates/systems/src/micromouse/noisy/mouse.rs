@@ -18,58 +18,58 @@ pub trait NoisyBody: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps + Ro
 
 impl<R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps + Rolls>> NoisyBody for R {}
 
-/// What a noisy mouse has done.
+/// What a noisy mouse has done in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoisyNext {
     /// One step of the paper's rules.
     Stepped,
-    /// Nothing: it believes to be done.
+    /// Nothing: it believes that it is done.
     Done,
     /// Nothing: it believes that no way leads to the goal.
     Stuck,
 }
 
-/// A mouse that drives by what it believes.
+/// A mouse that drives by what it believes of walls and pose.
 #[derive(Debug)]
 pub struct NoisyMouse {
     pub(super) config: NoisyMouseConfig,
     pub(super) brief: Brief,
     pub(super) filter: PoseFilter,
-    /// Where its wheels alone have brought it.
+    /// Pose by its wheels alone.
     pub(super) reckoned: Pose,
     pub(super) belief: WallBelief<SIDE>,
-    /// Whether it was put down somewhere and does not know yet where: it drives by its wheels from
-    /// where it most likely is, and learns no walls.
+    /// Whether it was put down somewhere and has not localized yet. It then drives by its wheels
+    /// from where it most likely is, and learns no walls.
     pub(super) is_lost: bool,
     explorer: MoveExplorer<SIDE>,
     pub(super) rng: ChaCha8Rng,
 }
 
-/// Readings taken in a stop at least, and at most while a side of the cell that a sensor looks at
-/// is not known.
+/// Minimum number of readings per stop; and the maximum, while a visible side of the cell is
+/// unknown.
 const LOOKS: (u32, u32) = (4, 16);
-/// A mouse nearer to a wall ahead does not drive on, from its middle, as a share of the pitch: with
-/// the number of readings in a row that have to say so.
+/// Distance to a wall ahead from which a mouse stops, from its middle, as a share of the pitch; and
+/// the number of readings in a row that must agree.
 const TOO_NEAR: (f64, u32) = (0.055 / 0.18, 3);
-/// How far ahead of the middle of its cell, as a share of the pitch, a mouse is that bumps into the
-/// wall of that cell, and not into a post.
+/// Range of positions ahead of the middle of its cell, as a share of the pitch, in which a bump is
+/// with the cell's wall and not with a post.
 const AT_WALL: (f64, f64) = (0.1, 0.4);
-/// How often what is believed is doubted before the mouse takes itself for stuck.
+/// Number of times that beliefs are doubted before the mouse gives up as stuck.
 const DOUBTS: u32 = 12;
-/// A turn this near is reached, rad, and a place, as a share of the pitch.
+/// Tolerances at which a turn, rad, and a position, as a share of the pitch, are reached.
 const CLOSE: (f64, f64) = (0.03, 0.004 / 0.18);
-/// The share of its full speed that the mouse drives with. What its wheels and sensors get wrong in
-/// a time step is independent of the next: the smaller the time steps, the more of it averages out,
-/// and the rules count no time.
+/// Share of its full speed with which the mouse drives. The errors of wheels and sensors are
+/// independent between time steps. So shorter motions average more of them out, and the rules count
+/// no time.
 const PACE: f64 = 0.25;
-/// Time steps after which a step of the paper's rules is given up.
+/// Number of time steps after which a step of the paper's rules is given up.
 const PATIENCE: u32 = 800;
 
 impl NoisyMouse {
-    /// Returns a mouse at the start that has seen nothing; its filter draws from `seed`.
+    /// Returns a mouse at the start that has seen nothing; `seed` seeds its filter.
     ///
     /// # Errors
-    /// If the maze is too large or a number of the filter is out of its range.
+    /// If the maze is too large, or a number of the filter is out of its range.
     pub fn new(brief: Brief, config: NoisyMouseConfig, seed: u64) -> Result<Self, NoisyMouseError> {
         let belief = WallBelief::new(brief.grid, config.pitch, config.wall_thickness)?;
         let pose = Pose::new(belief.middle(brief.start), heading_of(brief.heading));
@@ -99,13 +99,13 @@ impl NoisyMouse {
         self.reckoned = pose;
     }
 
-    /// Returns the walls it believes in.
+    /// Returns the walls that it believes in.
     #[must_use]
     pub const fn belief(&self) -> &WallBelief<SIDE> {
         &self.belief
     }
 
-    /// Returns where it believes to be.
+    /// Returns the believed pose.
     #[must_use]
     pub fn pose(&self) -> Pose {
         match self.config.localization {
@@ -135,14 +135,14 @@ impl NoisyMouse {
         Ok(())
     }
 
-    /// Returns whether it knows the sides of its cell that a sensor looks at.
+    /// Returns whether the sides of its cell that a sensor looks at are known.
     fn knows_its_cell(&self) -> bool {
         let (cell, looks) = (self.cell(), self.looks_to());
         let mut seen = [looks.left(), looks, looks.right()].into_iter();
         seen.all(|side| self.belief.knowledge(cell, side).is_known())
     }
 
-    /// Makes a step of the first run. It is done when it believes to have proven its run.
+    /// Makes a step of the first run. It is done when it believes that its run is proven.
     ///
     /// # Errors
     /// If the robot fails.
@@ -158,8 +158,8 @@ impl NoisyMouse {
         Ok(NoisyNext::Stepped)
     }
 
-    /// Makes a step of the second run, planned again at every stop. It is done when it believes to
-    /// be at a goal.
+    /// Makes a step of the second run, which is planned again at every stop. It is done when it
+    /// believes that it is at a goal.
     ///
     /// # Errors
     /// If the robot fails.
@@ -181,9 +181,11 @@ impl NoisyMouse {
         decision.unwrap_or(MoveDecision::Stuck)
     }
 
-    /// Returns what `plan` comes to. Every maze has a way to its goal: while `plan` is `stuck`,
-    /// some wall is believed in that does not stand, and all are doubted, so that the mouse looks
-    /// again at those for which least speaks.
+    /// Returns the result of `plan`.
+    ///
+    /// Every maze has a way to its goal. So while `plan` returns `stuck`, the mouse believes in
+    /// some wall that does not stand. It then doubts all walls, and looks again at those with the
+    /// least evidence.
     pub(super) fn unless_stuck<T: PartialEq>(
         &mut self,
         stuck: T,
@@ -199,15 +201,16 @@ impl NoisyMouse {
         stuck
     }
 
-    /// Returns the next leap to the nearest of `targets`: over walls believed open, or else over
-    /// those not believed to stand.
+    /// Returns the next leap towards the nearest of `targets`: through walls believed open, or else
+    /// through those not believed to stand.
     pub(super) fn leap_to(&self, targets: &[Cell]) -> Option<Leap> {
         [Unknown::Closed, Unknown::Open]
             .into_iter()
             .find_map(|unknown| self.first_leap(unknown, targets.iter().copied()))
     }
 
-    /// Returns the next leap to the nearest of `targets`, walls that are not known being `unknown`.
+    /// Returns the next leap towards the nearest of `targets`. `unknown` says how to treat walls
+    /// that are not known.
     pub(super) fn first_leap(
         &self,
         unknown: Unknown,
@@ -219,15 +222,15 @@ impl NoisyMouse {
         map.way(&passages, self.cell()).next()
     }
 
-    /// Returns the cell the mouse thinks it is in; the start, if it thinks that it has left the
-    /// maze.
+    /// Returns the cell that the mouse believes it is in; the start, if it believes that it has
+    /// left the maze.
     pub(super) fn cell(&self) -> Cell {
         self.belief
             .cell_at(self.pose().position)
             .unwrap_or(self.brief.start)
     }
 
-    /// Returns where it looks, about.
+    /// Returns the direction nearest to its heading.
     pub(super) fn looks_to(&self) -> Direction {
         let pose = self.pose();
         let off = |side: &Direction| pose.heading.turn_to(heading_of(*side)).abs();
@@ -237,7 +240,7 @@ impl NoisyMouse {
             .unwrap_or(self.brief.heading)
     }
 
-    /// Returns one step of the paper's rules: a turn, then cells ahead or back.
+    /// Makes one step of the paper's rules: a turn, then cells ahead or back.
     pub(super) fn leap<R: NoisyBody>(&mut self, robot: &mut R, leap: Leap) -> Result<(), R::Error> {
         let mut looks = self.looks_to();
         let MouseStep { cells, .. } = MouseStep::of_leap(&mut looks, leap);
@@ -258,7 +261,7 @@ impl NoisyMouse {
             if way < CLOSE.1 * self.config.pitch || near >= TOO_NEAR.1 {
                 return Ok(());
             }
-            // Towards the middle of the corridor, the more the farther from it.
+            // Steer to the middle of the corridor, the more the farther away it is.
             let aside = (3.0 * away.dot(&left) / self.belief.pitch()).clamp(-0.4, 0.4);
             let wanted = heading_of(looks).turned(ahead * aside);
             let off = pose.heading.turn_to(wanted);
@@ -268,7 +271,7 @@ impl NoisyMouse {
             };
             if self.time_step(robot, command)? {
                 self.bumped(if ahead > 0.0 { looks } else { looks.opposite() });
-                // Off the wall again, and look.
+                // Back off from the wall, and look.
                 let back = TurnTranslate {
                     turn: 0.0,
                     translate: -0.5 * ahead,
@@ -280,8 +283,8 @@ impl NoisyMouse {
         Ok(())
     }
 
-    /// Takes in that it touched something while it drove to `side`: the wall of its cell there,
-    /// unless that is too near or far.
+    /// Takes in a bump while driving to `side`. It is the wall of its cell there, unless that would
+    /// be too near or too far.
     fn bumped(&mut self, side: Direction) {
         if self.is_lost {
             return;
@@ -313,7 +316,7 @@ impl NoisyMouse {
         Ok(())
     }
 
-    /// Returns one time step; whether the mouse touched a wall.
+    /// Makes one time step, and returns whether the mouse touched a wall.
     pub(super) fn time_step<R: NoisyBody>(
         &mut self,
         robot: &mut R,
@@ -340,7 +343,7 @@ impl NoisyMouse {
     }
 }
 
-/// Returns the range of the beam that looks most nearly ahead.
+/// Returns the range of the beam that points most nearly ahead.
 fn front_range(sensing: &impl Ranges) -> Option<f64> {
     let scan = sensing.scan()?;
     let off = |beam: u32| scan.ring.bearing(beam).abs();

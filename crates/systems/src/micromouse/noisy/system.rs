@@ -1,4 +1,4 @@
-//! A noisy mouse as a system: it learns the whole maze, finds itself, and goes where it is sent.
+//! A noisy mouse as a system: it learns the whole maze, localizes, and goes where it is sent.
 
 use core::convert::Infallible;
 
@@ -15,24 +15,24 @@ use super::mouse::readings;
 use super::{NoisyBody, NoisyMouse, PoseSource};
 use crate::micromouse::grid_map::{grid_map, place_of};
 
-/// Particles in each cell and each direction when the mouse may be anywhere.
+/// Number of particles per cell and direction when the mouse may be anywhere.
 const SCATTERED: u32 = 8;
-/// A particle is at most this far from the middle of its cell along an axis, as a share of the
-/// pitch, and off the axis, rad.
+/// Maximum offset of a particle from the middle of its cell along an axis, as a share of the pitch;
+/// and from the axis, rad.
 const SCATTER: (f64, f64) = (0.15, 0.15);
-/// The mouse knows where it is when this much of the weight lies in one cell.
+/// Share of the particles' weight in one cell from which the mouse is sure where it is.
 const SURE: f64 = 0.95;
 
-/// What to do next.
+/// The next thing to do.
 enum Choice {
     Drive(Leap),
     Turn(Direction),
     End(Standing),
 }
 
-/// - `Explore` goes to the nearest cell with a side that is not known, until none can be reached.
-/// - `Reach` plans again at every stop, over walls believed open or else over those not believed to
-///   stand. A way that turns out to be shut is gone round.
+/// - `Explore` goes to the nearest cell with an unknown side, until none can be reached.
+/// - `Reach` plans again at every stop: through walls believed open, or else through those not
+///   believed to stand. If a way turns out to be shut, it finds another.
 /// - `Localize` is done when 95 % of the particles' weight lie in one cell. Until then the mouse
 ///   drives to the goal as if it were where it most likely is.
 impl<R: NoisyBody> System<R> for NoisyMouse {
@@ -55,7 +55,7 @@ impl<R: NoisyBody> System<R> for NoisyMouse {
         self.is_lost = true;
         let cells = self.brief.grid.cells();
         let on_map: Vec<Cell> = cells.filter(|cell| self.is_on_map(*cell)).collect();
-        // The same in all cells, so that cells that look alike stay equally likely.
+        // The offsets are the same in all cells, so that cells that look alike stay equally likely.
         let offsets: Vec<Pose> = (0..SCATTERED).map(|_| self.scattered()).collect();
         let mut poses = Vec::new();
         for cell in on_map {
@@ -70,20 +70,21 @@ impl<R: NoisyBody> System<R> for NoisyMouse {
 }
 
 impl NoisyMouse {
-    /// Returns whether a cell is known to be open to some side.
+    /// Returns whether a cell is known to be open on some side.
     fn is_on_map(&self, cell: Cell) -> bool {
         let open = |side| self.belief.knowledge(cell, side) == Knowledge::Open;
         cell == self.brief.start || Direction::ALL.into_iter().any(open)
     }
 
-    /// Draws a pose near the middle of a cell, seen from there.
+    /// Draws a random pose near the middle of a cell, relative to that middle.
     fn scattered(&mut self) -> Pose {
         let [x, y, turn] = [0; 3].map(|_| self.rng.random_range(-1.0..=1.0));
         let off = Vector::new(x, y) * (SCATTER.0 * self.config.pitch);
         Pose::new(Point::from(off), Heading::from_radians(SCATTER.1 * turn))
     }
 
-    /// Looks once, and takes itself to be where it most likely is; for found if it is sure of that.
+    /// Looks once, and assumes that it is where it most likely is. It has localized if it is sure
+    /// of that.
     pub(super) fn look_for_itself<R: NoisyBody>(&mut self, robot: &mut R) -> Result<(), R::Error> {
         self.time_step(robot, TurnTranslate::STOP)?;
         let readings = readings(robot.sensing());
@@ -123,7 +124,7 @@ impl NoisyMouse {
         leap.map_or(Choice::End(Standing::Done), Choice::Drive)
     }
 
-    /// Drives a cell while it does not know where it is, and turns where it sees no way.
+    /// Chooses to drive a cell ahead while it is lost, and to turn if there is no way.
     fn choose_to_find_itself(&self) -> Choice {
         let at = self.cell();
         let targets = match self.brief.goals.contains(&at) {
@@ -150,7 +151,7 @@ impl NoisyMouse {
 }
 
 impl Mapper for NoisyMouse {
-    /// A reading, and the pose that it was made at.
+    /// A reading, and the pose at which it was made.
     type Observation = (Pose, RangeReading);
     type Error = Infallible;
 

@@ -17,7 +17,7 @@ pub struct MazeMouseConfig {
     pub translate_per_step: f64,
 }
 
-/// Reason why there is no such mouse.
+/// Reason why a mouse cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MazeMouseError {

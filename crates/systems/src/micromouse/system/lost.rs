@@ -17,7 +17,7 @@ pub(super) struct Lost {
     /// Its possible poses; the compass gives its heading.
     pub(super) poses: PoseSet<SIDE>,
     looks: Direction,
-    /// The middle of its cell, m, in a frame that is right but for whole cells.
+    /// Middle of its cell, m, in a frame that may be off by whole cells.
     middle: Point,
 }
 

@@ -32,7 +32,7 @@ pub(super) struct Beam {
     aside: f64,
 }
 
-/// A beam farther off the grid than this, as a cosine, tells of walls to the side: 8°.
+/// Cosine below which a beam is too far off the grid, 8°: its reading is about walls at the side.
 const STRAIGHT: f64 = 0.99;
 
 /// A beam this far from the middle of its row, as a share of the pitch, may meet a post.

@@ -15,7 +15,7 @@ pub(super) struct ChangedMap {
     is_cut_off: bool,
 }
 
-/// A wall is drawn when it has barred the way so often.
+/// Number of times that a wall has to bar the way before it is drawn.
 const ENOUGH: u32 = 2;
 
 impl ChangedMap {
@@ -38,9 +38,9 @@ impl ChangedMap {
         &self.now
     }
 
-    /// Notes that these walls bar the way at a standpoint. Draws them when they have done so often
-    /// enough and another way leads to the goal; returns whether it did. O(1), or as making a map
-    /// ready takes.
+    /// Records that these walls bar the way at a standpoint. Draws them when they have done so
+    /// often enough and another way leads to the goal, and returns whether it did. O(1), or the
+    /// cost of preparing a map.
     pub(super) fn bar(&mut self, walls: &[Point], at: Point) -> bool {
         self.barred += 1;
         if self.barred < ENOUGH || self.is_cut_off {
@@ -62,7 +62,7 @@ impl ChangedMap {
         }
     }
 
-    /// Forgets all walls; returns whether there were any.
+    /// Forgets all walls, and returns whether there were any.
     pub(super) fn forget(&mut self) -> bool {
         let has_changed = !Arc::ptr_eq(&self.now, &self.learned);
         *self = Self::new(Arc::clone(&self.learned));

@@ -11,7 +11,7 @@ pub struct BetterConfig {
     pub diameter: f64,
     /// Standard deviation of what the wheels rolled in a time step, as a share of it.
     pub odometry_sd: f64,
-    /// Standard deviation of how far a wall pushed the robot aside in a time step in which it
+    /// Standard deviation of how far a wall pushed the robot to the side in a time step in which it
     /// touched one, m.
     pub slide_sd: f64,
     /// Errors of its motors.
@@ -148,7 +148,7 @@ impl Motors {
         }
     }
 
-    /// Those of the paper's robot.
+    /// Errors of the motors of the paper's robot.
     pub const PIONEER: Self = Self {
         turn_per_command: 91.0 * core::f64::consts::PI / 180.0,
         turn_sd: 0.12,

@@ -50,8 +50,8 @@ impl ActionCosts {
             .push(options.map(|cost| libm::round((cost - least) / MORE_UNIT) as u8));
     }
 
-    /// Returns the time steps to the goal on average by an option at a standpoint; [`HOPELESS`]
-    /// where there is no such.
+    /// Returns the mean number of time steps to the goal by an option at a standpoint; [`HOPELESS`]
+    /// if there is none.
     pub(super) fn cost(&self, standpoint: u32, option: usize) -> f64 {
         let standpoint = standpoint as usize;
         let (Some(least), Some(more)) = (self.least.get(standpoint), self.more.get(standpoint))

@@ -14,9 +14,9 @@ pub(super) struct Failures {
 
 /// Older failures are forgotten.
 const MOST: usize = 24;
-/// Actions that fail so near to each other fail at the same place, m.
+/// Distance within which failing actions fail at the same place, m.
 const NEAR: f64 = 0.35;
-/// An action may fail so often at a place before it costs more there.
+/// Number of failures at a place before an action costs more there.
 const FREE: usize = 1;
 /// Extra cost of an action per failure, time steps.
 const COST: f64 = 15.0;

@@ -26,7 +26,7 @@ pub struct BetterMap {
 /// below.
 const SETTLED: f32 = 0.01;
 const MOST_SWEEPS: usize = 200;
-/// A standpoint so near is about where the robot is, m.
+/// Distance within which a standpoint is about where the robot is, m.
 const ABOUT: f64 = 0.25;
 
 impl BetterMap {

@@ -28,13 +28,14 @@ pub struct BetterMapFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BetterMapFileError {
-    /// The header or the JSON is not sound, or names another system; or the map has no JSON form.
+    /// The header or the JSON is invalid, or names another system; or the map cannot be written as
+    /// JSON.
     #[error(transparent)]
     File(#[from] FileError),
     /// The configuration fits no robot.
     #[error("its configuration is invalid")]
     Config(#[from] BetterConfigError),
-    /// The map is not sound.
+    /// The map is invalid.
     #[error("its chart is invalid")]
     Chart(#[from] ChartError),
     /// The number of true positions differs from that of places.

@@ -22,7 +22,7 @@ pub(super) struct Reckoning {
 
 /// Time steps in which a whole action leads on.
 const STEPS_OF_ACTION: u32 = 2;
-/// A step that leads on leads so far at least, as a share of what an action does.
+/// Minimum distance of a step that leads on, as a share of an action's.
 const LEADS_ON: f64 = 0.1;
 
 /// Standard deviation of how far an action leads aside whose way the wheels do not tell, as a share

@@ -1,4 +1,4 @@
-//! `tolman arena --own-verdict`: what systems make of their own maps, by right ones and wrong ones.
+//! `tolman arena --own-verdict`: what systems say about their own maps, right ones and wrong ones.
 
 use std::io::Write;
 
@@ -10,8 +10,13 @@ use tolman_papers::arena::{ArenaWorld, DrawnWorld, PoolRound, RungJudgement, Ver
 
 use super::{Arguments, Failure, MOST_WORLDS};
 
-/// Right maps and wrong ones of each system.
+/// Number of right maps, and of wrong maps, to collect for each system.
 const ENOUGH: u32 = 100;
+
+/// Heading of the table: "wrong maps called right, %" takes two lines.
+const HEADING: &str = "\
+\x20                                right wrong                wrong maps      right maps               Brier
+system             robot          maps  maps abstained called right, % called wrong, % undecided, %  skill";
 
 pub(super) fn judge(
     arguments: &Arguments,
@@ -20,19 +25,7 @@ pub(super) fn judge(
     kinds: &[ArenaWorld],
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
-    writeln!(
-        out,
-        "{:18} {:13} {:>5} {:>5} {:>9} {:>13} {:>13} {:>11} {:>11}",
-        "system",
-        "robot",
-        "right",
-        "wrong",
-        "abstained",
-        "false right %",
-        "false alarm %",
-        "undecided %",
-        "Brier skill"
-    )?;
+    writeln!(out, "{HEADING}")?;
     let most = arguments.worlds.unwrap_or(MOST_WORLDS);
     let schooling = Schooling::default();
     let learning = contestants.iter().filter(|one| one.learns());
@@ -75,7 +68,7 @@ fn row(
     };
     writeln!(
         out,
-        "{:18} {:13} {:>5} {:>5} {:>9} {:>13} {:>13} {:>11} {:>11}",
+        "{:18} {:13} {:>5} {:>5} {:>9} {:>15} {:>15} {:>12} {:>6}",
         contestant.name(),
         contestant.robot(robot),
         judged.right,
@@ -98,7 +91,7 @@ fn row(
     }
 }
 
-/// Returns what came of the worlds of one kind.
+/// Returns the line about the worlds of one difficulty.
 fn of_rung(rung: &RungJudgement) -> String {
     let RungJudgement {
         name,

@@ -1,5 +1,5 @@
-//! The file of certificates: cycles by the ids and lines of the graph's file, so that other
-//! programs can check them.
+//! The file of certificates. It names cycles by the ids and lines of the graph's file, so that
+//! other programs can check them.
 
 use alloc::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ pub(super) const NAME: &str = "certificates.json";
 const FORMAT: &str = "tolman-audit";
 const VERSION: u32 = 1;
 
-/// The whole file. Undecided closures have no certificate.
+/// The whole file. Undecided closures have no certificate and are left out.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CertificateFile {
@@ -26,7 +26,7 @@ pub(super) struct CertificateFile {
     version: u32,
     /// Factor by which every standard deviation is multiplied.
     sigma_scale: f64,
-    /// Standard deviations within which a cycle agrees.
+    /// Number of standard deviations within which a cycle agrees.
     k: f64,
     poses: usize,
     closures: usize,
@@ -60,14 +60,14 @@ struct SupportedLine {
 #[serde(deny_unknown_fields)]
 struct CycleLine {
     steps: Vec<StepLine>,
-    /// The logarithm of the product: x, y, m, heading, rad.
+    /// Logarithm of the product of all steps: x and y, m; heading, rad.
     residual: [f64; 3],
-    /// The upper triangle of its covariance, row by row.
+    /// Upper triangle of the residual's covariance, row by row.
     covariance: [f64; 6],
     chi2: f64,
 }
 
-/// A step along odometry, or over the closure of a line.
+/// A step of a cycle: along odometry, or over the closure on a line of the file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StepLine {
@@ -77,7 +77,7 @@ struct StepLine {
     line: Option<usize>,
 }
 
-/// Reason why a file is no audit of a graph.
+/// Reason why a file is not an audit of a graph.
 #[derive(Debug, Error)]
 pub(super) enum CertificateFileError {
     #[error("it is not a file of certificates: {0}; audit again without --verify")]
@@ -150,7 +150,7 @@ impl CertificateFile {
         Ok(file)
     }
 
-    /// Returns the audit that the file tells, and what it was made with.
+    /// Returns the audit that the file describes, and the configuration it was made with.
     pub(super) fn audit(
         &self,
         file: &GraphFile,
@@ -203,7 +203,7 @@ impl CertificateFile {
     }
 }
 
-/// From the numbers of a graph to those of its file.
+/// Translates the numbers of a graph into those of its file.
 struct Names<'a>(&'a GraphFile);
 
 impl Names<'_> {
@@ -223,7 +223,7 @@ impl Names<'_> {
     }
 }
 
-/// From the numbers of a file to those of its graph.
+/// Translates the numbers of a file into those of its graph.
 struct Places<'a> {
     file: &'a GraphFile,
     edge_of_line: BTreeMap<usize, u32>,
@@ -248,7 +248,7 @@ impl<'a> Places<'a> {
         Ok(place as u32)
     }
 
-    /// Returns the edge of a line that joins two poses, either way.
+    /// Returns the edge on `line`, which joins the poses `from` and `to` in either direction.
     fn edge_between(&self, line: usize, from: u64, to: u64) -> Result<u32, CertificateFileError> {
         let found = self.edge_of_line.get(&line).copied().filter(|index| {
             let edge = &self.file.file.edges[*index as usize];
@@ -257,7 +257,7 @@ impl<'a> Places<'a> {
         found.ok_or(CertificateFileError::NoEdge { line, from, to })
     }
 
-    /// Returns the edge of a line that leads from one pose to another.
+    /// Returns the edge on `line`, which leads from the pose `from` to the pose `to`.
     fn edge(&self, line: usize, from: u64, to: u64) -> Result<u32, CertificateFileError> {
         let index = self.edge_between(line, from, to)?;
         match self.file.file.edges[index as usize].from == from {

@@ -22,18 +22,21 @@ use certificates::CertificateFile;
 /// Finds which loop closures of a pose graph are right, wrong or undecided; exits 1 if one is wrong
 #[derive(clap::Args)]
 #[command(after_help = "\
-A closure is supported by independent cycles that agree with it, refuted by a certificate (a cycle beyond five standard deviations that can be
-measured again), or undecided, with the reason. The folder gets audit.html, cleaned.g2o (without the refuted closures), certificates.json and
-verdicts.csv. docs/audit.md says what the words mean.
+A closure gets one of three verdicts:
+  supported   independent cycles agree with it
+  refuted     a cycle is off by more than five standard deviations; the certificate names it, so it can be measured again
+  undecided   neither, with the reason
+
+The folder gets audit.html, cleaned.g2o (without the refuted closures), certificates.json and verdicts.csv. docs/audit.md has more.
 
 Example:
   tolman audit mazes/graphs/rooms.g2o --out audited # exits 1
   tolman audit mazes/graphs/rooms.g2o --out audited --verify")]
 pub(super) struct Arguments {
-    /// The pose graph as g2o writes it (VERTEX_SE2, EDGE_SE2), plain or gzipped
+    /// Pose graph in g2o format (VERTEX_SE2, EDGE_SE2), plain or gzipped
     graph: PathBuf,
-    /// Factor of every stated standard deviation, or auto for the factor that the graph's own short
-    /// cycles show
+    /// Factor for every stated standard deviation, or `auto` to estimate it from the graph's own
+    /// short cycles
     #[arg(long, value_name = "S|auto", default_value = "1", value_parser = scale)]
     sigma_scale: Scale,
     /// Check the certificates in the folder instead of making them; exits 1 if one does not hold
@@ -42,7 +45,7 @@ pub(super) struct Arguments {
     /// Folder for the results [default: results/audit/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Leave undecided closures out of cleaned.g2o as well
+    /// Leave undecided closures out of cleaned.g2o as well as refuted ones
     #[arg(long, conflicts_with = "verify")]
     strict: bool,
 }
@@ -64,7 +67,7 @@ fn scale(text: &str) -> Result<Scale, String> {
         .ok_or_else(|| "give a positive number, or auto".to_owned())
 }
 
-/// A graph with what was found of it.
+/// A graph and its audit.
 struct Audited<'a> {
     name: String,
     file: &'a GraphFile,
@@ -148,8 +151,7 @@ impl Arguments {
 }
 
 impl Audited<'_> {
-    /// Returns the graph without refuted closures, and without undecided ones if it is to be
-    /// strict.
+    /// Returns the graph without refuted closures; without undecided ones too if `strict`.
     fn cleaned(&self, strict: bool) -> G2o {
         let goes = |verdict: &ClosureVerdict| match strict {
             true => !verdict.is_supported(),
@@ -166,7 +168,7 @@ impl Audited<'_> {
     }
 }
 
-/// Measures the certificates in a folder again.
+/// Measures the certificates in a folder again and reports which hold.
 fn check(
     file: &GraphFile,
     graph: &Path,

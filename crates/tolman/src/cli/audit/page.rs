@@ -50,7 +50,8 @@ pub(super) fn html(audited: &Audited<'_>, laid_out: &PoseGraph) -> String {
         .html()
 }
 
-/// Returns the poses where odometry and supported closures have them, and all closures over them.
+/// Returns the picture: the poses as odometry and supported closures place them, under all
+/// closures.
 fn picture(audited: &Audited<'_>, laid_out: &PoseGraph) -> Figure {
     let places: Vec<Point> = laid_out.poses().iter().map(|pose| pose.position).collect();
     let mut plan = FloorPlan::of_bounds(&Bounds::of(places.iter().copied()), WIDTH);
@@ -134,7 +135,7 @@ fn listed(audited: &Audited<'_>, title: &str, is: impl Fn(&ClosureVerdict) -> bo
     table.note(of(all.len(), "first "))
 }
 
-/// Returns how many of all are listed, if not all are.
+/// Returns a sentence that says how many of `all` closures are listed; empty if all are.
 fn of(all: usize, which: &str) -> String {
     match all {
         0 => "None. ".to_owned(),

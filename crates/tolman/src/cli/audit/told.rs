@@ -1,4 +1,4 @@
-//! An audit in words.
+//! The words in which an audit is reported.
 
 use core::fmt::Write as _;
 use std::io::{self, Write};
@@ -12,13 +12,13 @@ use tolman_papers::real::GraphFile;
 
 use super::Audited;
 
-/// Greatest number of closures and faults that are listed one by one.
+/// Maximum number of closures and faults that are listed one by one.
 const TOLD: usize = 10;
 
 /// Prints on stderr which parts of a file are not used.
 pub(super) fn left_out(path: &Path, file: &G2o) {
     let (path, count) = (path.display(), file.left_out.len());
-    // Nobody is left to be told that stderr cannot be written.
+    // If stderr cannot be written, there is no other place to report it.
     let mut err = anstream::stderr();
     for fault in file.left_out.iter().take(TOLD) {
         let _ = writeln!(err, "{path}: {fault}");
@@ -83,8 +83,8 @@ impl Audited<'_> {
         )
     }
 
-    /// Returns what the graph's own short cycles say of its standard deviations, if it is worth a
-    /// word.
+    /// Returns what the graph's short cycles suggest about its standard deviations, or `None` if
+    /// the factor in use is near enough.
     pub(super) fn told_of_scale(&self) -> Option<String> {
         let estimate = self.estimate?;
         let by = rounded(estimate.estimate);
@@ -92,18 +92,18 @@ impl Audited<'_> {
         let off = estimate.estimate / self.config.sigma_scale;
         if estimate.is_heavy() && off < 0.5 {
             return Some(format!(
-                "{cycles} short cycles would have the standard deviations × {by}, but their tail is heavy (99th percentile {tail} times the median; a \
+                "{cycles} short cycles suggest standard deviations × {by}, but their tail is heavy (99th percentile {tail} times the median; a \
                  Gaussian's is 4.8): smaller ones would refute right closures"
             ));
         }
         (!(0.5..=2.0).contains(&off)).then(|| {
             format!(
-                "{cycles} short cycles have the standard deviations × {by}: try --sigma-scale auto"
+                "{cycles} short cycles suggest standard deviations × {by}: try --sigma-scale auto"
             )
         })
     }
 
-    /// Returns a closure and its verdict.
+    /// Returns a line with a closure and its verdict.
     pub(super) fn told(&self, closure: &AuditedClosure) -> String {
         let edge = &self.file.file.edges[closure.edge as usize];
         let verdict = verdict(&closure.verdict);
@@ -150,7 +150,7 @@ fn reason(because: &UndecidedBecause) -> String {
     }
 }
 
-/// Returns how far a cycle is off.
+/// Returns the residual of a cycle in words.
 pub(super) fn off(cycle: &AuditCycle) -> String {
     let [x, y, turn] = cycle.residual;
     let metres = (x * x + y * y).sqrt();
@@ -161,13 +161,13 @@ pub(super) fn off(cycle: &AuditCycle) -> String {
     )
 }
 
-/// Returns a number with at most three digits behind the point, and no zeros at its end.
+/// Returns a number with at most three decimals and no trailing zeros.
 pub(super) fn rounded(number: f64) -> String {
     let text = format!("{number:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Returns the verdict of every closure, a line each.
+/// Returns a CSV text with the verdict of every closure, one line each.
 pub(super) fn csv(audited: &Audited<'_>) -> String {
     let mut text = "line,from,to,run,verdict,witnesses,reason\n".to_owned();
     for closure in &audited.audit.closures {
@@ -182,7 +182,7 @@ pub(super) fn csv(audited: &Audited<'_>) -> String {
             },
             ClosureVerdict::Undecided(because) => ("undecided", 0, reason(because)),
         };
-        // Nothing can go wrong when a string grows.
+        // Writing to a string cannot fail.
         let _ = writeln!(
             text,
             "{},{},{},{},{word},{witnesses},\"{why}\"",
@@ -192,7 +192,8 @@ pub(super) fn csv(audited: &Audited<'_>) -> String {
     text
 }
 
-/// Returns a fault of a certificate, with the line of the graph's file where it names an edge.
+/// Returns a fault of a certificate in words. Where it names an edge, the line of the graph's file
+/// is added.
 pub(super) fn by_line(error: &AuditCertificateError, file: &GraphFile) -> String {
     let told = error.to_string();
     let line = error

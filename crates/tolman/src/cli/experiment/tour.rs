@@ -1,4 +1,4 @@
-//! `tolman experiment` alone: the main tables of all experiments, in about a minute.
+//! `tolman experiment` without a name: the main tables of all experiments, in about a minute.
 
 use alloc::sync::Arc;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -16,10 +16,10 @@ use tolman_experiment::{
 use super::{classify, heading};
 use crate::cli::{App, Failure, bar, file, ink, interrupt};
 
-/// Columns that no line of the tour passes.
+/// Maximum width of the tour's lines, columns.
 const WIDTH: usize = 80;
 
-/// Steps of the bar for each experiment.
+/// Number of steps that the bar has for each experiment.
 const STEPS: u32 = 1000;
 
 pub(super) fn carry_out(
@@ -82,10 +82,11 @@ pub(super) fn carry_out(
     Ok(())
 }
 
-/// Returns how long all tables of an experiment take, from the time that the shown runs took.
+/// Returns an estimate of how long all tables of an experiment take, from the time that the shown
+/// runs took.
 ///
 /// # Errors
-/// If the experiment cannot be made ready.
+/// If the experiment cannot be prepared.
 fn whole_of(
     entry: &Entry,
     app: &App<'_>,
@@ -99,7 +100,7 @@ fn whole_of(
     Ok(took.mul_f64(all as f64 / runs.max(1) as f64))
 }
 
-/// A duration of which little is known: whole minutes.
+/// Returns a rough duration in words, in whole minutes.
 fn rounded(duration: Duration) -> String {
     match duration.as_secs().div_ceil(60) {
         0 | 1 => "a minute".to_owned(),
@@ -107,12 +108,12 @@ fn rounded(duration: Duration) -> String {
     }
 }
 
-/// One bar for the whole tour, in equal parts for its experiments.
+/// Progress bar of the whole tour, with equal parts for its experiments.
 struct Shown {
     stop: Arc<AtomicBool>,
     bar: ProgressBar,
     stops: usize,
-    /// Where the part of the experiment begins, in steps of the bar.
+    /// Step of the bar at which the current experiment's part begins.
     begin: AtomicU64,
     total: AtomicU64,
     done: AtomicU64,
@@ -131,7 +132,7 @@ impl Shown {
         }
     }
 
-    /// Goes on to the experiment of this place, from 0.
+    /// Moves the bar to the beginning of the experiment number `place`, counted from 0.
     fn begin(&self, place: usize, name: &str) {
         let begin = place as u64 * u64::from(STEPS);
         self.begin.store(begin, Ordering::Relaxed);

@@ -8,11 +8,11 @@ use tolman_papers::Glimpse;
 use super::{Now, Scene};
 use crate::cli::Failure;
 
-/// A screen that there is not.
+/// Stands in for the screen; there is no value of it.
 #[derive(Debug)]
 pub(in crate::cli) enum Screen {}
 
-/// Says how to see more than a line, and returns no screen.
+/// Prints how to build a `tolman` that draws, and returns no screen.
 pub(super) fn screen(_: Scene) -> Result<Option<Screen>, Failure> {
     if io::stdout().is_terminal() {
         let told = "note: this build draws no picture; one with `--features live` does";

@@ -1,4 +1,4 @@
-//! What a run tells whoever looks.
+//! What a run passes to its viewer.
 
 use tolman_arena::course::Course;
 use tolman_arena::episode::{Step, Trial};
@@ -6,7 +6,7 @@ use tolman_control::Outcome;
 use tolman_geom::Pose;
 use tolman_robot::{Robot, Scan};
 
-/// What a run is made of, for whoever looks.
+/// The fixed facts of a run.
 #[cfg_attr(
     not(feature = "live"),
     expect(dead_code, reason = "a line shows less than a picture")
@@ -14,14 +14,14 @@ use tolman_robot::{Robot, Scan};
 #[derive(Clone, Debug)]
 pub(in crate::cli) struct Scene {
     pub(in crate::cli) course: Course,
-    /// Who chooses the actions.
+    /// Name of the brain or system that chooses the actions.
     pub(in crate::cli) word: String,
     pub(in crate::cli) seed: u64,
     pub(in crate::cli) start: Pose,
     pub(in crate::cli) step_us: u64,
     /// The robot's radius, m.
     pub(in crate::cli) radius: f64,
-    /// Time steps after which it ends; `None` if they are not counted.
+    /// Number of time steps after which the run ends; `None` without a limit.
     pub(in crate::cli) step_limit: Option<u32>,
 }
 
@@ -48,16 +48,16 @@ impl Scene {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::cli) struct Now<'a> {
     pub(in crate::cli) pose: Pose,
-    /// Whether it ended at a wall.
+    /// Whether the step ended at a wall.
     pub(in crate::cli) bump: bool,
-    /// The action under way, or what the robot thinks.
+    /// The action under way, or what the robot is doing.
     pub(in crate::cli) action: &'a str,
-    /// How an action ended with this step.
+    /// How an action ended with this step; `None` if none did.
     pub(in crate::cli) ended: Option<&'a str>,
     pub(in crate::cli) scan: Option<&'a Scan>,
 }
 
-/// Shows a step of a trial.
+/// Passes a step of a trial to `show`.
 pub(in crate::cli) fn see(step: &Step<'_>, mut show: impl FnMut(&Now<'_>)) {
     let action = step.action.to_string();
     let ended = step.ends.map(|outcome| {

@@ -1,4 +1,4 @@
-//! The whole terminal as a screen.
+//! The view that fills the whole terminal.
 
 mod pace;
 mod palette;
@@ -13,13 +13,13 @@ use crate::cli::{Failure, ink, interrupt};
 pub(super) use screen::Screen;
 use view::{View, fits_the_terminal};
 
-/// Returns a screen that shows a run before its first step; none where there is no terminal that
-/// can be drawn on.
+/// Returns a screen that shows a run before its first step, or `None` if there is no terminal to
+/// draw on.
 pub(super) fn screen(scene: Scene) -> Result<Option<Screen>, Failure> {
     if !fits_the_terminal() {
         return Ok(None);
     }
     let view = View::new(scene, ink());
-    // A terminal without a keyboard gets the line, too.
+    // A terminal without a keyboard gets the single line, too.
     Ok(Screen::open(view, interrupt::flag()?).ok())
 }

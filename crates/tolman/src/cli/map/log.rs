@@ -1,4 +1,4 @@
-//! `tolman map --log`: the way of a robot, found in its log.
+//! `tolman map --log`: finds the way of a robot from its log.
 
 use alloc::collections::BTreeSet;
 use std::fs;
@@ -17,9 +17,17 @@ use crate::cli::replay_file::{self, Overwrite};
 use crate::cli::{Failure, OrBadInput, called, file};
 
 pub(super) const EXAMPLES: &str = "\
-Into the folder go report.html, replay.html (the log played beside its map), map.svg (occupancy, and both ways over it), trajectory.tum, odometry.tum and noted.tum (the way found, by the wheels, and as
-the log notes it: time x y z qx qy qz qw, as evo reads them), and map.yaml with map.pgm, as map_server of ROS and `tolman run --world` read them; of a map of
-places also places.graphml, places.dot, places.json (node-link, as networkx reads it) and places.geojson (for nav2_route).
+The folder gets:
+  report.html                     pictures and figures
+  replay.html                     the log played beside its map
+  map.svg                         occupancy, the way found and the odometry
+  trajectory.tum                  the way found, in the format of evo: time x y z qx qy qz qw
+  odometry.tum, noted.tum         the ways by the wheels and as noted in the log, in the same format
+  map.yaml, map.pgm               the map for map_server of ROS, and for `tolman run --world`
+A map of places adds:
+  places.graphml, places.dot
+  places.json                     node-link, as networkx reads it
+  places.geojson                  for nav2_route
 
 Examples:
   tolman map --log logs/office.clf.gz --out office
@@ -30,11 +38,11 @@ Examples:
 #[derive(clap::Args)]
 #[group(skip)]
 pub(super) struct Arguments {
-    /// The log: CARMEN's or Wean Hall's lines, plain or packed by gzip, or a bag of ROS 2 (MCAP;
-    /// feature `mcap`)
+    /// Log file: lines of CARMEN or of Wean Hall, plain or gzipped, or a ROS 2 bag (MCAP; feature
+    /// `mcap`)
     #[arg(long, value_name = "FILE", required = true)]
     log: Option<PathBuf>,
-    /// The system that finds the way
+    /// System that finds the way
     #[arg(long, value_enum, default_value = "scan-matching")]
     system: System,
     /// Folder for the results; made if it does not exist
@@ -42,27 +50,28 @@ pub(super) struct Arguments {
     out: Option<PathBuf>,
 }
 
-/// A system that finds the way of a robot in its log.
+/// A system that finds the way of a robot from its log.
 #[derive(Clone, Copy, ValueEnum)]
 enum System {
-    /// Scans are matched to earlier ones, and to places seen before: the dense baseline
+    /// Matches scans to earlier ones, and to places seen before: the dense baseline
     ScanMatching,
-    /// Scans are matched to earlier ones; junctions, bends, dead ends and rooms are places, and are
-    /// recognized
+    /// Matches scans to earlier ones; junctions, bends, dead ends and rooms are places, which it
+    /// recognizes again
     Places,
-    /// Scans are only matched to those before
+    /// Matches scans only to those shortly before
     Matching,
-    /// Only the wheels
+    /// Uses the wheels only
     Odometry,
-    /// The same places; the diktiometry recognizes them by bounds on the ways between them
+    /// Has the same places; the diktiometry recognizes them by bounds on the ways between them
     Diktiometry,
-    /// The same places; CPM recognizes them by what was seen on the ways between them
+    /// Has the same places; CPM recognizes them by what was seen on the ways between them
     Cpm,
-    /// The same places; the place graph of GNG-SLAM recognizes them by the laser's readings there
+    /// Has the same places; the place graph of GNG-SLAM recognizes them by the laser's readings
+    /// there
     Gngslam,
-    /// Refused: it learns from actions, which no log names
+    /// Refused: it learns from actions, which a log does not name
     Mslst,
-    /// Refused: it learns the walls of a grid's cells, which no log has
+    /// Refused: it learns the walls of a grid's cells, which a log does not have
     Micromouse,
 }
 
@@ -102,22 +111,23 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     }
 }
 
-/// Returns what speaks against a map: by the mapper's own judgement, or by what the laser read.
+/// Returns why a map is doubtful, by the mapper's own verdict or by what the laser read; `None` if
+/// it is not.
 fn doubt(found: &MappedLog, picture: &MapPicture) -> Option<String> {
     let is_doubtful = found.certainty.is_some_and(|certainty| certainty < 0.5);
     let by_itself = is_doubtful.then(|| {
-        "its places may be one with another, or two were taken for one; the ways between them do not tell"
+        "two of its places may be the same, or one of them may be two: the ways between them do not decide"
             .to_owned()
     });
     let doubled = found.doubled();
     let by_its_places = (doubled > 0).then(|| {
         let all = found.founded.len();
-        format!("{doubled} of its {all} places lie where the way found has another one, not recognized when the robot came back")
+        format!("{doubled} of its {all} places lie where another one is: the robot did not recognize it when it came back")
     });
     by_itself.or(by_its_places).or_else(|| picture.doubt())
 }
 
-/// Returns what was found, a line each.
+/// Returns what was found, one line each.
 fn sentences(found: &MappedLog) -> Vec<String> {
     let MappedLog {
         closures,
@@ -138,7 +148,7 @@ fn sentences(found: &MappedLog) -> Vec<String> {
     told
 }
 
-/// Finds the way, with a bar on the terminal.
+/// Returns the way found in the log, and shows a progress bar on the terminal.
 fn found(log: &RobotLog, system: System) -> Result<MappedLog, Failure> {
     let system = match system {
         System::ScanMatching => LogSystem::ScanMatching,
@@ -166,13 +176,13 @@ fn refused(why: &str) -> Failure {
     ))
 }
 
-/// All that there is to be written.
+/// Everything to write.
 struct Mapped<'a> {
     path: &'a Path,
     log: &'a RobotLog,
     found: &'a MappedLog,
     picture: &'a MapPicture,
-    /// What was found, a line each.
+    /// What was found, one line each.
     told: &'a [String],
 }
 
@@ -244,5 +254,5 @@ impl Mapped<'_> {
     }
 }
 
-/// Of the picture, in user units.
+/// Width of the picture, user units.
 const WIDTH: f64 = 960.0;

@@ -1,4 +1,4 @@
-//! `tolman map`: finds the way of a robot in its log, and looks at learned maps.
+//! `tolman map`: finds the way of a robot from its log, and shows learned maps.
 
 mod log;
 
@@ -17,8 +17,8 @@ use crate::cli::kind::Kind;
 use crate::cli::{App, Failure, OrBadInput, file};
 use crate::system::{LearnedMap, MapText};
 
-/// Finds the way of a robot in its log and maps what its laser saw; with a subcommand, looks at a
-/// learned map
+/// Finds the way of a robot from its log and maps what its laser saw; with a subcommand, shows,
+/// checks or plans on a learned map
 #[derive(clap::Args)]
 #[command(
     args_conflicts_with_subcommands = true,
@@ -46,7 +46,7 @@ impl Arguments {
     }
 }
 
-/// Looks at learned maps
+/// Verbs for a learned map
 #[derive(Subcommand)]
 enum Verb {
     Show(Show),
@@ -61,11 +61,11 @@ Examples:
   tolman learn --system cpm --maze mazes/cpm-1.maze --out map.json
   tolman map show map.json --maze mazes/cpm-1.maze --svg map.svg")]
 pub(in crate::cli) struct Show {
-    /// The map, made by `tolman learn`
+    /// Map file, written by `tolman learn`
     file: PathBuf,
     #[command(flatten)]
     ground: Ground,
-    /// Draw the map over the maze or the world in which it was learned, which must be given
+    /// Draw the map over the maze or the world in which it was learned; give that too
     #[arg(long, value_name = "FILE", requires = "ground")]
     svg: Option<PathBuf>,
     /// Write the figures as JSON
@@ -80,12 +80,12 @@ Example:
   tolman learn --system diktiometry --maze mazes/j-long.maze --out j-survey.json
   tolman map plan j-survey.json --from 0 --to 3")]
 pub(in crate::cli) struct Plan {
-    /// The map, made by `tolman learn`
+    /// Map file, written by `tolman learn`
     file: PathBuf,
-    /// The place to go to, by its number, instead of the goal
+    /// Number of the place to go to, instead of the goal
     #[arg(long, value_name = "PLACE")]
     to: Option<u32>,
-    /// The place to begin at, instead of the robot's place
+    /// Number of the place to begin at, instead of the robot's place
     #[arg(long, value_name = "PLACE")]
     from: Option<u32>,
 }
@@ -100,7 +100,7 @@ Example:
   tolman map check map.json --maze mazes/cpm-1.maze"
 )]
 pub(in crate::cli) struct Check {
-    /// The map, made by `tolman learn`
+    /// Map file, written by `tolman learn`
     file: PathBuf,
     #[command(flatten)]
     ground: Ground,
@@ -169,7 +169,7 @@ fn read(app: &App<'_>, path: &Path) -> Result<(MapText, Box<dyn LearnedMap>), Fa
     Ok((text, map))
 }
 
-/// Reads the text of a file with a learned map of whichever system.
+/// Returns the text of a learned map's file, of any system.
 ///
 /// # Errors
 /// Bad input with the file's name.
@@ -179,16 +179,16 @@ pub(in crate::cli) fn map_text(path: &Path) -> Result<MapText, Failure> {
     }
 }
 
-/// A file that holds a learned map, or what else may stand for one.
+/// A learned map's file, or another file that the caller accepts instead.
 pub(in crate::cli) enum MapOr<T> {
     Map(MapText),
     Other(T),
 }
 
-/// Reads the text of a file with a learned map, unless `other` makes something else of it.
+/// Returns the text of a learned map's file, or what `other` makes of the text.
 ///
 /// # Errors
-/// Bad input with the file's name, and what `other` says.
+/// Bad input with the file's name, or the error of `other`.
 pub(in crate::cli) fn map_text_or<T>(
     path: &Path,
     other: impl FnOnce(&str) -> Result<Option<T>, Failure>,
@@ -205,7 +205,7 @@ pub(in crate::cli) fn map_text_or<T>(
     })
 }
 
-/// Returns the text of a file with a learned map.
+/// Returns `text` as that of a learned map's file.
 ///
 /// # Errors
 /// Bad input with the file's name.

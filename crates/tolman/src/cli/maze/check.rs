@@ -1,4 +1,4 @@
-//! `tolman maze check`: can these files be read, and can their mazes be solved?
+//! `tolman maze check`: whether files can be read, and whether their mazes can be solved.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use super::{Failure, input, summary::Summary};
 Example:
   tolman maze check mazes/*.maze mazes/grid/*.txt")]
 pub(crate) struct Arguments {
-    /// The maze files, of any format; - reads standard input
+    /// Maze files of any format; - reads standard input
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Write one JSON object per valid maze, one per line
@@ -37,7 +37,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             Err(failure) => unsound.push(failure),
         }
     }
-    // What was found sound stands before what was not, wherever the two streams end up.
+    // Valid mazes come before the complaints, even if both streams go to one place.
     out.flush()?;
     unsound.complain(sound)
 }

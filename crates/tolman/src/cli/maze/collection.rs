@@ -1,4 +1,4 @@
-//! The mazes that one argument names, and what is done with all of them.
+//! The mazes that one argument names, and work on all of them.
 
 use std::path::{Path, PathBuf};
 
@@ -10,18 +10,18 @@ use tolman_maze::{Maze, MazeFile};
 use super::input;
 use crate::cli::{Failure, failure::note};
 
-/// The sound mazes of a file or a folder, by name, and what is to be said of the others.
+/// The valid mazes of a file or a folder, by name, and the failures of the others.
 pub(in crate::cli) struct Collection {
     pub(in crate::cli) mazes: Vec<(PathBuf, Maze)>,
     pub(in crate::cli) unsound: Unsound,
 }
 
 impl Collection {
-    /// Reads all mazes for mice that a path names. Those for robots in a folder are skipped with a
-    /// line on stderr: whoever wants one names its file.
+    /// Reads all mazes for mice that a path names. Mazes for robots in a folder are skipped with a
+    /// line on stderr; name the file to use one.
     ///
     /// # Errors
-    /// If it names none.
+    /// If there is no maze for mice.
     pub(in crate::cli) fn read(path: &Path) -> Result<Self, Failure> {
         let mut mazes = Vec::new();
         let mut unsound = Unsound::default();
@@ -47,8 +47,8 @@ impl Collection {
     }
 }
 
-/// Returns why a maze is one for robots, if it is: a mouse's has a start, and cells as wide as the
-/// rules say.
+/// Returns why a maze is one for robots, or `None` for a mouse's maze. The latter has a start, and
+/// its cells have the width of the rules.
 fn for_robots(file: &MazeFile) -> Option<&'static str> {
     if file.corridor_width.is_some() {
         return Some("it says how wide its corridors are");
@@ -56,17 +56,17 @@ fn for_robots(file: &MazeFile) -> Option<&'static str> {
     file.maze.start().is_none().then_some("it marks no start")
 }
 
-/// Lets `work` happen to each maze, `jobs` at a time or one a core, behind a progress bar. The
-/// results are in the order of the mazes.
+/// Calls `work` with each maze, `jobs` at a time or one per core, and shows a progress bar. Returns
+/// the results in the order of the mazes.
 ///
 /// # Errors
-/// What `work` fails with, or if no threads can be started.
+/// The first failure of `work`, or if no threads can be started.
 pub(in crate::cli) fn each<'a, T: Send>(
     mazes: &'a [(PathBuf, Maze)],
     jobs: Option<u16>,
     work: impl Fn(&'a Path, &'a Maze) -> Result<T, Failure> + Sync,
 ) -> Result<Vec<T>, Failure> {
-    // A single one may be drawn on the terminal meanwhile, which this thread holds.
+    // A single maze may be drawn on the terminal, which this thread owns.
     if let [(file, maze)] = mazes {
         return Ok(vec![work(file, maze)?]);
     }
@@ -78,7 +78,7 @@ pub(in crate::cli) fn each<'a, T: Send>(
     threads.install(|| {
         mazes
             .par_iter()
-            // Mazes differ much, and the last must not leave the other cores idle.
+            // Mazes take very different times, and the last must not leave the other cores idle.
             .with_max_len(1)
             .progress_with(bar)
             .map(|(file, maze)| work(file, maze))
@@ -86,11 +86,11 @@ pub(in crate::cli) fn each<'a, T: Send>(
     })
 }
 
-/// Fails if the mouse did not solve some of the mazes, each a file and whether it did. A single one
-/// is named.
+/// Fails if the mouse did not solve all mazes, each given as a file and whether it did. The failure
+/// names a single unsolved maze.
 ///
 /// # Errors
-/// A failure.
+/// A failure with the number of mazes that were not solved.
 pub(in crate::cli) fn all_solved<'a>(
     tried: impl Iterator<Item = (&'a Path, bool)>,
 ) -> Result<(), Failure> {
@@ -106,7 +106,7 @@ pub(in crate::cli) fn all_solved<'a>(
     Err(Failure::Failed(anyhow!("the mouse did not solve {which}")))
 }
 
-/// What went wrong with the mazes that cannot be used.
+/// Failures of the mazes that cannot be used.
 #[derive(Default)]
 pub(in crate::cli) struct Unsound(Vec<Failure>);
 
@@ -115,7 +115,7 @@ impl Unsound {
         self.0.push(failure);
     }
 
-    /// Keeps what went wrong, and returns what did not.
+    /// Keeps the failures, and returns the other results.
     pub(in crate::cli) fn sift<T>(
         &mut self,
         outcomes: Vec<Result<T, Failure>>,
@@ -130,13 +130,13 @@ impl Unsound {
         outcomes.into_iter().filter_map(sift)
     }
 
-    /// Returns how many there are.
+    /// Returns the number of failures.
     pub(in crate::cli) fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Complains of each, and fails if there are any. A single maze that is alone speaks for
-    /// itself.
+    /// Prints each failure, and fails if there are any. If the only maze failed, its own failure is
+    /// returned.
     pub(in crate::cli) fn complain(mut self, sound: usize) -> Result<(), Failure> {
         let (bad, all) = (self.len(), self.len() + sound);
         if all == 1

@@ -15,7 +15,7 @@ mms), tolman (docs/maze-format.md). The format read is found out from the text.
 Example:
   tolman maze convert mazes/grid/braided-2.txt --to num --out braided-2.num")]
 pub(crate) struct Arguments {
-    /// The maze file; - reads standard input
+    /// Maze file; - reads standard input
     file: PathBuf,
     #[command(flatten)]
     output: Output,

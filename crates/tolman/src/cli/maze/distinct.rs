@@ -1,4 +1,4 @@
-//! `tolman maze distinct`: can an e-puck tell the fragments of these mazes apart?
+//! `tolman maze distinct`: whether an e-puck can tell the fragments of mazes apart.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -11,22 +11,22 @@ use super::{Failure, OrBadInput, name, read};
 use crate::cli::share::share;
 use crate::systems;
 
-/// Lets an e-puck walk every fragment of mazes both ways, and exits 2 if two of them look alike
+/// Lets an e-puck walk every fragment of mazes both ways; exits 2 if two of them look alike
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
   tolman maze distinct mazes/cpm-1.maze mazes/cpm-2.maze mazes/cpm-3.maze")]
 pub(crate) struct Arguments {
-    /// The maze files, of any format, with a start
+    /// Maze files of any format, with a start
     #[arg(required = true)]
     mazes: Vec<PathBuf>,
-    /// Seed of the common patterns that are learned
+    /// Seed with which the common patterns are learned
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Number of times that each fragment is walked either way
+    /// Number of times that each fragment is walked in each direction
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..))]
     walks: u16,
-    /// Maximum similarity f_S of two fragments; the paper takes fragments above 0.9 for one
+    /// Maximum similarity f_S of two fragments; the paper takes two fragments above 0.9 for one
     #[arg(long, value_name = "F_S", default_value_t = 0.8, value_parser = share)]
     below: f64,
 }
@@ -42,13 +42,19 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             let told = told(&most);
             if most.score >= arguments.below {
                 let below = arguments.below;
-                let error = anyhow!("{name}: {told}, which is not below {below}: bend one of them");
+                let error = anyhow!(
+                    "{name}: two different fragments look alike: {told}, not below {below}; bend one of them"
+                );
                 return Err(error).or_bad_input();
             }
-            writeln!(out, "{name}: of different fragments, {told}")?;
+            writeln!(out, "{name}: most alike of different fragments: {told}")?;
         }
         if let Some(least) = found.least_alike {
-            writeln!(out, "{name}: of one fragment, {}", told(&least))?;
+            writeln!(
+                out,
+                "{name}: least alike walks of one fragment: {}",
+                told(&least)
+            )?;
         }
     }
     Ok(())
@@ -66,7 +72,7 @@ fn told(pair: &WalkPair) -> String {
         Sense::Inverted => ", inverted,",
     };
     format!(
-        "that from {} to {} and that from {} to {}{sense} have f_S = {score:.3}",
+        "{} to {} and {} to {}{sense} have f_S = {score:.3}",
         one.0, one.1, other.0, other.1
     )
 }

@@ -21,10 +21,10 @@ Example:
   tolman maze generate braided --size 12x8 --share 0.5 --seed 3 --out mine.maze
   tolman maze generate office --size large")]
 pub(crate) struct Arguments {
-    /// The family of mazes; --list describes them
+    /// Family of mazes; --list describes them
     #[arg(required_unless_present = "list")]
     family: Option<String>,
-    /// List the families, and the difficulty of each
+    /// List the families with the difficulty of each
     #[arg(long)]
     list: bool,
     /// Columns and rows, as in 16x16; or small, middle or large
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// For `braided`: the share of dead ends to open, 0 to 1 [default: 1]
+    /// For `braided`: share of dead ends to open, 0 to 1 [default: 1]
     #[arg(long, value_name = "SHARE")]
     share: Option<f64>,
     /// For `rooms`: number of tries to place a room [default: 20]
@@ -123,7 +123,7 @@ impl Arguments {
             || self.extra_doors.is_some()
     }
 
-    /// Refuses what a family has not.
+    /// Refuses options that `family` does not have.
     fn check(&self, family: &str) -> Result<(), Failure> {
         if self.share.is_some() && family != "braided" {
             let why =

@@ -1,4 +1,4 @@
-//! Maze files as the command line names them.
+//! Maze files named on the command line.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,10 +11,10 @@ use tolman_maze::MazeFile;
 use super::{Failure, OrBadInput};
 use crate::cli::kind::Kind;
 
-/// Reads a sound maze from a file in any format, or from stdin if the path is `-`.
+/// Reads a valid maze from a file in any format, or from stdin if the path is `-`.
 ///
 /// # Errors
-/// Bad input with the file's name, and line and column where the text is at fault.
+/// Bad input with the file's name, and with line and column if the text is at fault.
 pub(in crate::cli) fn read(path: &Path) -> Result<MazeFile, Failure> {
     let text = text(path)?;
     tolman_maze::read(&text)
@@ -22,10 +22,10 @@ pub(in crate::cli) fn read(path: &Path) -> Result<MazeFile, Failure> {
         .or_bad_input()
 }
 
-/// [`read`], for a maze that nobody will ever solve.
+/// Like [`read`], but also accepts a maze without a way to the goal.
 ///
 /// # Errors
-/// As [`read`], but for mazes without a way to the goal.
+/// As [`read`].
 pub(super) fn parse(path: &Path) -> Result<MazeFile, Failure> {
     let text = text(path)?;
     tolman_maze::parse(&text)
@@ -33,8 +33,8 @@ pub(super) fn parse(path: &Path) -> Result<MazeFile, Failure> {
         .or_bad_input()
 }
 
-/// Returns the maze files that a path names: itself, or what lies in the folder, by name, without
-/// hidden files.
+/// Returns the maze files that a path names: the file itself, or the files of the folder, sorted by
+/// name, without hidden ones.
 ///
 /// # Errors
 /// If the folder cannot be read or holds no file.
@@ -59,7 +59,7 @@ pub(super) fn files(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-/// Returns what messages call a file.
+/// Returns the name of a file in messages.
 pub(in crate::cli) fn name(path: &Path) -> String {
     if is_stdin(path) {
         "standard input".to_owned()
@@ -68,12 +68,12 @@ pub(in crate::cli) fn name(path: &Path) -> String {
     }
 }
 
-/// Returns the name that a maze file gives its maze, or what messages call the file.
+/// Returns the name that a maze file gives its maze, or else the name of the file in messages.
 pub(in crate::cli) fn world_name(path: &Path, file: &MazeFile) -> String {
     file.name.clone().unwrap_or_else(|| name(path))
 }
 
-/// Reads the text of a file, or of stdin if the path is `-`.
+/// Returns the text of a file, or of stdin if the path is `-`.
 ///
 /// # Errors
 /// Bad input with the file's name.

@@ -1,4 +1,4 @@
-//! Mazes written where and as the command line says.
+//! Writes mazes in the format and to the file that the command line names.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -9,13 +9,13 @@ use tolman_maze::{Format, MazeFile, write};
 
 use super::{Failure, OrBadInput, file};
 
-/// Where a maze is written, and in which format.
+/// Where to write a maze, and in which format.
 #[derive(clap::Args)]
 pub(super) struct Output {
-    /// The format to write
+    /// Format to write
     #[arg(long, value_name = "FORMAT", default_value = "tolman", value_parser = formats())]
     to: Format,
-    /// The file to write, instead of standard output
+    /// File to write, instead of standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
@@ -26,7 +26,7 @@ impl Output {
             .context("cannot write the maze")
             .or_bad_input()?;
         if let Some(lost) = self.lost(maze) {
-            // Nobody is left to be told that stderr cannot be written.
+            // If stderr cannot be written, there is no other place to report it.
             let _ = writeln!(
                 anstream::stderr(),
                 "note: the format `{}` has no room for {lost}; `tolman` has",
@@ -39,7 +39,8 @@ impl Output {
         }
     }
 
-    /// Returns what the maze file says beside its maze and the format cannot hold, in words.
+    /// Returns, in words, what the maze file says that the format cannot hold; `None` if nothing is
+    /// lost.
     fn lost(&self, maze: &MazeFile) -> Option<&'static str> {
         if self.to == Format::Tolman {
             return None;

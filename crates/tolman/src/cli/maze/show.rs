@@ -1,4 +1,4 @@
-//! `tolman maze show`: a maze as a drawing.
+//! `tolman maze show`: draws a maze.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use super::{Failure, input, summary::Summary};
 Example:
   tolman maze show mazes/j.maze")]
 pub(crate) struct Arguments {
-    /// The maze file; - reads standard input
+    /// Maze file; - reads standard input
     file: PathBuf,
     /// Write the figures and the drawing as JSON
     #[arg(long)]

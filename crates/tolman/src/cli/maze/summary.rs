@@ -1,11 +1,11 @@
-//! What is told of a maze beside its drawing.
+//! The figures printed beside a maze's drawing.
 
 use core::fmt;
 
 use serde::Serialize;
 use tolman_maze::{Cell, MazeFile};
 
-/// The figures of a maze. Displays as one line.
+/// The figures of a maze. Displayed as one line.
 #[derive(Serialize)]
 pub(super) struct Summary {
     file: String,
@@ -17,9 +17,9 @@ pub(super) struct Summary {
     goals: Vec<[u16; 2]>,
     dead_ends: usize,
     junctions: usize,
-    /// Cells with an opening that no way leads from to a goal.
+    /// Number of cells that are open somewhere but have no way to a goal.
     sealed: usize,
-    /// Cells from the start to the nearest goal, or `None` if there is no start or no way.
+    /// Number of cells from the start to the nearest goal; `None` if there is no start or no way.
     shortest_way: Option<u32>,
 }
 

@@ -1,10 +1,10 @@
-//! A maze with the stops of both runs.
+//! Draws a maze with the stops of both runs.
 
 use tolman_arena::micromouse::{MouseTrial, Ruling};
 use tolman_maze::{Cell, Maze};
 
-/// Returns the maze as it draws itself, with a dot on every stop of the first run and a star on
-/// those of the second; marks of start and goal stay.
+/// Returns the drawing of the maze, with a dot on every stop of the first run and a star on those
+/// of the second. The marks of start and goal stay.
 pub(super) fn of(maze: &Maze, trial: &MouseTrial) -> String {
     let mut lines: Vec<Vec<char>> = maze
         .to_string()

@@ -5,28 +5,29 @@ use tolman_geom::Point;
 use tolman_maze::{Cell, Direction, Grid};
 use tolman_replay::{EdgeKind, MapEdge, MapGrowth, MapNode, TimeSeries};
 
-/// What a mouse knows of the walls, and since which step.
+/// The walls that a mouse knows, and the step at which it learned each.
 #[derive(Debug)]
 pub(super) struct WallsKnown {
     grid: Grid,
-    /// From post to post, m.
+    /// Distance between two posts, m.
     pitch: f64,
-    /// The walls that it knows to stand, by their posts.
+    /// Walls known to stand, by their posts.
     standing: BTreeMap<(u32, u32), u32>,
-    /// The sides of cells that it knows, by the number of the wall that stands there or could.
+    /// Sides of cells that are known, by the number of the wall that stands there or could stand
+    /// there.
     sides: BTreeMap<u32, SideKnown>,
 }
 
 /// What a mouse knows of one side.
 #[derive(Clone, Copy, Debug)]
 struct SideKnown {
-    /// Since which step.
+    /// Step at which it was first seen.
     since: u32,
     stands: bool,
 }
 
 impl WallsKnown {
-    /// Returns that nothing is known.
+    /// Returns an empty record, for a `grid` whose posts are `pitch` metres apart.
     pub(super) const fn new(grid: Grid, pitch: f64) -> Self {
         Self {
             grid,
@@ -36,7 +37,7 @@ impl WallsKnown {
         }
     }
 
-    /// Notes a side that was seen after `step`.
+    /// Records a side that was seen after `step`.
     pub(super) fn see(&mut self, step: u32, seen: SideSeen) {
         let SideSeen { cell, side, stands } = seen;
         let known = SideKnown {
@@ -58,7 +59,7 @@ impl WallsKnown {
         }
     }
 
-    /// Returns whether it knows that no wall stands on a side of a cell.
+    /// Returns whether the mouse knows that there is no wall on a side of a cell.
     pub(super) fn knows_open(&self, cell: Cell, side: Direction) -> bool {
         let known = self.sides.get(&self.grid.wall(cell, side).0);
         known.is_some_and(|known| !known.stands)
@@ -69,7 +70,7 @@ impl WallsKnown {
         y * (u32::from(self.grid.width()) + 1) + x
     }
 
-    /// Returns the walls that it knows as a map that grows.
+    /// Returns the known walls as a map that grows.
     pub(super) fn growth(&self) -> MapGrowth {
         let mut posts: BTreeMap<u32, u32> = BTreeMap::new();
         for (&(from, to), &step) in &self.standing {
@@ -96,7 +97,7 @@ impl WallsKnown {
         }
     }
 
-    /// Returns how many sides of cells it knew at each step.
+    /// Returns the number of known sides at each step.
     pub(super) fn count(&self) -> TimeSeries {
         let mut steps: Vec<u32> = self.sides.values().map(|known| known.since).collect();
         steps.sort_unstable();

@@ -1,4 +1,4 @@
-//! A mouse's way through a maze, for whoever looks at it.
+//! The way of a mouse through a maze, to show and to write down.
 
 use anyhow::Context;
 use serde_json::{Value, json};
@@ -14,35 +14,35 @@ use crate::cli::live::{Live, Now, Scene};
 use crate::cli::looks::Looks;
 use crate::cli::{Failure, OrBadInput, file, picture, replay_file};
 
-/// From the middle of a cell to that of the next, as in competitions, m.
+/// Distance between the middles of two cells, as in competitions, m.
 pub(in crate::cli) const PITCH: f64 = 0.18;
 
-/// The radius of the circle that the mouse is drawn as, in pitches.
+/// Radius of the circle that the mouse is drawn as, in pitches.
 const RADIUS: f64 = 0.25;
 
-/// A step has no length in time: it is played as if it took this long, µs.
+/// Time for which a step is shown, µs; the rules give a step no duration.
 const STEP_US: u64 = 200_000;
 
 /// A mouse's way, step by step.
 #[derive(Debug)]
 pub(in crate::cli) struct Way {
-    /// The name of the maze.
+    /// The maze's name.
     name: String,
     course: Course,
-    /// From the middle of a cell to that of the next, m.
+    /// Distance between the middles of two cells, m.
     pitch: f64,
-    /// What is to be known of it as a whole, in the trace's first line.
+    /// Facts of the whole way, for the first line of the trace.
     header: Value,
-    /// Before the first step, and after each.
+    /// Pose before the first step, and after each step.
     poses: Vec<Pose>,
-    /// What it did in each step.
+    /// What the mouse did in each step.
     steps: Vec<WayStep>,
     walls: WallsKnown,
-    /// Steps after which its last run began, where that is to be seen apart.
+    /// Number of steps before its last run, where that is to be drawn apart; `None` otherwise.
     run: Option<usize>,
-    /// Steps after which it was put back to the start.
+    /// Numbers of the steps after which it was put back to the start.
     lifts: Vec<u32>,
-    /// Who looks while it goes.
+    /// View that shows the way meanwhile, if any.
     live: Option<Live>,
 }
 
@@ -50,27 +50,28 @@ pub(in crate::cli) struct Way {
 #[derive(Debug)]
 pub(in crate::cli) struct WayStep {
     pub(in crate::cli) pose: Pose,
-    /// In words.
+    /// Description of the step in words.
     pub(in crate::cli) words: String,
-    /// For the trace.
+    /// Line of the trace.
     pub(in crate::cli) line: Value,
-    /// What came of it.
+    /// How the step ended.
     pub(in crate::cli) came: Came,
 }
 
-/// What comes of a step.
+/// How a step ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::cli) enum Came {
-    /// It went where it wanted.
+    /// The mouse went where it wanted.
     Moved,
-    /// A wall stopped it.
+    /// A wall stopped the mouse.
     Crashed,
-    /// It was put back to the start.
+    /// The mouse was put back to the start.
     PutBack,
 }
 
 impl Way {
-    /// Returns a way of no steps yet; `header` is what the trace begins with, beside its format.
+    /// Returns a way without steps. `header` goes into the first line of the trace, beside its
+    /// format.
     ///
     /// # Errors
     /// If the maze marks no start.
@@ -78,8 +79,8 @@ impl Way {
         Self::of_pitch(name, maze, header, PITCH)
     }
 
-    /// Returns the same in cells of another size: `pitch` is from the middle of a cell to that of
-    /// the next, m.
+    /// Like [`new`](Self::new), for cells of another size: `pitch` is the distance between the
+    /// middles of two cells, m.
     ///
     /// # Errors
     /// If the maze marks no start.
@@ -105,8 +106,8 @@ impl Way {
         })
     }
 
-    /// Lets `looks` watch it from now on, step by step, if that is asked for; `step_limit` is the
-    /// most steps it may have.
+    /// Shows the way step by step from now on, if `looks` asks for it. `step_limit` is the maximum
+    /// number of steps.
     ///
     /// # Errors
     /// If the terminal has gone.
@@ -129,28 +130,28 @@ impl Way {
         Ok(self)
     }
 
-    /// Returns the middle of a cell, looking to `direction`.
+    /// Returns the pose in the middle of a cell, looking towards `direction`.
     pub(in crate::cli) fn in_cell(&self, cell: Cell, direction: Direction) -> Pose {
         self.course.in_cell(cell, direction)
     }
 
-    /// Notes what the mouse sees where it is.
+    /// Records what the mouse sees where it is.
     pub(in crate::cli) fn see(&mut self, sides: &[SideSeen]) {
         let step = self.steps.len() as u32;
         sides.iter().for_each(|side| self.walls.see(step, *side));
     }
 
-    /// Returns whether the mouse knows that no wall stands on this side of a cell.
+    /// Returns whether the mouse knows that there is no wall on this side of a cell.
     pub(in crate::cli) fn knows_open(&self, cell: Cell, side: Direction) -> bool {
         self.walls.knows_open(cell, side)
     }
 
-    /// Notes that the last run begins here: a picture shows it apart from what came before.
+    /// Records that the last run begins here. A picture shows it apart from the steps before.
     pub(in crate::cli) fn begin_run(&mut self) {
         self.run = Some(self.steps.len());
     }
 
-    /// Notes a step, and shows it to who looks until the next is due.
+    /// Adds a step, and shows it until the next is due.
     pub(in crate::cli) fn go(&mut self, step: WayStep) {
         if step.came == Came::PutBack {
             self.lifts.push(self.poses.len() as u32);
@@ -168,7 +169,7 @@ impl Way {
         self.steps.push(step);
     }
 
-    /// Shows its outcome, `told` in words, to who looked, and writes it down as `looks` asks for.
+    /// Shows the outcome, `told` in words, and writes the files that `looks` asks for.
     ///
     /// # Errors
     /// If a file cannot be written, or the terminal has gone.
@@ -190,7 +191,7 @@ impl Way {
         }
     }
 
-    /// Returns the way as JSON lines: a header, and a line a step.
+    /// Returns the way as JSON lines: a header, then one line per step.
     fn trace(&self) -> String {
         let mut header = json!({ "format": "tolman-mouse-trace", "version": 1, "maze": self.name });
         if let (Value::Object(header), Value::Object(more)) = (&mut header, &self.header) {
@@ -247,7 +248,7 @@ impl Way {
     }
 }
 
-/// Returns a point of the maze, counted in half-cells from the south-west corner, m.
+/// Returns the point, m, that is `x` and `y` half-cells from the south-west corner of the maze.
 pub(in crate::cli) fn half_cells(x: f64, y: f64) -> Point {
     Point::new(0.5 * PITCH * x, 0.5 * PITCH * y)
 }

@@ -1,4 +1,4 @@
-//! How a mouse drives, as a file says it.
+//! The file that says how a mouse drives.
 
 use std::path::Path;
 
@@ -9,17 +9,17 @@ use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
 
 use crate::cli::{Failure, OrBadInput};
 
-/// The largest classic maze, columns or rows.
+/// Maximum number of columns or rows of a classic maze.
 const CLASSIC: u16 = 16;
 
-/// What a file says, if one was named.
+/// Values of the file; `None` if no file was named.
 pub(super) struct Params(Option<SpeedRunConfig>);
 
 impl Params {
-    /// Reads a file.
+    /// Reads a file, if one is named.
     ///
     /// # Errors
-    /// Bad input if it cannot be read, or no mouse can drive as it says.
+    /// Bad input if it cannot be read, or no mouse can drive with its values.
     pub(super) fn read(path: Option<&Path>) -> Result<Self, Failure> {
         let Some(path) = path else {
             return Ok(Self(None));
@@ -35,7 +35,7 @@ impl Params {
         Ok(Self(Some(config.with_context(repair).or_bad_input()?)))
     }
 
-    /// Returns what the mouse drives by in this maze.
+    /// Returns the values with which the mouse drives in this maze.
     pub(super) fn config_for(&self, maze: &Maze) -> SpeedRunConfig {
         let side = maze.grid().width().max(maze.grid().height());
         self.0.unwrap_or(if side <= CLASSIC {
@@ -46,7 +46,7 @@ impl Params {
     }
 }
 
-/// Returns a file with these values, and what each means.
+/// Returns the text of a file with these values, and with the meaning of each.
 pub(super) fn template(config: SpeedRunConfig) -> String {
     let SpeedRunConfig {
         cell_mm,

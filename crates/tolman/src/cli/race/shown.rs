@@ -1,4 +1,4 @@
-//! A race for whoever looks.
+//! A race as it is shown.
 
 use std::path::Path;
 
@@ -14,10 +14,10 @@ use crate::cli::looks::Looks;
 use crate::cli::mouse::{Came, Way, WayStep};
 use crate::cli::{Failure, maze};
 
-/// The way of a mouse: cell by cell first, then the fast run.
+/// The way of a mouse: the exploration cell by cell, then the fast run.
 pub(super) struct Shown {
     way: Way,
-    /// Where the exploration was last.
+    /// Last cell of the exploration so far.
     last: Option<Cell>,
 }
 
@@ -37,7 +37,7 @@ impl Shown {
         })
     }
 
-    /// The exploring mouse is in `cell` and looks to its four sides.
+    /// Adds that the exploring mouse is in `cell` and sees its four sides.
     pub(super) fn arrive(&mut self, cell: Cell, open: [bool; 4]) {
         if let Some(last) = self.last.replace(cell)
             && let Some(side) = side_towards(last, cell)
@@ -60,7 +60,8 @@ impl Shown {
         self.way.see(&seen);
     }
 
-    /// The fast run: a place in the middle of every side that it crosses, and where each move ends.
+    /// Adds the fast run: a point in the middle of every side that it crosses, and one where each
+    /// move ends.
     pub(super) fn run(&mut self, run: &[RunLeg]) {
         self.way.begin_run();
         for (number, leg) in run.iter().enumerate() {
@@ -81,7 +82,7 @@ impl Shown {
             RunState::Straight { cell, .. } => (cell, None),
             RunState::Diagonal { cell, into, .. } => (cell, cell.beyond(into.opposite())),
         };
-        // A diagonal begins on the side by which it comes into its cell.
+        // A diagonal begins on the side through which it enters its cell.
         let mut at = on_side.map_or(self.middle(cell), |before| self.between(before, cell));
         let mut poses = Vec::new();
         for side in leg.step.directions() {
@@ -91,7 +92,7 @@ impl Shown {
             self.push(&mut poses, &mut at, self.between(cell, beyond));
             cell = beyond;
         }
-        // All but diagonals end in the middle of a cell.
+        // All moves but diagonals end in the middle of a cell.
         if !matches!(next, Some(RunState::Diagonal { .. })) {
             self.push(&mut poses, &mut at, self.middle(cell));
         }

@@ -65,7 +65,7 @@ impl Raced<'_> {
     }
 }
 
-/// Cells driven from where the run was proven back to the start.
+/// Returns the number of cells driven back to the start after the run was proven.
 fn home(explored: &SpeedRunExploration) -> u32 {
     let before = explored.search_cells + explored.proof_cells;
     explored.cells.saturating_sub(before)
@@ -102,7 +102,7 @@ fn move_json(leg: &RunLeg) -> Value {
     line
 }
 
-/// Counter-clockwise from east.
+/// Returns the heading in degrees, counter-clockwise from east.
 const fn degrees(heading: Direction) -> i32 {
     match heading {
         Direction::North => 90,
@@ -126,7 +126,7 @@ const fn name(run_move: RunMove) -> &'static str {
     }
 }
 
-/// Returns a move in words, for whoever looks.
+/// Returns a move in words.
 pub(super) fn in_words(leg: &RunLeg) -> String {
     let name = name(leg.step.run_move);
     match leg.step.run_move {
@@ -140,8 +140,8 @@ pub(super) fn in_words(leg: &RunLeg) -> String {
     }
 }
 
-/// Returns the cells of an exploration as letters: the first says where the mouse turns at the
-/// start.
+/// Returns the cells of an exploration as letters. The first letter says where the mouse turns at
+/// the start.
 pub(super) fn search_path(maze: &Maze, cells: &[Cell]) -> String {
     let mut heading = maze
         .start()
@@ -162,7 +162,7 @@ pub(super) fn search_path(maze: &Maze, cells: &[Cell]) -> String {
     cells.windows(2).filter_map(step).collect()
 }
 
-/// Returns what became of all mazes, in one line.
+/// Returns the result of all mazes in one line.
 pub(super) fn summary(raced: &[Raced<'_>]) -> String {
     let explored: Vec<&SpeedRunExploration> = raced
         .iter()

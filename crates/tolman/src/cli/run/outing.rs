@@ -1,4 +1,4 @@
-//! What `tolman run` and `tolman solve` have in common: one robot, one maze, one seed.
+//! The common part of `tolman run` and `tolman solve`: one robot, one maze, one seed.
 
 use core::ops::ControlFlow;
 use core::sync::atomic::Ordering;
@@ -36,9 +36,9 @@ pub(in crate::cli) struct Outing {
     /// Seed of all random numbers of the run: the same seed gives the same run
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Where the robot starts: random, marked (the maze's start), X,Y or X,Y,DEG in metres and
-    /// degrees, from the south-west corner of a maze or in a world's own frame, counter-clockwise
-    /// from east
+    /// Where the robot starts: random, marked (the maze's start), X,Y or X,Y,DEG. X and Y are in
+    /// metres from the south-west corner of a maze, or in a world's own frame; DEG in degrees,
+    /// counter-clockwise from east
     #[arg(
         long,
         value_name = "WHERE",
@@ -56,31 +56,31 @@ pub(in crate::cli) struct Outing {
     looks: Looks,
 }
 
-/// What a brain is called.
+/// Names of a brain.
 #[derive(Clone, Copy)]
 pub(in crate::cli) struct Name<'a> {
     /// On the command line and in sentences.
     pub(in crate::cli) word: &'static str,
     /// In tables and titles.
     pub(in crate::cli) title: &'static str,
-    /// Where the nodes of its map lie, by id; empty for none.
+    /// Positions of its map's nodes, by id; empty without a map.
     pub(in crate::cli) nodes: &'a [Point],
 }
 
-/// Makes a maze or a world ready for the calibrated robot.
+/// Returns the maze or world, made ready for the calibrated robot.
 ///
 /// # Errors
-/// Bad input if there is none, or the robot does not fit.
+/// Bad input if it cannot be read, or the robot does not fit.
 fn course(ground: &Ground) -> Result<Course, Failure> {
     let (name, terrain) = ground.read()?;
     let course = terrain.course(&name, &body()).with_context(|| name);
     course.or_bad_input()
 }
 
-/// Sends the mind that `mind` makes out, and tells what became of it.
+/// Sends the mind that `mind` makes on the run, and writes the outcome.
 ///
 /// # Errors
-/// Bad input if maze, start or files do not serve; what the mind's maker says; a failure if the
+/// Bad input if maze, start or files do not fit together; the error of `mind`; a failure if the
 /// robot did not arrive.
 pub(in crate::cli) fn carry_out(
     arguments: &Outing,
@@ -126,7 +126,7 @@ pub(in crate::cli) fn carry_out(
         done.actions += u32::from(step.ends.is_some());
         let state = || Ok(format!("{} {}", step.action, step.words()));
         let went = keeper.went(done, step.robot.path(), step.robot.bumped(), state);
-        // What is made again was seen before.
+        // Repeated steps were shown before.
         if let (Some(live), None) = (&mut live, keeper.again()) {
             live::see(step, |now| live.watch(now));
         }
@@ -150,7 +150,7 @@ pub(in crate::cli) fn carry_out(
         live.close(&told).context("the terminal has gone")?;
     }
     match broken_off {
-        // The action under way may have led to the goal all the same.
+        // The interrupted action may have led to the goal all the same.
         Some(Failure::Interrupted(_)) if episode.reached => keeper.finish()?,
         Some(failure) => return Err(failure),
         None => keeper.finish()?,
@@ -221,7 +221,7 @@ fn told(word: &str, episode: &Episode) -> String {
     )
 }
 
-/// Returns a start or a maze that does not serve is the caller's to mend.
+/// Returns the failure for an error: bad input if start or maze are at fault.
 pub(super) fn classify(error: EpisodeError) -> Failure {
     match error {
         EpisodeError::Start(_)

@@ -1,17 +1,17 @@
-//! A run written down, so that others can look at it and the simulator can repeat it to the bit.
+//! The trace of a run, which can be watched, and which the simulator can repeat to the bit.
 
 use tolman_arena::episode::Trial;
 use tolman_robot::TurnTranslate;
 use tolman_sim::robots::LaserPioneer;
 use tolman_sim::trace::{Detail, Recording};
 
-/// Returns the trace of a trial that was driven by these commands: JSON lines with the world, the
-/// robot, and every step's command, true pose, bump and readings.
+/// Returns the trace of a trial that these commands drove, as JSON lines: the world, the robot, and
+/// the command, true pose, bump and readings of every step.
 ///
-/// The run is made once more for it: the same commands make the same run.
+/// The run is simulated once more for it; the same commands give the same run.
 ///
 /// # Errors
-/// If the commands are not those of a run of this trial.
+/// If the commands do not belong to a run of this trial.
 pub(super) fn of(trial: &Trial<'_>, commands: &[TurnTranslate]) -> anyhow::Result<Vec<u8>> {
     let robot = LaserPioneer::new(trial.robot.clone())?;
     let mut lines = Vec::new();

@@ -80,7 +80,7 @@ impl TriangleIndex {
         let number = self.enough.len() as u32;
         self.enough.push(triples(agreeing).max(1));
         for triangle in triangles(&edges) {
-            // Whoever asks tells a triangle of several longest sides from each of them.
+            // A query has a triangle with several longest sides once for each of them.
             if let Some(kept) = turns(triangle, view.columns()).next() {
                 self.tree.insert(Feature {
                     view: number,

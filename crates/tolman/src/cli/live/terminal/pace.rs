@@ -2,26 +2,26 @@
 
 use core::time::Duration;
 
-/// The speeds there are, time steps a second.
+/// Speeds to choose from, time steps per second.
 const SPEEDS: [u32; 10] = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
 
-/// How fast a run goes on, and whether it does.
+/// The speed of a run, and whether it is paused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Pace {
     speed: usize,
     pub(super) motion: Motion,
 }
 
-/// Whether a run goes on by itself.
+/// Whether a run continues by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Motion {
     Running,
-    /// Until it is told to go on.
+    /// Stands still until told to continue.
     Paused,
 }
 
 impl Default for Pace {
-    /// Ten steps a second: the pace of a robot that takes ten.
+    /// Returns ten steps per second: real time for a robot with ten steps per second.
     fn default() -> Self {
         Self {
             speed: 3,
@@ -35,7 +35,7 @@ impl Pace {
         SPEEDS[self.speed]
     }
 
-    /// From one step to the next.
+    /// Returns the time from one step to the next.
     pub(super) fn period(self) -> Duration {
         Duration::from_secs(1) / self.steps_per_second()
     }

@@ -1,5 +1,7 @@
-//! The colours of the view, or none: of the sixteen that every terminal has and its owner has
-//! chosen, none of them one that vanishes on a light or on a dark ground.
+//! The colours of the view, or none.
+//!
+//! They are among the sixteen that every terminal has and its owner may choose. None of them
+//! vanishes on a light or on a dark background.
 
 use ratatui::style::{Color, Modifier, Style};
 use tolman_experiment::Ink;
@@ -10,16 +12,16 @@ pub(super) const BEAMS: Color = Color::DarkGray;
 pub(super) const DESTINATION: Color = Color::Green;
 /// The map that the robot learned.
 pub(super) const MAP: Color = Color::Blue;
-/// Where the robot believes to be.
+/// Where the robot believes it is.
 pub(super) const BELIEF: Color = Color::Yellow;
 pub(super) const ROBOT: Color = Color::Magenta;
-/// Where the robot bumps.
+/// The robot while it bumps.
 pub(super) const BUMP: Color = Color::Red;
 
-/// What stands beside the values.
+/// The labels beside the values.
 pub(super) const LABEL: Style = Style::new().add_modifier(Modifier::DIM);
 
-/// Returns what a colour becomes with such ink.
+/// Returns `color` if output is coloured, and the terminal's default otherwise.
 pub(super) const fn inked(color: Color, ink: Ink) -> Color {
     match ink {
         Ink::Plain => Color::Reset,

@@ -16,11 +16,11 @@ use super::window::Window;
 /// Width and height of a braille character, in dots.
 const DOTS: (u32, u32) = (2, 4);
 
-/// From one dot of the trail to the next, dots of the grid: so that it is told from walls without
-/// colours.
+/// Distance between two dots of the trail, in dots of the grid. The gap tells a trail from a wall
+/// without colours.
 const TRAIL_SPACING: f64 = 2.0;
 
-/// From one dot of the destination's floor to the next.
+/// Distance between two dots of the destination's floor, in dots of the grid.
 const FLOOR_SPACING: f64 = 3.0;
 
 /// Maximum number of laser beams drawn.
@@ -43,7 +43,7 @@ pub(super) fn draw(view: &View, frame: &mut Frame<'_>, area: Rect) {
     frame.render_widget(canvas, area);
 }
 
-/// From below to above; what shares a character has the colour of the last.
+/// Paints from the bottom layer up. Where layers share a character, the last one gives the colour.
 fn paint(view: &View, window: Window, context: &mut Context<'_>) {
     let course = &view.scene.course;
     let inked = |color| palette::inked(color, view.ink);
@@ -94,7 +94,7 @@ fn line(context: &mut Context<'_>, from: Point, to: Point, color: Color) {
     context.draw(&Line::new(from.x, from.y, to.x, to.y, color));
 }
 
-/// Places along a way, evenly apart.
+/// Draws evenly spaced dots along a way.
 fn dotted(context: &mut Context<'_>, way: &[Point], metres_per_dot: f64, color: Color) {
     let spacing = TRAIL_SPACING * metres_per_dot;
     let mut dots = Vec::new();
@@ -145,7 +145,7 @@ fn bounds(area: &Area) -> Bounds {
     }
 }
 
-/// Returns the arrow nearest to a heading.
+/// Returns the arrow nearest to a heading of `radians`, counter-clockwise from east.
 fn arrow(radians: f64) -> &'static str {
     const ARROWS: [&str; 8] = ["→", "↗", "↑", "↖", "←", "↙", "↓", "↘"];
     let eighths = (radians / core::f64::consts::FRAC_PI_4).round() as i32;

@@ -1,4 +1,4 @@
-//! A run on a terminal of its own: draws it, keeps its pace, listens to the keys.
+//! A run that fills the terminal: draws it, keeps its pace and reads the keys.
 
 use alloc::sync::Arc;
 use core::ops::ControlFlow;
@@ -17,13 +17,13 @@ use super::wish::Wish;
 use crate::cli::interrupt::INTERRUPTED;
 use crate::cli::live::Now;
 
-/// Between two frames at least.
+/// Shortest time between two frames.
 const FRAME: Duration = Duration::from_millis(33);
 
-/// So often it is looked whether the program is to end, if nothing else happens.
+/// Longest wait between two looks at the interrupt flag.
 const GLANCE: Duration = Duration::from_millis(100);
 
-/// A run on the terminal, which is given back when this is dropped.
+/// A run on the terminal. Dropping it restores the terminal.
 #[derive(Debug)]
 pub(in crate::cli) struct Screen {
     terminal: DefaultTerminal,
@@ -38,11 +38,11 @@ pub(in crate::cli) struct Screen {
 }
 
 impl Screen {
-    /// Takes the terminal and shows the run before its first step. A panic gives the terminal back
+    /// Takes the terminal and shows the run before its first step. A panic restores the terminal,
     /// too.
     ///
     /// # Errors
-    /// If there is no terminal that can be drawn on; it is then as it was.
+    /// If nothing can be drawn on the terminal; it is left as it was.
     pub(super) fn open(view: View, interrupted: Arc<AtomicBool>) -> io::Result<Self> {
         let terminal = ratatui::try_init().inspect_err(|_| give_back())?;
         let now = Instant::now();
@@ -57,25 +57,25 @@ impl Screen {
         })
     }
 
-    /// Takes in one more step.
+    /// Adds one more step to the view.
     pub(in crate::cli::live) fn take(&mut self, now: &Now<'_>) {
         self.stale = true;
         self.view.take(now);
     }
 
-    /// Takes in what the system knows by now.
+    /// Sets what the system knows now.
     pub(in crate::cli::live) fn know(&mut self, known: Glimpse) {
         self.stale = true;
         self.view.known = known;
     }
 
-    /// Shows what there is until the next step is due. Breaks if nobody looks any more.
+    /// Shows the view until the next step is due. Breaks if the viewer has closed it.
     ///
     /// # Errors
     /// If the terminal has gone.
     pub(in crate::cli::live) fn until_next_step(&mut self) -> io::Result<ControlFlow<()>> {
         let now = Instant::now();
-        // Behind by more than a moment, as after a pause: nothing to catch up with.
+        // After a pause the run is far behind its schedule; it does not catch up.
         let late = now.saturating_duration_since(self.due) > GLANCE;
         self.due = if late { now } else { self.due } + self.pace.period();
         loop {
@@ -99,7 +99,7 @@ impl Screen {
         }
     }
 
-    /// Shows the outcome until somebody has seen enough.
+    /// Shows the outcome until the viewer closes it.
     ///
     /// # Errors
     /// If the terminal has gone.
@@ -136,7 +136,8 @@ impl Screen {
         }
     }
 
-    /// Draws what is stale and waits for a key, `at_most` so long.
+    /// Draws what is out of date, and waits up to `at_most` for a key. Returns what the key asks
+    /// for.
     fn wish(&mut self, at_most: Duration) -> io::Result<Option<Wish>> {
         if self.interrupted.load(Ordering::Relaxed) {
             return Ok(Some(Wish::Interrupt));
@@ -169,12 +170,12 @@ impl Screen {
 impl Drop for Screen {
     fn drop(&mut self) {
         give_back();
-        // Nobody asks any more: from here on the first Ctrl-C ends the program.
+        // Nobody asks the flag any more: from here on the first Ctrl-C ends the program.
         self.interrupted.store(true, Ordering::Relaxed);
     }
 }
 
-/// Makes the terminal what it was. One that has gone needs nothing.
+/// Restores the terminal. A terminal that has gone needs nothing.
 fn give_back() {
     let _ = ratatui::try_restore();
 }

@@ -20,19 +20,19 @@ use super::picture;
 use super::wish::Wish;
 use crate::cli::live::{Now, Scene};
 
-/// The smallest terminal in which something is to be seen.
+/// Size of the smallest terminal that is drawn on, characters.
 const LEAST_COLUMNS: u16 = 50;
 const LEAST_ROWS: u16 = 16;
 
-/// The panel with the numbers, columns.
+/// Width of the panel with the numbers, columns.
 const PANEL: u16 = 27;
 
 /// Number of steps that the trail goes back.
 const TRAIL: usize = 2000;
 
-/// Returns whether stdout is a terminal large and able enough to draw on.
+/// Returns whether stdout is a terminal that is large enough and can be drawn on.
 pub(super) fn fits_the_terminal() -> bool {
-    // Unix names its terminals; one without a name can do as little as a dumb one.
+    // On Unix, TERM names the terminal; without a name it counts as a dumb one.
     let able = std::env::var_os("TERM").map_or(cfg!(windows), |terminal| terminal != "dumb");
     let large = |(columns, rows)| columns >= LEAST_COLUMNS && rows >= LEAST_ROWS;
     able && io::stdout().is_terminal() && terminal::size().is_ok_and(large)
@@ -43,7 +43,7 @@ pub(super) fn fits_the_terminal() -> bool {
 pub(super) struct View {
     pub(super) scene: Scene,
     pub(super) ink: Ink,
-    /// Steps made.
+    /// Number of steps made.
     step: u32,
     time_us: u64,
     bumps: u32,
@@ -52,12 +52,12 @@ pub(super) struct View {
     pub(super) bump: bool,
     /// The action under way, or just ended.
     action: String,
-    /// How the last one that ended did.
+    /// How the last action ended.
     ended: String,
     pub(super) scan: Option<Scan>,
     pub(super) trail: VecDeque<Point>,
     pub(super) beams: Beams,
-    /// The map that was learned so far, and where the robot believes to be.
+    /// The map learned so far, and where the robot believes it is.
     pub(super) known: Glimpse,
     /// The outcome, once the run is over.
     pub(super) told: Option<String>,
@@ -92,7 +92,7 @@ impl View {
         }
     }
 
-    /// Takes in one more step.
+    /// Adds one more step.
     pub(super) fn take(&mut self, now: &Now<'_>) {
         self.step += 1;
         self.time_us += self.scene.step_us;
@@ -117,7 +117,7 @@ impl View {
         };
     }
 
-    /// Draws everything: the maze to the left, the panel to the right.
+    /// Draws a frame: the maze on the left, the panel on the right.
     pub(super) fn draw(&self, frame: &mut Frame<'_>, pace: Pace) {
         let area = frame.area();
         if area.width < LEAST_COLUMNS || area.height < LEAST_ROWS {
@@ -211,7 +211,7 @@ fn field(label: &str, value: Span<'static>) -> Line<'static> {
     Line::from(vec![Span::styled(format!(" {label:<8}"), LABEL), value])
 }
 
-/// Returns the end of a name that is too long for the panel: of a path the file.
+/// Returns the last part of a name that is too long for the panel; of a path, the file name.
 fn tail(name: &str) -> String {
     let most = usize::from(PANEL) - 3;
     let characters = name.chars().count();
@@ -222,7 +222,7 @@ fn tail(name: &str) -> String {
     format!("…{kept}")
 }
 
-/// Returns what stands where there is nothing yet.
+/// Returns the placeholder for a value that is not known yet.
 fn none() -> String {
     "–".to_owned()
 }
@@ -267,7 +267,7 @@ o---o---o
         }
     }
 
-    /// Returns what a terminal of this size shows at the end of a run of the trial.
+    /// Returns a terminal of this size as it is at the end of the trial's run.
     fn seen(trial: &Trial<'_>, ink: Ink, columns: u16, rows: u16) -> Terminal<TestBackend> {
         let mut mind = Cast::default()
             .mind(Agent::WallFollow, trial.course, &trial.robot)
@@ -343,7 +343,7 @@ o---o---o
     fn a_frame() {
         let course = course();
         let shown = seen(&trial(&course), Ink::Plain, 60, 18);
-        // The backend writes a terminal's rows in quotes.
+        // The test backend quotes the rows of the terminal.
         let shown = shown.backend().to_string().replace('"', "");
         let rows: Vec<_> = shown.lines().map(str::trim_end).collect();
         assert_eq!(rows.join("\n"), FRAME.trim_end());

@@ -1,29 +1,34 @@
-//! What part of the world a grid of dots shows.
+//! The part of the world that a grid of dots shows.
 
 use tolman_geom::Point;
 use tolman_sim::Bounds;
 
-/// Number of dots below which a corridor cannot be made out.
+/// Minimum number of dots across a cell: with fewer a corridor cannot be made out.
 const LEAST_DOTS: f64 = 4.0;
 
 /// Width of a window, in hops.
 const HOPS: f64 = 4.0;
 
-/// A piece of the world on a grid of dots. Lines of the world that lie whole cells apart lie whole
-/// dots apart on it, so that all walls look alike.
+/// A part of the world on a grid of dots.
+///
+/// Lines of the world that are whole cells apart are whole dots apart on the grid, so that all
+/// walls look alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Window {
-    /// From the leftmost to the rightmost dot, m.
+    /// Of the leftmost and the rightmost dot, m.
     pub(super) x: [f64; 2],
-    /// From the lowest to the uppermost dot, m.
+    /// Of the lowest and the uppermost dot, m.
     pub(super) y: [f64; 2],
-    /// From one dot to the next, m.
+    /// Distance between two dots, m.
     pub(super) metres_per_dot: f64,
 }
 
 impl Window {
     /// Returns the window of `columns` by `rows` dots on a world whose cells are `pitch` metres
-    /// wide: all of it, or, where its corridors would be too narrow to see, what surrounds `robot`.
+    /// wide.
+    ///
+    /// It shows the whole world. Where corridors would be too narrow to see, it shows the
+    /// surroundings of `robot` instead.
     pub(super) fn on(bounds: Bounds, pitch: f64, robot: Point, columns: u32, rows: u32) -> Self {
         let (across, up) = (f64::from(columns) - 1.0, f64::from(rows) - 1.0);
         let metres = (bounds.width() / across).max(bounds.height() / up);
@@ -34,8 +39,9 @@ impl Window {
             let before = if extent <= dots + 0.5 {
                 -((dots - extent) / 2.0)
             } else {
-                // The robot is about the middle, but nothing beyond the world is; in hops, for a
-                // picture that moves with every step is hard to read.
+                // The robot stays near the middle, and nothing beyond the world is shown. The
+                // window moves in hops, because a picture that moves with every step is hard to
+                // read.
                 let hop = (dots / HOPS).floor();
                 let middle = ((robot - least) / metres_per_dot / hop).round() * hop;
                 (middle - dots / 2.0).clamp(0.0, extent - dots)

@@ -2,17 +2,17 @@
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
-/// What the person at the keys wants.
+/// What a key press asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wish {
     PauseOrGoOn,
-    /// One step, and then pause.
+    /// Make one step, and then pause.
     Step,
     Faster,
     Slower,
     /// Show or hide the laser's beams.
     Beams,
-    /// See no more of it.
+    /// Close the view and let the run go on.
     Close,
     /// End the program.
     Interrupt,
@@ -22,7 +22,7 @@ impl Wish {
     /// The keys, as the panel names them.
     pub(super) const KEYS: [&str; 3] = ["space pause   → step", "+/- speed   b beams", "q quit"];
 
-    /// Returns what this key asks for, if anything.
+    /// Returns what a key press asks for, or `None` if the key has no meaning.
     pub(super) fn of(key: &KeyEvent) -> Option<Self> {
         if key.kind == KeyEventKind::Release {
             return None;
