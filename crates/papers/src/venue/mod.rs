@@ -13,7 +13,7 @@ use tolman_geom::Point;
 use tolman_maze::{Maze, MazeFile};
 use tolman_sim::robots::LaserPioneerConfig;
 
-use crate::Recorder;
+use tolman_film::Recorder;
 use tolman_arena::Mind;
 use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::course::Course;

@@ -18,7 +18,7 @@ const DENSE: u32 = 200;
 
 /// Record of an outing: after every action the system's thoughts, its believed position, and its
 /// map.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Film {
     actions: u32,
     thoughts: Notes,
