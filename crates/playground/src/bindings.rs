@@ -19,17 +19,17 @@ fn told<T>(done: Result<T, PlaygroundError>) -> Result<T, String> {
 /// What is under the reader's hand: a maze, and a session in it once one has begun.
 #[wasm_bindgen]
 #[derive(Debug)]
-pub struct Page {
+pub struct PlaygroundPage {
     playground: Playground,
     sketch: Sketch,
     session: Option<Session>,
 }
 
 #[wasm_bindgen]
-impl Page {
+impl PlaygroundPage {
     /// Opens the page with a maze.
     #[wasm_bindgen(constructor)]
-    pub fn new(maze: &str) -> Result<Page, String> {
+    pub fn new(maze: &str) -> Result<PlaygroundPage, String> {
         Ok(Self {
             playground: Playground::default(),
             sketch: told(Sketch::read(maze))?,
@@ -66,9 +66,11 @@ impl Page {
         self.sketch = Sketch::empty(size);
     }
 
-    /// Builds or removes a wall; `side` counts from the north, clockwise.
+    /// Builds or removes a wall on the `side` of a cell: `north`, `east`, `south` or `west`.
     pub fn set_wall(&mut self, x: u16, y: u16, side: &str, stands: bool) {
-        let side = Direction::ALL.into_iter().find(|known| json(known) == json(&side));
+        let side = Direction::ALL
+            .into_iter()
+            .find(|known| json(known) == json(&side));
         if let Some(side) = side {
             self.sketch.set_wall(Cell::new(x, y), side, stands);
         }
@@ -129,6 +131,8 @@ impl Page {
     }
 
     fn session(&mut self) -> Result<&mut Session, String> {
-        self.session.as_mut().ok_or_else(|| "nobody was sent into the maze yet".to_owned())
+        self.session
+            .as_mut()
+            .ok_or_else(|| "nobody was sent into the maze yet".to_owned())
     }
 }

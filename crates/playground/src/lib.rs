@@ -1,7 +1,7 @@
 //! A page on which robots learn a maze that the reader draws.
 //!
-//! In the order data flows: a [`Sketch`] is the maze under the reader's hand. A [`Playground`] sends
-//! a system into it. A [`Session`] lets the system act a few time steps at a time, puts its robot
+//! In the order data flows: a [`Sketch`] is the maze under the reader's hand. A [`Playground`]
+//! sends a system into it. A [`Session`] lets the system act a few time steps at a time, puts its robot
 //! elsewhere, sends it to the goal, and says what came of it. What it shows is a replay that grows,
 //! for the same player as every other run.
 //!
@@ -18,4 +18,4 @@ mod verdict;
 pub use playground::{Playground, PlaygroundError, SystemChoice};
 pub use session::{Session, SessionState, SessionTask};
 pub use sketch::{Sketch, SketchPlan, SketchWall};
-pub use verdict::{Tone, Verdict};
+pub use verdict::{TaskVerdict, Tone};

@@ -50,7 +50,7 @@ impl Sketch {
     /// Reads the text of a maze file in any format.
     ///
     /// # Errors
-    /// [`PlaygroundError::Maze`] if it is none, or no way leads to its goal.
+    /// [`PlaygroundError::Maze`] if it is invalid, or no way leads to its goal.
     pub fn read(text: &str) -> Result<Self, PlaygroundError> {
         let MazeFile { name, maze, .. } = tolman_maze::read(text)?;
         let name = name.unwrap_or_else(|| "own".to_owned());
@@ -89,8 +89,8 @@ impl Sketch {
         Self { name, maze }
     }
 
-    /// Builds or removes the wall on a side of a cell. The border, and cells that are not there, are
-    /// left as they are.
+    /// Builds or removes the wall on a side of a cell. The border, and cells that are not there,
+    /// are left as they are.
     pub fn set_wall(&mut self, cell: Cell, side: Direction, stands: bool) {
         let grid = self.maze.grid();
         if grid.contains(cell) && grid.neighbour(cell, side).is_some() {

@@ -8,7 +8,7 @@ use crate::session::count;
 
 /// Result of a task in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Verdict {
+pub struct TaskVerdict {
     /// One or two sentences.
     pub told: String,
     /// How they sound.
@@ -28,7 +28,7 @@ pub enum Tone {
 }
 
 /// Returns what came of learning.
-pub(crate) fn explored(name: &str, record: &LearnRecord) -> Verdict {
+pub(crate) fn explored(name: &str, record: &LearnRecord) -> TaskVerdict {
     let LearnRecord {
         end,
         claim,
@@ -56,9 +56,9 @@ pub(crate) fn explored(name: &str, record: &LearnRecord) -> Verdict {
         let truth = format!("The map is right as far as it goes: {recall} of the ways are on it.");
         (truth, Tone::Neutral)
     } else {
-        let precision = judgement.link_precision.map(|precision| {
-            format!(" {} of its links are true ways, and", percent(precision))
-        });
+        let precision = judgement
+            .link_precision
+            .map(|precision| format!(" {} of its links are true ways, and", percent(precision)));
         let truth = format!(
             "The map is not the maze's:{} {recall} of the ways are on it.",
             precision.unwrap_or_default()
@@ -66,11 +66,11 @@ pub(crate) fn explored(name: &str, record: &LearnRecord) -> Verdict {
         (truth, Tone::Bad)
     };
     let told = format!("{says} {truth}");
-    Verdict { told, tone }
+    TaskVerdict { told, tone }
 }
 
 /// Returns what came of it when the robot was put down.
-pub(crate) fn found(record: &FoundOut) -> Verdict {
+pub(crate) fn found(record: &FoundOut) -> TaskVerdict {
     let after = format!(
         "after {}, {:.1} m",
         count(record.actions as usize, "action"),
@@ -91,11 +91,11 @@ pub(crate) fn found(record: &FoundOut) -> Verdict {
             Tone::Bad,
         ),
     };
-    Verdict { told, tone }
+    TaskVerdict { told, tone }
 }
 
 /// Returns what came of the way to the goal.
-pub(crate) fn home(record: &WayHome) -> Verdict {
+pub(crate) fn home(record: &WayHome) -> TaskVerdict {
     let shortest = record.shortest;
     let (told, tone) = match record.metres {
         Some(metres) => (
@@ -110,5 +110,5 @@ pub(crate) fn home(record: &WayHome) -> Verdict {
             (format!("It did not come to the goal: {why}."), Tone::Bad)
         }
     };
-    Verdict { told, tone }
+    TaskVerdict { told, tone }
 }

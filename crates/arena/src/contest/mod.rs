@@ -2,7 +2,8 @@
 //!
 //! A [`Contest`] sends one [`Contestant`] into one drawing. It learns, is put down somewhere and
 //! finds out where, is put down somewhere else and goes to the goal. Its map is judged by the
-//! drawing's [`TrueGraph`], which it never sees. A [`SteppedContest`] goes at the pace of who looks.
+//! drawing's [`TrueGraph`], which it never sees.
+//! A [`SteppedContest`] goes at the pace of who looks.
 
 mod condition;
 mod contestant;

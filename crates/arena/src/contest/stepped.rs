@@ -89,10 +89,7 @@ impl SteppedContest {
     ///
     /// # Errors
     /// [`ContestError::PutDown`] if the robot cannot stand there.
-    pub fn put_down(
-        &mut self,
-        start: (Cell, Direction),
-    ) -> Result<Option<FoundOut>, ContestError> {
+    pub fn put_down(&mut self, start: (Cell, Direction)) -> Result<Option<FoundOut>, ContestError> {
         self.stop();
         let standing = self.bout.put_down_or_back(start);
         let standing = standing.map_err(|source| ContestError::PutDown {
