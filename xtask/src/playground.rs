@@ -102,7 +102,12 @@ fn build(file: &Path) -> Result<()> {
     fs::create_dir_all(&folder)?;
     let bound = target_folder()?.join(TARGET).join("wasm/bound");
     let mut bindgen = Command::new("wasm-bindgen");
-    bindgen.args(["--target", "no-modules", "--no-typescript", "--out-dir"]);
+    bindgen.args(["--target", "no-modules", "--no-typescript"]);
+    bindgen.args([
+        "--remove-name-section",
+        "--remove-producers-section",
+        "--out-dir",
+    ]);
     succeed(bindgen.arg(&bound).arg(&made))?;
     let page = fill(&read(&root().join(PAGE))?, &bound)?;
     let size = page.len();

@@ -21,6 +21,8 @@ const DENSE: u32 = 200;
 #[derive(Clone, Debug)]
 pub struct Film {
     actions: u32,
+    /// The map is recorded after every such action.
+    every: u32,
     thoughts: Notes,
     belief: Belief,
     nodes: BTreeMap<u32, MapNode>,
@@ -60,6 +62,7 @@ impl Film {
     pub fn laid_at(outing: &dyn Outing, world_from_map: Pose) -> Self {
         let mut film = Self {
             actions: 0,
+            every: 1,
             thoughts: Notes::new("thinks"),
             belief: Belief::new("belief"),
             nodes: BTreeMap::new(),
@@ -74,6 +77,27 @@ impl Film {
         film
     }
 
+    /// Records the map after every `every`-th action alone: some maps take long to draw.
+    #[must_use]
+    pub const fn recording_every(self, every: u32) -> Self {
+        Self { every, ..self }
+    }
+
+    /// Returns the number of places of the map when it was recorded last.
+    #[must_use]
+    pub fn place_count(&self) -> usize {
+        let last = self.places.samples.last();
+        last.map_or(0, |sample| sample.value as usize)
+    }
+
+    /// Returns the number of places or poses that the system took for possible after its last
+    /// action.
+    #[must_use]
+    pub fn guess_count(&self) -> usize {
+        let last = self.belief.entries.last();
+        last.map_or(0, |entry| entry.shapes.len())
+    }
+
     /// Sees that the robot was lifted and put down elsewhere: its next step is the first there.
     pub fn lifted(&mut self, outing: &dyn Outing) {
         self.lifts.push(outing.path().len() as u32);
@@ -84,7 +108,8 @@ impl Film {
         let step = outing.path().len().saturating_sub(1) as u32;
         self.actions += 1;
         self.meet(outing);
-        if self.actions <= DENSE || self.actions.is_multiple_of(self.actions / DENSE) {
+        let every = self.every.max(self.actions / DENSE).max(1);
+        if self.actions.is_multiple_of(every) {
             self.map(outing, step);
         }
         let words = outing.words();

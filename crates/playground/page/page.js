@@ -222,7 +222,7 @@
     if (state.is_busy) note(JSON.parse(page.advance(1)));
     extend();
     player.seek(from);
-    player.play();
+    if (state.is_busy) player.play();
   }
 
   function lifting(is) {

@@ -1,4 +1,5 @@
 use serde::Serialize;
+use tolman_arena::Outing;
 use tolman_arena::contest::{Contestant, SteppedContest, TaskRecord};
 use tolman_film::Film;
 use tolman_geom::Point;
@@ -31,6 +32,10 @@ pub enum SessionTask {
     Home,
 }
 
+/// The map is recorded after every such action: that of the better MSLST takes as long as ten
+/// actions.
+const EVERY: u32 = 4;
+
 /// A session at a moment.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SessionState {
@@ -42,7 +47,7 @@ pub struct SessionState {
     pub steps: usize,
     /// Duration of a time step, s.
     pub step_s: f64,
-    /// Places of the map.
+    /// Places of the map when it was recorded last.
     pub places: usize,
     /// Number of places or poses that the system takes for possible.
     pub guesses: usize,
@@ -66,7 +71,7 @@ impl Session {
             contestant,
             maze: maze.to_owned(),
             seed,
-            film: Film::laid_at(outing, contestant.world_from_map(start)),
+            film: Film::laid_at(outing, contestant.world_from_map(start)).recording_every(EVERY),
             contest,
             task: SessionTask::Explore,
             verdict: None,
@@ -111,8 +116,7 @@ impl Session {
     /// Returns what it has come to.
     #[must_use]
     pub fn state(&self) -> SessionState {
-        let outing = self.contest.outing();
-        let (places, guesses) = (outing.map().places.len(), outing.belief().len());
+        let (places, guesses) = (self.film.place_count(), self.film.guess_count());
         let verdict = self.verdict.clone().unwrap_or_else(|| TaskVerdict {
             told: self.under_way(places, guesses),
             tone: Tone::Neutral,
@@ -121,12 +125,18 @@ impl Session {
             task: self.task,
             is_busy: self.contest.is_busy(),
             steps: self.steps(),
-            step_s: outing.robot().step_us as f64 * 1e-6,
+            step_s: self.contest.outing().robot().step_us as f64 * 1e-6,
             places,
             guesses,
             told: verdict.told,
             tone: verdict.tone,
         }
+    }
+
+    /// Returns the system with its robot.
+    #[must_use]
+    pub fn outing(&self) -> &dyn Outing {
+        self.contest.outing()
     }
 
     /// Returns the run so far as the replay player takes it. O(steps + map).
@@ -206,148 +216,5 @@ impl Fnv {
         for byte in bytes {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use tolman_arena::contest::{Condition, Contest, ContestRobot, Moment, Schooling};
-
-    use super::*;
-    use crate::{Playground, Sketch};
-
-    const STAR: &str = include_str!("../mazes/star.maze");
-
-    fn star() -> Sketch {
-        Sketch::read(STAR).unwrap()
-    }
-
-    fn finish(session: &mut Session) -> SessionState {
-        loop {
-            let state = session.advance(1000);
-            if !state.is_busy {
-                return state;
-            }
-        }
-    }
-
-    #[test]
-    fn however_many_steps_a_call_it_is_the_same_run() {
-        let playground = Playground::default();
-        let played = |steps: usize, seed: u64| {
-            let mut session = playground.begin(&star(), "MSLST Better", seed).unwrap();
-            let mut states = vec![session.state()];
-            while states.last().is_some_and(|state| state.is_busy) {
-                states.push(session.advance(steps));
-            }
-            (
-                session.replay().unwrap(),
-                session.fingerprint(),
-                states.len(),
-            )
-        };
-        let (one, many) = (played(1, 3), played(50, 3));
-        assert_eq!((&one.0, &one.1), (&many.0, &many.1));
-        assert!(one.2 > many.2);
-        assert_ne!(one.1, played(50, 4).1);
-    }
-
-    #[test]
-    fn it_learns_what_the_arena_s_contestant_learns() {
-        let sketch = star();
-        let playground = Playground::default();
-        for system in Playground::systems() {
-            let contestant = Contestant::named(system.name).unwrap();
-            let contest = Contest {
-                contestant,
-                robot: ContestRobot::Own,
-                maze: &sketch.maze,
-                name: &sketch.name,
-                condition: Condition::AsMade,
-                starts: 1,
-                seed: 3,
-                stopwatch: None,
-            };
-            // As it was when it had learned.
-            let (mut path, mut map, mut is_learned) = (Vec::new(), None, false);
-            let shown = contest.show(&Schooling::default(), |outing, moment| {
-                is_learned |= matches!(moment, Moment::PutDown | Moment::Over);
-                if !is_learned {
-                    path = outing.path().to_vec();
-                    map = Some(outing.map());
-                }
-            });
-            let learned = shown.unwrap().learned;
-            let mut session = playground.begin(&sketch, system.name, 3).unwrap();
-            let state = finish(&mut session);
-            let outing = session.contest.outing();
-            let steps = learned.steps as usize;
-            assert_eq!(outing.path().len(), steps + 1, "{}", system.name);
-            assert!(outing.path() == &path[..=steps], "{}", system.name);
-            assert_eq!(state.places, learned.places, "{}", system.name);
-            let is_good = state.tone == Tone::Good;
-            assert_eq!(is_good, learned.judgement.is_right, "{}", state.told);
-            // Who is not put down elsewhere has gone home since.
-            if contestant != Contestant::GngSlam {
-                assert_eq!(Some(outing.map()), map, "{}", system.name);
-            }
-        }
-    }
-
-    #[test]
-    fn put_down_at_any_time_it_goes_on() {
-        let playground = Playground::default();
-        for system in Playground::systems() {
-            for steps in [0, 30, usize::MAX] {
-                let mut session = playground.begin(&star(), system.name, 1).unwrap();
-                session.advance(steps);
-                let start = session.contest.outing().path()[0].position;
-                let lifted = session.put_down(start.x, start.y).unwrap();
-                assert_eq!(lifted.task, SessionTask::Localize);
-                let found = finish(&mut session);
-                assert!(found.told.starts_with("It "), "{}", found.told);
-                session.go_home();
-                let home = finish(&mut session);
-                assert_eq!(home.task, SessionTask::Home, "{}", home.told);
-                assert!(session.replay().unwrap().contains("tolman-replay"));
-            }
-        }
-    }
-
-    #[test]
-    fn the_better_mslst_maps_the_demo_finds_itself_and_comes_home() {
-        let demo = Sketch::read(include_str!("../mazes/demo.maze")).unwrap();
-        let playground = Playground::default();
-        let mut session = playground.begin(&demo, "mslst-better", 8).unwrap();
-        assert!(session.state().told.contains("explores"));
-        for (go_on, told) in [
-            (None, "The map is right"),
-            (Some(true), "It found out where it is"),
-            (Some(false), "It is at the goal"),
-        ] {
-            match go_on {
-                Some(true) => assert!(session.put_down(2.5, 2.5).unwrap().is_busy),
-                Some(false) => assert!(session.go_home().is_busy),
-                None => {}
-            }
-            let state = finish(&mut session);
-            assert_eq!(state.tone, Tone::Good, "{}", state.told);
-            assert!(state.told.contains(told), "{}", state.told);
-        }
-    }
-
-    #[test]
-    fn who_cannot_work_there_says_why() {
-        let playground = Playground::default();
-        let told = |sketch: &Sketch, system| {
-            let refused = playground.begin(sketch, system, 1).map(|_| ());
-            refused.unwrap_err().to_string()
-        };
-        let empty = Sketch::empty(5);
-        assert!(told(&empty, "CPM").contains("open square"));
-        assert!(told(&empty, "Random").contains("no system"));
-        let mut walled = Sketch::empty(5);
-        walled.maze.set_goals(Vec::new());
-        assert!(told(&walled, "MSLST Better").contains("no robot"));
     }
 }

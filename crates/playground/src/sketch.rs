@@ -117,6 +117,18 @@ impl Sketch {
         }
     }
 
+    /// Returns its name: that of the file or the family, or `own`.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Returns the maze.
+    #[must_use]
+    pub const fn maze(&self) -> &Maze {
+        &self.maze
+    }
+
     /// Returns the maze as the text of a `.maze` file.
     #[must_use]
     pub fn text(&self) -> String {

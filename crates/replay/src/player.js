@@ -110,7 +110,8 @@ var TolmanReplay = (() => {
     return { kind: marks.kind, name: marks.name, steps: steps(marks.steps) };
   }
 
-  function decode(data) {
+  function decode(replay) {
+    const data = typeof replay === "string" ? JSON.parse(replay) : replay;
     if (data.format !== "tolman-replay" || data.version !== 1) {
       throw new Error("not a replay of version 1: " + data.format + " " + data.version);
     }
@@ -1542,7 +1543,7 @@ var TolmanReplay = (() => {
   // replay of the same run, until growing is set to false, and leaves the address alone.
   function open(element, data, options) {
     if (window.tolmanReplay) window.tolmanReplay.close();
-    window.tolmanReplay = new Player(element, typeof data === "string" ? JSON.parse(data) : data, options);
+    window.tolmanReplay = new Player(element, data, options);
     return window.tolmanReplay;
   }
 
