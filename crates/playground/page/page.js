@@ -9,8 +9,8 @@
 
   // ---------------------------------------------------------------- the module
 
-  const text = part("module").textContent;
-  const bytes = Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
+  const letters = atob(part("module").textContent), bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < bytes.length; i++) bytes[i] = letters.charCodeAt(i);
   await wasm_bindgen({ module_or_path: bytes });
   const page = new wasm_bindgen.PlaygroundPage(MAZE);
 
@@ -139,7 +139,7 @@
     if (!state) return;
     svg.setAttribute("hidden", "");
     part("player").hidden = part("driving").hidden = part("redraw").hidden = false;
-    part("drawing").disabled = true;
+    part("drawing").hidden = true;
     part("start").textContent = "Start again";
     const player = TolmanReplay.open(part("player"), page.replay(), { growing: true });
     run = { player, state, said: [], extended: 0, isShort: false };
@@ -149,6 +149,8 @@
     player.canvas.addEventListener("pointerdown", putDown, { capture: true });
     player.setSpeed(SPEEDS.find(speed => speed >= 25 * state.step_s) || 1);
     player.play();
+    // On a phone the floor lies below the buttons.
+    if (innerWidth < 768) part("driving").scrollIntoView();
     follow();
   }
 
@@ -156,7 +158,7 @@
     if (run) run.player.close();
     run = null;
     part("player").hidden = part("driving").hidden = part("redraw").hidden = true;
-    part("drawing").disabled = false;
+    part("drawing").hidden = false;
     part("start").textContent = "Start";
     svg.removeAttribute("hidden");
     lifting(false);
@@ -168,19 +170,19 @@
     run.said.push({ step: state.steps, told: state.told, tone: state.tone });
   }
 
-  // Most milliseconds that the robot may think in one frame, and least between two pictures of its map.
-  const THINK_MS = 20, PICTURE_MS = 300;
+  // Most milliseconds that the robot may think in one frame, more if the player waits for it, and least between two
+  // pictures of its map.
+  const THINK_MS = 20, WAITED_FOR_MS = 60, PICTURE_MS = 300;
 
   // Lets the robot run ahead of what is shown by a second of the player's time.
   function think() {
     const { player } = run, begun = performance.now();
     const ahead = Math.max(3, player.speed / run.state.step_s);
-    const until = player.step + ahead;
-    while (run.state.is_busy && run.state.steps < until && performance.now() - begun < THINK_MS) {
+    const until = player.step + ahead, starved = player.step >= player.run.last;
+    while (run.state.is_busy && run.state.steps < until && performance.now() - begun < (starved ? WAITED_FOR_MS : THINK_MS)) {
       note(JSON.parse(page.advance(1)));
       run.isShort = true;
     }
-    const starved = player.step >= player.run.last;
     if (run.isShort && (begun - run.extended > PICTURE_MS || starved && begun - run.extended > 60)) extend();
   }
 

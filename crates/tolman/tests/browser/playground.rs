@@ -2,6 +2,7 @@
 //! playground` tries the page that `cargo xtask playground` wrote. `cargo xtask ci --thorough` does
 //! both.
 
+use core::time::Duration;
 use std::env;
 use std::path::{Path, PathBuf};
 
@@ -9,6 +10,9 @@ use tolman_playground::{Playground, Sketch};
 
 use crate::tab::{Scheme, Tab};
 use crate::{folder, tab, tell};
+
+/// The page has a program to compile and robots to run, on machines that do other things besides.
+const PATIENCE: Duration = Duration::from_secs(90);
 
 /// Returns the page, opened, with a folder for pictures; none, said on stderr, where there is none.
 fn opened(name: &str) -> Option<(Tab, PathBuf)> {
@@ -19,7 +23,7 @@ fn opened(name: &str) -> Option<(Tab, PathBuf)> {
     let mut tab = tab()?;
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     tab.load(&root.join(page), "");
-    tab.until("!!window.tolmanPlayground");
+    tab.until_within("!!window.tolmanPlayground", PATIENCE);
     Some((tab, folder(name)))
 }
 
@@ -48,7 +52,8 @@ fn fingerprint(seed: u64) -> String {
 
 /// Waits until the task is over and shown, and returns what is told of it.
 fn over(tab: &mut Tab) -> String {
-    tab.until("document.querySelector('#player').dataset.over === 'true'");
+    let over = "document.querySelector('#player').dataset.over === 'true'";
+    tab.until_within(over, PATIENCE);
     told(tab)
 }
 
@@ -60,12 +65,12 @@ fn playground_a_robot_learns_is_put_elsewhere_and_drives_home() {
     };
     set(&mut tab, "seed", "8");
     tab.click("#start");
-    tab.until("tolmanReplay.step > 5 && tolmanReplay.playing");
+    tab.until_within("tolmanReplay.step > 5 && tolmanReplay.playing", PATIENCE);
     assert!(told(&mut tab).contains("explores"));
     // Its map grows while it drives.
     let places = "tolmanReplay.run.tracks[0].maps[0].nodes.length";
     let before = tab.whole(places);
-    tab.until(&format!("{places} > {before} + 3"));
+    tab.until_within(&format!("{places} > {before} + 3"), PATIENCE);
     tab.click("#pause");
     tab.until("!tolmanReplay.playing");
     let step = tab.whole("tolmanReplay.step");
@@ -191,7 +196,7 @@ fn playground_is_seen_in_every_light_and_on_every_width() {
         if stage == "drives" {
             set(&mut tab, "seed", "8");
             tab.click("#start");
-            tab.until("tolmanReplay.step > 60");
+            tab.until_within("tolmanReplay.step > 60", PATIENCE);
             tab.click("#pause");
         }
         for (width, height) in [(1280, 800), (390, 844)] {
