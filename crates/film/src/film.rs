@@ -79,8 +79,9 @@ impl Film {
 
     /// Records the map after every `every`-th action alone: some maps take long to draw.
     #[must_use]
-    pub const fn recording_every(self, every: u32) -> Self {
-        Self { every, ..self }
+    pub fn recording_every(mut self, every: u32) -> Self {
+        self.every = every;
+        self
     }
 
     /// Returns the number of places of the map when it was recorded last.

@@ -199,7 +199,7 @@
     const mine = run;
     if (!mine) return;
     const { player } = mine;
-    if (mine.state.is_busy && player.playing) attempt(think);
+    if ((mine.state.is_busy || mine.isShort) && player.playing) attempt(think);
     const isOver = !mine.state.is_busy && player.step >= player.run.last && !mine.isShort;
     const said = isOver ? mine.said.at(-1) : mine.said.findLast(said => said.step <= player.step && said.tone === "neutral") || mine.said[0];
     if (part("player").hasAttribute("data-lifting")) tell("Click where the robot is to be put.");
