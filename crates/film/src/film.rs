@@ -1,6 +1,7 @@
 //! A replay of any outing.
 
 use alloc::collections::{BTreeMap, BTreeSet};
+use core::mem;
 
 use tolman_arena::Outing;
 use tolman_geom::{Heading, Point, Pose};
@@ -27,6 +28,8 @@ pub struct Film {
     belief: Belief,
     nodes: BTreeMap<u32, MapNode>,
     edges: BTreeMap<(u32, u32), MapEdge>,
+    /// Edges that died before another one of the same ends was born.
+    gone: Vec<MapEdge>,
     places: TimeSeries,
     /// True position of the robot when the system first believed to be at a place.
     met: BTreeMap<u32, Point>,
@@ -67,6 +70,7 @@ impl Film {
             belief: Belief::new("belief"),
             nodes: BTreeMap::new(),
             edges: BTreeMap::new(),
+            gone: Vec::new(),
             places: TimeSeries::new("places on the map", ""),
             met: BTreeMap::new(),
             goal: None,
@@ -173,6 +177,8 @@ impl Film {
             };
             let node = self.nodes.entry(place.id);
             let node = node.or_insert_with(|| MapNode::new(place.id, at, step));
+            // A place that comes back was only out of sight.
+            node.died = None;
             node.move_to(step, at, STILL);
             // Many nodes may be at the goal: one of them says so.
             if place.landmark == Some(Landmark::Goal)
@@ -194,7 +200,11 @@ impl Film {
         }
         for (a, b) in wanted {
             let edge = self.edges.entry((a, b));
-            edge.or_insert_with(|| MapEdge::new(a, b, step));
+            let edge = edge.or_insert_with(|| MapEdge::new(a, b, step));
+            // An edge that comes back is another one.
+            if edge.died.is_some() {
+                self.gone.push(mem::replace(edge, MapEdge::new(a, b, step)));
+            }
         }
     }
 
@@ -243,7 +253,11 @@ impl Film {
         track.maps = vec![MapGrowth {
             name: "map".to_owned(),
             nodes: self.nodes.into_values().collect(),
-            edges: self.edges.into_values().collect(),
+            edges: self
+                .gone
+                .into_iter()
+                .chain(self.edges.into_values())
+                .collect(),
         }];
         track.series.push(self.places);
         if !self.thoughts.notes.is_empty() {
