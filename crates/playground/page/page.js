@@ -147,7 +147,8 @@
     player.setTheme(document.documentElement.dataset.theme);
     new MutationObserver(() => setTheme(player.root.dataset.theme)).observe(player.root, { attributeFilter: ["data-theme"] });
     player.canvas.addEventListener("pointerdown", putDown, { capture: true });
-    player.setSpeed(SPEEDS.find(speed => speed >= 25 * state.step_s) || 1);
+    // An e-puck makes a thousand time steps in a cell, a Pioneer six.
+    player.setSpeed(state.step_s < 0.05 ? 50 : 5);
     player.play();
     // On a phone the floor lies below the buttons.
     if (innerWidth < 768) part("driving").scrollIntoView();

@@ -55,6 +55,10 @@ pub(crate) fn explored(name: &str, record: &LearnRecord) -> TaskVerdict {
     } else if judgement.is_right_of_visited {
         let truth = format!("The map is right as far as it goes: {recall} of the ways are on it.");
         (truth, Tone::Neutral)
+    } else if matches!((end, claim), (TaskEnd::Done, Claim::Undecided)) {
+        let truth = "It does not say that its places are the maze's: put it elsewhere, and see what \
+                     the map is worth.";
+        (truth.to_owned(), Tone::Neutral)
     } else {
         let precision = judgement
             .link_precision
