@@ -131,7 +131,7 @@ const fn choice(contestant: Contestant) -> SystemChoice {
             true,
         ),
         Contestant::CpmBetter => (
-            "the same with dead reckoning and several hypotheses; corridors alone",
+            "common patterns of paths with dead reckoning and several hypotheses; corridors alone",
             false,
         ),
         Contestant::Diktiometry => (
@@ -139,7 +139,7 @@ const fn choice(contestant: Contestant) -> SystemChoice {
             true,
         ),
         Contestant::DiktiometryBetter => (
-            "the same with a journal of all its moves; walls have eight colours",
+            "maps places that look alike, with a journal of all its moves; walls have eight colours",
             false,
         ),
         Contestant::GngSlam => (
