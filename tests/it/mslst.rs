@@ -6,7 +6,7 @@ use tolman_arena::Mind;
 use tolman_arena::episode::{self, Episode};
 use tolman_arena::mslst::learn;
 use tolman_arena::pioneer::calibrated;
-use tolman_papers::Recorder;
+use tolman_film::Recorder;
 use tolman_replay::Shape;
 use tolman_robot::{Guess, Position};
 use tolman_systems::Origin;

@@ -14,7 +14,7 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
-use crate::{docs, fuzz, golden, layers, mazes, prose, python};
+use crate::{docs, fuzz, golden, layers, mazes, playground, prose, python};
 
 /// How a step went when it did not fail.
 pub(crate) enum Outcome {
@@ -78,6 +78,7 @@ const THOROUGH: &[Step] = &[
     ("pages", || if_installed("chromium", all_pages)),
     ("golden, all", || passed(golden::run(&[], false))),
     ("python", python::check),
+    ("playground", playground::check),
     ("packages", || passed(packages::all())),
 ];
 

@@ -15,11 +15,13 @@ mod fuzz;
 mod golden;
 mod layers;
 mod mazes;
+mod playground;
 mod prose;
 mod python;
 mod workspace;
 
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -90,6 +92,13 @@ enum Verb {
     /// Builds the Python module, installs it into target/python and runs its tests; skipped with a
     /// note if Python or a package is missing
     Python,
+    /// Builds the playground, a page on which robots learn a maze that the reader draws; needs a
+    /// target of rustc and wasm-bindgen, and says how to install them where they are not there
+    Playground {
+        /// The file to write [default: target/playground/tolman-playground.html]
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
     /// Builds the API documentation, makes README's animated picture and checks the links of the
     /// written pages
     Docs,
@@ -114,6 +123,7 @@ fn main() -> ExitCode {
             targets,
         } => fuzz::run(seconds, seed, &targets),
         Verb::Python => python::run(),
+        Verb::Playground { out } => playground::run(out.as_deref()),
         Verb::Docs => docs::run(),
     };
     match done {

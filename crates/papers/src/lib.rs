@@ -2,8 +2,8 @@
 //!
 //! [`catalogue`] lists them as the experiments of `tolman experiment`. The folder of each paper
 //! draws its maps and runs: [`mslst::drawing`], [`cpm::drawing`], [`diktiometry::drawing`].
-//! [`Recorder`] makes the replay of a run, [`Film`] that of any outing, and [`plan_of_course`] the
-//! plan below it. [`data`] finds external data, and [`real`] reads logs and pose graphs.
+//! [`plan_of_course`] draws the plan below a run. [`data`] finds external data, and [`real`] reads
+//! logs and pose graphs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
@@ -13,7 +13,6 @@ mod baselines;
 pub mod cpm;
 pub mod data;
 pub mod diktiometry;
-mod film;
 pub mod gngslam;
 mod maze_file;
 mod micromouse;
@@ -23,15 +22,12 @@ mod mslst_sweeps;
 mod plan;
 mod quantizers;
 pub mod real;
-mod recorder;
 mod tolerances;
 mod venue;
 
 use tolman_experiment::Entry;
 
-pub use film::{Film, Glimpse};
 pub use plan::plan_of_course;
-pub use recorder::Recorder;
 
 /// Returns all experiments, in the order in which they are listed.
 #[must_use]

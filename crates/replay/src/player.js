@@ -110,7 +110,8 @@ var TolmanReplay = (() => {
     return { kind: marks.kind, name: marks.name, steps: steps(marks.steps) };
   }
 
-  function decode(data) {
+  function decode(replay) {
+    const data = typeof replay === "string" ? JSON.parse(replay) : replay;
     if (data.format !== "tolman-replay" || data.version !== 1) {
       throw new Error("not a replay of version 1: " + data.format + " " + data.version);
     }
@@ -771,9 +772,13 @@ var TolmanReplay = (() => {
   const KEYS = "space play · ←/→ step · shift ±10 · home/end · +/− speed · [ ] marks · wheel zoom · drag pan · 0 fit";
 
   class Player {
-    constructor(element, data) {
-      this.run = decode(data);
-      this.run.wallGrid = new WallGrid(this.run.walls, this.run.box);
+    constructor(element, data, { growing = false } = {}) {
+      this.growing = growing;
+      this.hasAddress = !growing;
+      this.sceneryKept = new Kept();
+      this.fieldsKept = new Kept();
+      this.take(decode(data));
+      this.trail = new Trail(this.run);
       this.step = 0;
       this.playing = false;
       this.speed = this.calmSpeed();
@@ -781,19 +786,54 @@ var TolmanReplay = (() => {
       this.frames = 0;
       this.frameMs = 0;
       this.selected = null;
-      this.trail = new Trail(this.run);
-      this.sceneryKept = new Kept();
-      this.fieldsKept = new Kept();
-      this.mapsKept = new Kept();
-      this.fields = this.run.tracks.map(track => track.fields.map(field => new FieldState(field)));
-      this.layers = this.layerList();
       this.undo = [];
       this.build(element);
       this.listen();
       this.resize();
-      this.seek(this.stepOfAddress() ?? 0);
+      this.seek(this.hasAddress && this.stepOfAddress() || 0);
       // The first picture is there at once, also where nobody asks for frames: in a tab behind others, on paper.
       this.frame(performance.now());
+    }
+
+    // Takes a run, or the same with more of it; layers that were switched off stay so.
+    take(run) {
+      const off = new Set((this.layers || []).filter(layer => !layer.on).map(layer => layer.key));
+      this.run = run;
+      run.wallGrid = new WallGrid(run.walls, run.box);
+      this.mapsKept = new Kept();
+      this.fields = run.tracks.map(track => track.fields.map(field => new FieldState(field)));
+      this.layers = this.layerList();
+      for (const layer of this.layers) {
+        if (off.has(layer.key)) layer.on = false;
+      }
+    }
+
+    // Goes on with a longer replay of the same run. Step, speed, view and layers stay as they are.
+    extend(data) {
+      const before = this.partNames(), { selected } = this;
+      this.take(decode(data));
+      this.trail.run = this.run;
+      this.slider.max = this.run.last;
+      if (this.partNames() === before) {
+        const { scrollTop } = this.panel;
+        this.panel.querySelector("[data-part=charts]").replaceWith(this.charts());
+        this.panel.querySelector("[data-part=mark-list]").replaceWith(this.markList());
+        this.panel.scrollTop = scrollTop;
+      } else {
+        this.buildPanel();
+      }
+      let again = null;
+      this.eachShownMap(map => again = again || selected && map.byId.get(selected.id));
+      if (again !== selected) this.select(again);
+      this.drawMarks();
+      this.drawCharts();
+      this.ask();
+    }
+
+    // What the panel has a line or a box for.
+    partNames() {
+      const lists = this.run.tracks.flatMap(track => [...track.notes, ...track.series, ...track.maps]);
+      return JSON.stringify([this.layers.map(layer => layer.key), lists.map(list => list.name)]);
     }
 
     // ---- parts
@@ -980,7 +1020,7 @@ var TolmanReplay = (() => {
     }
 
     play() {
-      if (this.step >= this.run.last) this.step = 0;
+      if (this.step >= this.run.last && !this.growing) this.step = 0;
       this.playing = true;
       this.since = null;
       this.ask();
@@ -1004,7 +1044,10 @@ var TolmanReplay = (() => {
       if (this.since === null) this.since = { now, step: this.step };
       const passed = (now - this.since.now) / 1000 * this.speed / this.run.stepLength;
       this.step = Math.min(this.run.last, this.since.step + Math.floor(passed));
-      if (this.step >= this.run.last) this.pause();
+      if (this.step < this.run.last) return;
+      // More is to come: it waits for that.
+      if (this.growing) this.since = null;
+      else this.pause();
     }
 
     // The next mark after this step, or the last one before it.
@@ -1027,6 +1070,7 @@ var TolmanReplay = (() => {
     }
 
     writeAddress() {
+      if (!this.hasAddress) return;
       const parameters = new URLSearchParams(location.hash.slice(1));
       if (this.step === 0 && !parameters.has("t") || parameters.get("t") === String(this.step)) return;
       parameters.set("t", this.step);
@@ -1081,7 +1125,7 @@ var TolmanReplay = (() => {
       this.on(document, "keydown", event => this.key(event));
       this.on(window, "hashchange", () => {
         const step = this.stepOfAddress();
-        if (step !== null && step !== this.step) this.pauseAt(step);
+        if (this.hasAddress && step !== null && step !== this.step) this.pauseAt(step);
       });
       this.on(matchMedia("(prefers-color-scheme: dark)"), "change", () => this.setTheme(this.preferredTheme()));
       const observer = new ResizeObserver(() => this.resize());
@@ -1165,6 +1209,12 @@ var TolmanReplay = (() => {
         event.preventDefault();
         this.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), ...place(event));
       }, { passive: false });
+    }
+
+    // Where in the world a pointer is, m.
+    worldAt(event) {
+      const box = this.canvas.getBoundingClientRect();
+      return worldOf(this.stage, this.at, event.clientX - box.left, event.clientY - box.top);
     }
 
     pan(dx, dy) {
@@ -1489,10 +1539,11 @@ var TolmanReplay = (() => {
 
   // Shows a replay in `element` in place of what is there. The player that comes back has step, playing, speed,
   // frames and frameMs (how long the last frame took to draw) and seek(), play(), pause(), fit() and close(); the
-  // one opened last is window.tolmanReplay.
-  function open(element, data) {
+  // one opened last is window.tolmanReplay. With { growing: true } it waits at the end for extend(data), a longer
+  // replay of the same run, until growing is set to false, and leaves the address alone.
+  function open(element, data, options) {
     if (window.tolmanReplay) window.tolmanReplay.close();
-    window.tolmanReplay = new Player(element, typeof data === "string" ? JSON.parse(data) : data);
+    window.tolmanReplay = new Player(element, data, options);
     return window.tolmanReplay;
   }
 

@@ -43,6 +43,14 @@ struct Candidate {
 }
 
 impl IdealObserver<'_> {
+    /// Returns the same with a drawing of its own.
+    pub(super) fn into_owned(self) -> IdealObserver<'static> {
+        IdealObserver {
+            maze: Cow::Owned(self.maze.into_owned()),
+            ..self
+        }
+    }
+
     /// Returns the [chance](Self::chance) for a robot that drove along `path`. It was put down in
     /// the middle of a cell, and looked out of it.
     pub(super) fn after(&self, squares: Squares, start: (Cell, Direction), path: &[Pose]) -> f64 {

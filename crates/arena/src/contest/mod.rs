@@ -3,6 +3,7 @@
 //! A [`Contest`] sends one [`Contestant`] into one drawing. The contestant learns. It is put down
 //! somewhere and localizes; then it is put down somewhere else and drives to the goal. Its map is
 //! compared with the drawing's [`TrueGraph`], which it never sees.
+//! A [`SteppedContest`] is played action by action.
 
 mod condition;
 mod contestant;
@@ -14,6 +15,7 @@ mod paint;
 mod pathfinder;
 mod play;
 mod show;
+mod stepped;
 mod true_graph;
 mod wanderers;
 mod whereabouts;
@@ -24,6 +26,7 @@ pub use judgement::{MapJudgement, judge};
 pub use play::{
     Claim, Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,
 };
-pub use show::{FoundOut, ShowRecord};
+pub use show::{FoundOut, ShowRecord, WayHome};
+pub use stepped::{SteppedContest, TaskRecord};
 pub use true_graph::{PlaceRule, TrueGraph, TrueWay};
 pub use whereabouts::PlaceVisit;

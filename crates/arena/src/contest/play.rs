@@ -314,7 +314,7 @@ impl<'a> Contest<'a> {
 
     /// Returns the contestant with the true map, ready to be put down. It learned that map on a
     /// robot without errors. `None` if the map is wrong.
-    fn informed(&self, schooling: &Schooling) -> Result<Option<Bout<'a>>, ContestError> {
+    fn informed(&self, schooling: &Schooling) -> Result<Option<Bout>, ContestError> {
         let sent = |contest: &Self| {
             let entered = contest.contestant.enter(contest, schooling);
             let entered = entered.map_err(|source| self.enter_error(source))?;
@@ -442,12 +442,12 @@ fn position(len: usize, rng: &mut impl Rng) -> usize {
 }
 
 /// A contest in progress.
-pub(super) struct Bout<'a> {
-    pub(super) maze: &'a Maze,
-    /// The drawing as it is after the robot has learned.
-    afterwards: Cow<'a, Maze>,
+pub(super) struct Bout {
+    pub(super) maze: Maze,
+    /// The drawing as it is after the robot has learned; `None` if it does not change.
+    afterwards: Option<Maze>,
     truth: TrueGraph,
-    observer: IdealObserver<'a>,
+    observer: IdealObserver<'static>,
     claims: bool,
     pub(super) squares: Squares,
     pub(super) outing: Box<dyn Outing>,
@@ -455,6 +455,30 @@ pub(super) struct Bout<'a> {
     is_lifted: bool,
     /// Cell that each place of the map stands for.
     stands_for: BTreeMap<u32, Cell>,
+}
+
+/// A task under way.
+pub(super) struct Pursuit {
+    task: Task,
+    /// Metres after which it ends.
+    most: f64,
+    /// After how many metres the robot is put elsewhere without being told, and where.
+    kidnapping: Option<(f64, Pose)>,
+    /// The first time step of it.
+    from: usize,
+    /// Time steps until then in which the robot touched something.
+    bumped: usize,
+    /// Metres driven.
+    driven: f64,
+    /// The last time step that was counted.
+    until: usize,
+    /// Metres driven when it last had made a cell's way, and actions since.
+    before_last: f64,
+    idle: u32,
+    /// Metres until it first was at the goal that it was sent to.
+    arrived: Option<f64>,
+    /// Where it was put, and the pose of its path that came next.
+    put: Option<(Point, usize)>,
 }
 
 /// How a task went.
@@ -470,16 +494,60 @@ pub(super) struct Driven {
     pub(super) metres: f64,
 }
 
-impl<'a> Bout<'a> {
-    pub(super) fn new(contest: &Contest<'a>, entered: Entered) -> Self {
+/// Where a robot truly was while it learned.
+#[derive(Default)]
+pub(super) struct TrueVisits {
+    /// The cell in which it came to each of its places.
+    arrivals: Vec<Cell>,
+    /// What it believed after each action.
+    beliefs: Vec<PlaceVisit>,
+}
+
+impl TrueVisits {
+    /// Notes what an action came to, before which the robot was at `before`.
+    pub(super) fn note(&mut self, outing: &dyn Outing, before: Point, squares: Squares) {
+        let after = outing.path().last().map_or(before, |pose| pose.position);
+        let visits = outing.visit_count();
+        while self.arrivals.len() + 1 < visits {
+            self.arrivals.push(squares.cell_at(before));
+        }
+        if self.arrivals.len() < visits {
+            self.arrivals.push(squares.cell_at(after));
+        }
+        if visits == 0 {
+            let cell = squares.cell_at(after);
+            let place = believed(&outing.belief(), || outing.map());
+            self.beliefs
+                .extend(place.map(|place| PlaceVisit { place, cell }));
+        }
+    }
+
+    /// Returns the places that it was at by its own account, `named`, in order, with the cells
+    /// where it truly was.
+    fn visits(self, named: Vec<Option<u32>>) -> Vec<PlaceVisit> {
+        if named.is_empty() {
+            return self.beliefs;
+        }
+        let pairs = named.into_iter().zip(self.arrivals);
+        let visit =
+            |(place, cell): (Option<u32>, Cell)| place.map(|place| PlaceVisit { place, cell });
+        pairs.filter_map(visit).collect()
+    }
+}
+
+impl Bout {
+    pub(super) fn new(contest: &Contest<'_>, entered: Entered) -> Self {
         let Entered { outing, pitch } = entered;
         let maze = contest.maze;
         let grid = maze.grid();
         Self {
-            maze,
-            afterwards: contest.maze_afterwards(),
+            maze: maze.clone(),
+            afterwards: match contest.maze_afterwards() {
+                Cow::Borrowed(_) => None,
+                Cow::Owned(maze) => Some(maze),
+            },
             truth: TrueGraph::of(maze, contest.contestant.places()),
-            observer: contest.observer(outing.course()),
+            observer: contest.observer(outing.course()).into_owned(),
             claims: contest.contestant.claims(),
             squares: Squares { grid, pitch },
             outing,
@@ -493,89 +561,116 @@ impl<'a> Bout<'a> {
         last.map_or_else(Point::origin, |pose| pose.position)
     }
 
-    /// Lets it pursue a task until it is done, gives up, or has driven `most` metres.
-    ///
-    /// After as many metres as `kidnapping` says, it is put elsewhere without being told. `see` is
-    /// called before and after each action.
-    pub(super) fn pursue(
+    /// Begins a task, which ends at the latest when it has driven `most` metres. After as many
+    /// metres as `kidnapping` says it is put elsewhere, and not told.
+    pub(super) fn set_out(
         &mut self,
         task: Task,
         most: f64,
-        mut kidnapping: Option<(f64, Pose)>,
-        mut see: impl FnMut(&dyn Outing, Point),
-        watch: &mut impl FnMut(&dyn Outing, Moment),
-    ) -> Driven {
+        kidnapping: Option<(f64, Pose)>,
+    ) -> Pursuit {
         // The path does not show that the robot was lifted: its last pose is where that happened.
         let from = self.outing.path().len() - usize::from(!self.is_lifted);
         self.is_lifted = false;
-        let bumped = self.outing.bumped().len();
         let cells = self.maze.reachable().count() as u32;
         self.outing.allow(cells.saturating_mul(STEPS_A_CELL));
-        let is_sent = matches!(task, Task::Reach(_));
-        let (mut driven, mut until) = (0.0, from);
-        // Distance, m, at which it had last advanced by a cell, and the number of actions since.
-        let (mut before_last, mut idle) = (0.0, 0_u32);
-        let mut arrived = None;
-        // Where it was put, and the index of the next pose of its path.
-        let mut put: Option<(Point, usize)> = None;
-        let end = loop {
-            let before = match put {
-                Some((at, next)) if next > until => at,
-                _ => self.here(),
-            };
-            let standing = self.outing.act(task);
-            see(&*self.outing, before);
-            watch(&*self.outing, Moment::Acted);
-            let path = self.outing.path();
-            let last = path.len() - 1;
-            for at in until..=last {
-                let step = path.get(at.max(from + 1) - 1..=at).map_or(0.0, length);
-                let is_lifted = put.is_some_and(|(_, next)| next == at);
-                driven += if at > until && !is_lifted { step } else { 0.0 };
-                let is_there = is_sent && self.outing.course().is_destination(path[at].position);
-                arrived = arrived.or(is_there.then_some(driven));
-            }
-            until = until.max(last);
-            idle += 1;
-            if driven - before_last >= self.squares.pitch {
-                (before_last, idle) = (driven, 0);
-            }
-            match standing {
-                Ok(Standing::UnderWay) => {}
-                Ok(Standing::Done) => break TaskEnd::Done,
-                Ok(Standing::GaveUp { why }) => break TaskEnd::GaveUp { why },
-                // It had to break off in the middle of an action.
-                Err(_) if self.outing.is_out_of_time() => break TaskEnd::OutOfTime,
-                Err(error) => {
-                    let why = error.to_string();
-                    break TaskEnd::GaveUp { why };
-                }
-            }
-            if let Some((_, pose)) = kidnapping.take_if(|(after, _)| driven > *after)
-                && self.outing.lift(pose).is_ok()
-            {
-                put = Some((pose.position, last + 1));
-            }
-            let is_over = driven > most || idle > IDLE || arrived.is_some();
-            if is_over || self.outing.is_out_of_time() {
-                break TaskEnd::OutOfTime;
-            }
+        Pursuit {
+            task,
+            most,
+            kidnapping,
+            from,
+            bumped: self.outing.bumped().len(),
+            driven: 0.0,
+            until: from,
+            before_last: 0.0,
+            idle: 0,
+            arrived: None,
+            put: None,
+        }
+    }
+
+    /// Makes the next action of a task and returns how the task ended, once it has. `see` is shown
+    /// what the action came to, and where the robot was before.
+    pub(super) fn go_on(
+        &mut self,
+        pursuit: &mut Pursuit,
+        see: impl FnOnce(&dyn Outing, Point),
+    ) -> Option<TaskEnd> {
+        let from = pursuit.from;
+        let before = match pursuit.put {
+            Some((at, next)) if next > pursuit.until => at,
+            _ => self.here(),
         };
-        let bumps = (self.outing.bumped().len() - bumped) as u32;
+        let standing = self.outing.act(pursuit.task);
+        see(&*self.outing, before);
+        let path = self.outing.path();
+        let last = path.len() - 1;
+        let is_sent = matches!(pursuit.task, Task::Reach(_));
+        for at in pursuit.until..=last {
+            let step = path.get(at.max(from + 1) - 1..=at).map_or(0.0, length);
+            let is_lifted = pursuit.put.is_some_and(|(_, next)| next == at);
+            let is_new = at > pursuit.until && !is_lifted;
+            pursuit.driven += if is_new { step } else { 0.0 };
+            let is_there = is_sent && self.outing.course().is_destination(path[at].position);
+            let driven = pursuit.driven;
+            pursuit.arrived = pursuit.arrived.or(is_there.then_some(driven));
+        }
+        pursuit.until = pursuit.until.max(last);
+        pursuit.idle += 1;
+        if pursuit.driven - pursuit.before_last >= self.squares.pitch {
+            (pursuit.before_last, pursuit.idle) = (pursuit.driven, 0);
+        }
+        match standing {
+            Ok(Standing::UnderWay) => {}
+            Ok(Standing::Done) => return Some(TaskEnd::Done),
+            Ok(Standing::GaveUp { why }) => return Some(TaskEnd::GaveUp { why }),
+            // It broke off amid an action, as it had to.
+            Err(_) if self.outing.is_out_of_time() => return Some(TaskEnd::OutOfTime),
+            Err(error) => {
+                let why = error.to_string();
+                return Some(TaskEnd::GaveUp { why });
+            }
+        }
+        let driven = pursuit.driven;
+        if let Some((_, pose)) = pursuit.kidnapping.take_if(|(after, _)| driven > *after)
+            && self.outing.lift(pose).is_ok()
+        {
+            pursuit.put = Some((pose.position, last + 1));
+        }
+        let is_over = driven > pursuit.most || pursuit.idle > IDLE || pursuit.arrived.is_some();
+        (is_over || self.outing.is_out_of_time()).then_some(TaskEnd::OutOfTime)
+    }
+
+    /// Returns how a task went that ended so.
+    pub(super) fn driven(&self, pursuit: &Pursuit, end: TaskEnd) -> Driven {
         Driven {
             end,
-            from,
-            bumps,
-            arrived,
-            metres: driven,
+            from: pursuit.from,
+            bumps: (self.outing.bumped().len() - pursuit.bumped) as u32,
+            arrived: pursuit.arrived,
+            metres: pursuit.driven,
+        }
+    }
+
+    /// Lets it pursue a task until it is done, gives up, or has driven too far. `see` is shown what
+    /// each action came to, and where the robot was before.
+    pub(super) fn pursue(
+        &mut self,
+        mut pursuit: Pursuit,
+        mut see: impl FnMut(&dyn Outing, Point),
+    ) -> Driven {
+        loop {
+            if let Some(end) = self.go_on(&mut pursuit, &mut see) {
+                return self.driven(&pursuit, end);
+            }
         }
     }
 
     /// Shuts the door, if there is one.
     fn shut_door(&mut self) -> Result<(), BoxError> {
         match &self.afterwards {
-            Cow::Borrowed(_) => Ok(()),
-            Cow::Owned(_) => self.outing.set_door(DOOR, DoorState::Shut),
+            None => Ok(()),
+            Some(_) => self.outing.set_door(DOOR, DoorState::Shut),
         }
     }
 
@@ -595,41 +690,29 @@ impl<'a> Bout<'a> {
         watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> LearnRecord {
         let squares = self.squares;
-        let most = Contest::LIMIT * self.corridors();
-        // The cell where it was at each of its places, and its belief after each action.
-        let mut arrivals: Vec<Cell> = Vec::new();
-        let mut beliefs: Vec<PlaceVisit> = Vec::new();
-        let see = |outing: &dyn Outing, before: Point| {
-            let after = outing.path().last().map_or(before, |pose| pose.position);
-            let visits = outing.visit_count();
-            while arrivals.len() + 1 < visits {
-                arrivals.push(squares.cell_at(before));
-            }
-            if arrivals.len() < visits {
-                arrivals.push(squares.cell_at(after));
-            }
-            if visits == 0 {
-                let cell = squares.cell_at(after);
-                let place = believed(&outing.belief(), || outing.map());
-                beliefs.extend(place.map(|place| PlaceVisit { place, cell }));
-            }
-        };
+        let pursuit = self.begin_to_learn(kidnapping);
+        let mut been = TrueVisits::default();
+        let driven = self.pursue(pursuit, |outing, before| {
+            been.note(outing, before, squares);
+            watch(outing, Moment::Acted);
+        });
+        self.learned(driven, been)
+    }
+
+    /// Begins to learn. Amid that, the robot is put where `kidnapping` says.
+    pub(super) fn begin_to_learn(&mut self, kidnapping: Option<(Cell, Direction)>) -> Pursuit {
         let kidnapping = kidnapping.map(|(cell, way)| {
-            let pose = Pose::new(squares.middle(cell), heading_of(way));
+            let pose = Pose::new(self.squares.middle(cell), heading_of(way));
             (KIDNAPPED_AT * self.corridors(), pose)
         });
-        let driven = self.pursue(Task::Explore, most, kidnapping, see, watch);
-        let named = self.outing.visits();
-        let visits: Vec<PlaceVisit> = match named.is_empty() {
-            true => beliefs,
-            false => {
-                let pairs = named.into_iter().zip(arrivals);
-                let visit = |(place, cell): (Option<u32>, Cell)| {
-                    place.map(|place| PlaceVisit { place, cell })
-                };
-                pairs.filter_map(visit).collect()
-            }
-        };
+        let most = Contest::LIMIT * self.corridors();
+        self.set_out(Task::Explore, most, kidnapping)
+    }
+
+    /// Returns what came of learning that went so, while the robot was there.
+    pub(super) fn learned(&mut self, driven: Driven, been: TrueVisits) -> LearnRecord {
+        let squares = self.squares;
+        let visits = been.visits(self.outing.visits());
         let map = self.outing.map();
         let path = &self.outing.path()[driven.from..];
         let cells = path.iter().map(|pose| squares.cell_at(pose.position));
@@ -678,7 +761,8 @@ impl<'a> Bout<'a> {
         }
         watch(&*self.outing, Moment::PutDown);
         let most = Contest::LIMIT * self.corridors();
-        let driven = self.pursue(Task::Localize, most, None, |_, _| {}, watch);
+        let pursuit = self.set_out(Task::Localize, most, None);
+        let driven = self.pursue(pursuit, |outing, _| watch(outing, Moment::Acted));
         let path = &self.outing.path()[driven.from..];
         let ceiling = self.observer.after(self.squares, start, path);
         Ok(Located {
@@ -715,7 +799,8 @@ impl<'a> Bout<'a> {
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Result<Home, BoxError> {
-        let shortest = self.afterwards.metres_to_goal(start.0, self.squares.pitch);
+        let afterwards = self.afterwards.as_ref().unwrap_or(&self.maze);
+        let shortest = afterwards.metres_to_goal(start.0, self.squares.pitch);
         if let Standing::GaveUp { why } = self.put_down(start)? {
             return Ok(Home {
                 over_shortest: None,
@@ -726,7 +811,8 @@ impl<'a> Bout<'a> {
         watch(&*self.outing, Moment::PutDown);
         let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
         let most = Contest::LIMIT * shortest;
-        let driven = self.pursue(goal, most, None, |_, _| {}, watch);
+        let pursuit = self.set_out(goal, most, None);
+        let driven = self.pursue(pursuit, |outing, _| watch(outing, Moment::Acted));
         let arrived = driven.arrived;
         Ok(Home {
             over_shortest: arrived.filter(|way| *way <= most).map(|way| way / shortest),

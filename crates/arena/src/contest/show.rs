@@ -5,7 +5,9 @@ use tolman_maze::{Cell, Direction};
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
 use super::contestant::Schooling;
-use super::play::{Bout, Contest, ContestError, LearnRecord, LocateOutcome, Measured, Moment};
+use super::play::{
+    Bout, Contest, ContestError, Driven, LearnRecord, LocateOutcome, Measured, Moment, Pursuit,
+};
 use crate::{BoxError, Outing};
 
 /// Result of a [show](Contest::show).
@@ -41,6 +43,16 @@ pub struct FoundOut {
 }
 
 impl Contest<'_> {
+    /// Puts the contestant at the start.
+    pub(super) fn bout(&self, schooling: &Schooling) -> Result<Bout, ContestError> {
+        if let Some(why) = self.contestant.abstains(self.maze, self.robot) {
+            return Err(self.enter_error(why.into()));
+        }
+        let entered = self.contestant.enter(self, schooling);
+        let entered = entered.map_err(|source| self.enter_error(source))?;
+        Ok(Bout::new(self, entered))
+    }
+
     /// Plays the show and returns its result. Calls `watch` at every [`Moment`].
     ///
     /// The contestant learns the drawing and is put down at the first of its
@@ -54,12 +66,7 @@ impl Contest<'_> {
         schooling: &Schooling,
         mut watch: impl FnMut(&dyn Outing, Moment),
     ) -> Result<ShowRecord, ContestError> {
-        if let Some(why) = self.contestant.abstains(self.maze, self.robot) {
-            return Err(self.enter_error(why.into()));
-        }
-        let entered = self.contestant.enter(self, schooling);
-        let entered = entered.map_err(|source| self.enter_error(source))?;
-        let mut bout = Bout::new(self, entered);
+        let mut bout = self.bout(schooling)?;
         watch(&*bout.outing, Moment::Begun);
         let learned = bout.learn(None, &mut watch);
         let explored = learned.driven * bout.scale();
@@ -82,55 +89,98 @@ impl Contest<'_> {
 }
 
 /// The way to the goal of a robot that was not lifted.
-struct WentHome {
-    metres: Option<f64>,
-    shortest: f64,
-    gave_up: String,
+#[derive(Clone, Debug, PartialEq)]
+pub struct WayHome {
+    /// Metres driven until it was at the goal; `None` if it did not arrive.
+    pub metres: Option<f64>,
+    /// Metres of the shortest way to the goal from the cell where it was.
+    pub shortest: f64,
+    /// Reason why it gave up; empty if it did not.
+    pub gave_up: String,
 }
 
-impl Bout<'_> {
+impl Bout {
     fn find_out_and_go_home(
         &mut self,
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
-    ) -> Result<(FoundOut, WentHome), BoxError> {
-        let before = self.outing.path().last().copied();
-        let mut found = FoundOut {
-            outcome: LocateOutcome::Wrong,
-            was_put_down: true,
-            actions: 0,
-            metres: 0.0,
-            step: 0,
-        };
-        match (self.put_down(start)?, before) {
-            (Standing::GaveUp { why }, Some(before)) => {
-                self.put_back(before)?;
-                found.was_put_down = false;
-                found.outcome = LocateOutcome::Abstained { why };
-            }
+    ) -> Result<(FoundOut, WayHome), BoxError> {
+        let found = match self.put_down_or_back(start)? {
+            Standing::GaveUp { why } => self.not_put_down(why),
             _ => {
                 watch(&*self.outing, Moment::PutDown);
-                let most = Contest::LIMIT * self.corridors();
                 let mut actions = 0;
-                let see = |_: &dyn Outing, _| actions += 1;
-                let driven = self.pursue(Task::Localize, most, None, see, watch);
-                found.outcome = self.outcome(driven.end);
-                (found.actions, found.metres) = (actions, driven.metres);
+                let pursuit = self.begin_to_localize();
+                let driven = self.pursue(pursuit, |outing, _| {
+                    actions += 1;
+                    watch(outing, Moment::Acted);
+                });
+                self.found_out(driven, actions)
             }
+        };
+        let (pursuit, shortest) = self.begin_to_go_home();
+        let driven = self.pursue(pursuit, |outing, _| watch(outing, Moment::Acted));
+        Ok((found, WayHome::of(&driven, shortest)))
+    }
+
+    /// Puts the robot down in the middle of a cell and tells its system. Puts it back if the system
+    /// gives up.
+    pub(super) fn put_down_or_back(
+        &mut self,
+        start: (Cell, Direction),
+    ) -> Result<Standing, BoxError> {
+        let before = self.outing.path().last().copied();
+        let standing = self.put_down(start)?;
+        if let (Standing::GaveUp { .. }, Some(before)) = (&standing, before) {
+            self.put_back(before)?;
         }
-        found.step = self.outing.path().len() - 1;
+        Ok(standing)
+    }
+
+    /// Returns what came of it when the robot was put back.
+    pub(super) fn not_put_down(&self, why: String) -> FoundOut {
+        FoundOut {
+            outcome: LocateOutcome::Abstained { why },
+            was_put_down: false,
+            actions: 0,
+            metres: 0.0,
+            step: self.outing.path().len() - 1,
+        }
+    }
+
+    /// Begins to find out where the robot was put down.
+    pub(super) fn begin_to_localize(&mut self) -> Pursuit {
+        let most = Contest::LIMIT * self.corridors();
+        self.set_out(Task::Localize, most, None)
+    }
+
+    /// Returns what came of that when it went so.
+    pub(super) fn found_out(&self, driven: Driven, actions: u32) -> FoundOut {
+        FoundOut {
+            metres: driven.metres,
+            outcome: self.outcome(driven.end),
+            was_put_down: true,
+            actions,
+            step: self.outing.path().len() - 1,
+        }
+    }
+
+    /// Begins the way to the goal, with the metres of the shortest.
+    pub(super) fn begin_to_go_home(&mut self) -> (Pursuit, f64) {
         let cell = self.squares.cell_at(self.here());
         let shortest = self.maze.metres_to_goal(cell, self.squares.pitch);
         let most = Contest::LIMIT * shortest.max(self.squares.pitch);
         let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
-        let driven = self.pursue(goal, most, None, |_, _| {}, watch);
-        Ok((
-            found,
-            WentHome {
-                metres: driven.arrived,
-                shortest,
-                gave_up: driven.end.why().to_owned(),
-            },
-        ))
+        (self.set_out(goal, most, None), shortest)
+    }
+}
+
+impl WayHome {
+    pub(super) fn of(driven: &Driven, shortest: f64) -> Self {
+        Self {
+            metres: driven.arrived,
+            shortest,
+            gave_up: driven.end.why().to_owned(),
+        }
     }
 }

@@ -135,6 +135,7 @@ const LINES_AHEAD: usize = 256;
 /// Time after which the flag and the clock are looked at again.
 const PULSE: Duration = Duration::from_millis(50);
 
+#[cfg(target_os = "linux")]
 /// Time in which the keeper is to end the program, before it is killed itself.
 const KEEPER_TIME: Duration = Duration::from_secs(10);
 

@@ -20,7 +20,7 @@ use tolman_replay::Replay;
 
 use self::records::{HomeRun, LearnRun, LocateRun};
 use self::rows::{ALL, Held, RowName};
-use crate::Film;
+use tolman_film::Film;
 
 pub use verdicts::{PoolJudgement, PoolRound, RungJudgement, VerdictPool};
 pub use worlds::{ArenaWorld, DrawnWorld};

@@ -13,13 +13,13 @@ use tolman_geom::Point;
 use tolman_maze::{Maze, MazeFile};
 use tolman_sim::robots::LaserPioneerConfig;
 
-use crate::Recorder;
 use tolman_arena::Mind;
 use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::course::Course;
 use tolman_arena::episode::{self, EpisodeError, Trial};
 use tolman_arena::pioneer;
 use tolman_experiment::{BoxError, Job, Row};
+use tolman_film::Recorder;
 use tolman_replay::Replay;
 
 pub(super) use drawings::{Condition, Drawing, Judged, LARGE_DRAWINGS};

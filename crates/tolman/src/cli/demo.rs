@@ -7,8 +7,8 @@ use anyhow::{Context, anyhow};
 use tolman_arena::contest::{
     Condition, Contest, ContestRobot, Contestant, LocateOutcome, Moment, Schooling, ShowRecord,
 };
+use tolman_film::Film;
 use tolman_maze::{Maze, MazeFile};
-use tolman_papers::Film;
 use tolman_replay::{Chapter, Mark, Marks, Replay, moving_picture};
 
 use super::replay_file::{self, Overwrite};

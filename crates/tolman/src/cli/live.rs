@@ -17,7 +17,7 @@ use std::io;
 use indicatif::ProgressBar;
 pub(super) use scene::{Now, Scene, see};
 use terminal::Screen;
-use tolman_papers::Glimpse;
+use tolman_film::Glimpse;
 
 use crate::cli::Failure;
 use crate::cli::bar::bar;

@@ -14,7 +14,7 @@ use super::unfinished::{Done, Keeper};
 use super::watched::Watched;
 use super::{Failure, file, interrupt, picture, replay_file};
 use crate::system::{MapText, Setup, slug};
-use tolman_papers::Film;
+use tolman_film::Film;
 
 /// Outcome of an outing.
 pub(super) struct Pursued {

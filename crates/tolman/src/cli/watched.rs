@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use tolman_arena::Outing;
-use tolman_papers::Film;
+use tolman_film::Film;
 
 use super::Failure;
 use super::live::{Live, Now, Scene};

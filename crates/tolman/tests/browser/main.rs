@@ -9,6 +9,7 @@
 mod client;
 mod devtools;
 mod pages;
+mod playground;
 mod replay;
 mod report;
 mod tab;

@@ -108,9 +108,15 @@ impl Tab {
     /// Waits until a condition holds.
     #[track_caller]
     pub(crate) fn until(&mut self, condition: &str) {
+        self.until_within(condition, PATIENCE);
+    }
+
+    /// Waits at most `patience` until a condition holds.
+    #[track_caller]
+    pub(crate) fn until_within(&mut self, condition: &str, patience: Duration) {
         let begun = Instant::now();
         while self.eval(condition) != true {
-            assert!(begun.elapsed() < PATIENCE, "it never came: {condition}");
+            assert!(begun.elapsed() < patience, "it never came: {condition}");
             std::thread::sleep(Duration::from_millis(20));
         }
     }

@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 use std::io::{self, IsTerminal, Write};
 
-use tolman_papers::Glimpse;
+use tolman_film::Glimpse;
 
 use super::{Now, Scene};
 use crate::cli::Failure;

@@ -10,8 +10,8 @@ use tolman_arena::Mind;
 use tolman_arena::course::Course;
 use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
 use tolman_arena::pioneer::{body, calibrated};
+use tolman_film::Recorder;
 use tolman_geom::Point;
-use tolman_papers::Recorder;
 use tolman_replay::Fact;
 use tolman_sim::robots::LaserPioneerConfig;
 

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, Event};
-use tolman_papers::Glimpse;
+use tolman_film::Glimpse;
 
 use super::pace::{Motion, Pace};
 use super::view::View;

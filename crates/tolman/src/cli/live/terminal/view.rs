@@ -10,8 +10,8 @@ use ratatui::style::{Style, Stylize};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Padding, Paragraph, Wrap};
 use tolman_experiment::Ink;
+use tolman_film::Glimpse;
 use tolman_geom::{Point, Pose};
-use tolman_papers::Glimpse;
 use tolman_robot::Scan;
 
 use super::pace::{Motion, Pace};

@@ -1,6 +1,7 @@
 //! Replays of any outing.
 
 use alloc::collections::{BTreeMap, BTreeSet};
+use core::mem;
 
 use tolman_arena::Outing;
 use tolman_geom::{Heading, Point, Pose};
@@ -17,13 +18,17 @@ const STILL: f64 = 0.05;
 const DENSE: u32 = 200;
 
 /// Records an outing: the system's notes, its belief and its map after every action.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Film {
     actions: u32,
+    /// The map is recorded after every such action.
+    every: u32,
     thoughts: Notes,
     belief: Belief,
     nodes: BTreeMap<u32, MapNode>,
     edges: BTreeMap<(u32, u32), MapEdge>,
+    /// Edges that died before another one of the same ends was born.
+    gone: Vec<MapEdge>,
     places: TimeSeries,
     /// True position of the robot when the system first believed it was at a place, m.
     met: BTreeMap<u32, Point>,
@@ -59,10 +64,12 @@ impl Film {
     pub fn laid_at(outing: &dyn Outing, world_from_map: Pose) -> Self {
         let mut film = Self {
             actions: 0,
+            every: 1,
             thoughts: Notes::new("thinks"),
             belief: Belief::new("belief"),
             nodes: BTreeMap::new(),
             edges: BTreeMap::new(),
+            gone: Vec::new(),
             places: TimeSeries::new("places on the map", ""),
             met: BTreeMap::new(),
             goal: None,
@@ -71,6 +78,28 @@ impl Film {
         };
         film.map(outing, 0);
         film
+    }
+
+    /// Records the map after every `every`-th action alone: some maps take long to draw.
+    #[must_use]
+    pub fn recording_every(mut self, every: u32) -> Self {
+        self.every = every;
+        self
+    }
+
+    /// Returns the number of places of the map when it was recorded last.
+    #[must_use]
+    pub fn place_count(&self) -> usize {
+        let last = self.places.samples.last();
+        last.map_or(0, |sample| sample.value as usize)
+    }
+
+    /// Returns the number of places or poses that the system took for possible after its last
+    /// action.
+    #[must_use]
+    pub fn guess_count(&self) -> usize {
+        let last = self.belief.entries.last();
+        last.map_or(0, |entry| entry.shapes.len())
     }
 
     /// Records that the robot was lifted and put down elsewhere. Its next step is the first there.
@@ -83,7 +112,8 @@ impl Film {
         let step = outing.path().len().saturating_sub(1) as u32;
         self.actions += 1;
         self.meet(outing);
-        if self.actions <= DENSE || self.actions.is_multiple_of(self.actions / DENSE) {
+        let every = self.every.max(self.actions / DENSE).max(1);
+        if self.actions.is_multiple_of(every) {
             self.map(outing, step);
         }
         let words = outing.words();
@@ -146,6 +176,8 @@ impl Film {
             };
             let node = self.nodes.entry(place.id);
             let node = node.or_insert_with(|| MapNode::new(place.id, at, step));
+            // A place that comes back was only out of sight.
+            node.died = None;
             node.move_to(step, at, STILL);
             // Many nodes may be at the goal; only one is labelled.
             if place.landmark == Some(Landmark::Goal)
@@ -167,7 +199,11 @@ impl Film {
         }
         for (a, b) in wanted {
             let edge = self.edges.entry((a, b));
-            edge.or_insert_with(|| MapEdge::new(a, b, step));
+            let edge = edge.or_insert_with(|| MapEdge::new(a, b, step));
+            // An edge that comes back is another one.
+            if edge.died.is_some() {
+                self.gone.push(mem::replace(edge, MapEdge::new(a, b, step)));
+            }
         }
     }
 
@@ -216,7 +252,11 @@ impl Film {
         track.maps = vec![MapGrowth {
             name: "map".to_owned(),
             nodes: self.nodes.into_values().collect(),
-            edges: self.edges.into_values().collect(),
+            edges: self
+                .gone
+                .into_iter()
+                .chain(self.edges.into_values())
+                .collect(),
         }];
         track.series.push(self.places);
         if !self.thoughts.notes.is_empty() {

@@ -18,7 +18,7 @@ use tolman_replay::{Belief, Floor, Mark, Marks, Notes, Replay, RobotTrack, Scene
 /// use tolman_arena::course::Course;
 /// use tolman_arena::episode::{self, Trial, random_start};
 /// use tolman_arena::pioneer::{body, calibrated};
-/// use tolman_papers::Recorder;
+/// use tolman_film::Recorder;
 ///
 /// let maze = tolman_maze::read("o---o---o---o\n| S       G |\no---o---o---o\n")?;
 /// let (course, robot) = (Course::for_body("corridor", &maze, &body())?, calibrated());

@@ -1,0 +1,138 @@
+//! The playground as JavaScript has it: texts and JSON in both directions.
+
+use serde::Serialize;
+use tolman_arena::family::Family;
+use tolman_maze::{Cell, Direction};
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use crate::{Playground, PlaygroundError, Session, Sketch};
+
+fn json(value: &impl Serialize) -> String {
+    // Only a key that is not text, or a type that refuses, cannot be written. Neither exists here.
+    serde_json::to_string(value).unwrap_or_default()
+}
+
+fn told<T>(done: Result<T, PlaygroundError>) -> Result<T, String> {
+    done.map_err(|error| error.to_string())
+}
+
+/// What is under the reader's hand: a maze, and a session in it once one has begun.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct PlaygroundPage {
+    playground: Playground,
+    sketch: Sketch,
+    session: Option<Session>,
+}
+
+#[wasm_bindgen]
+impl PlaygroundPage {
+    /// Opens the page with a maze.
+    #[wasm_bindgen(constructor)]
+    pub fn new(maze: &str) -> Result<PlaygroundPage, String> {
+        Ok(Self {
+            playground: Playground::default(),
+            sketch: told(Sketch::read(maze))?,
+            session: None,
+        })
+    }
+
+    /// Returns the systems that can be chosen.
+    pub fn systems() -> String {
+        json(&Playground::systems())
+    }
+
+    /// Returns the families of mazes that can be drawn, by name and description.
+    pub fn families() -> String {
+        let families = Family::all();
+        let told = families.iter().map(|family| [family.name, family.about]);
+        json(&told.collect::<Vec<_>>())
+    }
+
+    /// Takes the text of a maze.
+    pub fn read(&mut self, maze: &str) -> Result<(), String> {
+        self.sketch = told(Sketch::read(maze))?;
+        Ok(())
+    }
+
+    /// Draws a maze of a family.
+    pub fn draw(&mut self, family: &str, size: u16, seed: u32) -> Result<(), String> {
+        self.sketch = told(Sketch::drawn(family, size, seed.into()))?;
+        Ok(())
+    }
+
+    /// Takes a maze without inner walls.
+    pub fn clear(&mut self, size: u16) {
+        self.sketch = Sketch::empty(size);
+    }
+
+    /// Builds or removes a wall on the `side` of a cell: `north`, `east`, `south` or `west`.
+    pub fn set_wall(&mut self, x: u16, y: u16, side: &str, stands: bool) {
+        let side = Direction::ALL
+            .into_iter()
+            .find(|known| json(known) == json(&side));
+        if let Some(side) = side {
+            self.sketch.set_wall(Cell::new(x, y), side, stands);
+        }
+    }
+
+    /// Moves the start.
+    pub fn set_start(&mut self, x: u16, y: u16) {
+        self.sketch.set_start(Cell::new(x, y));
+    }
+
+    /// Moves the goal.
+    pub fn set_goal(&mut self, x: u16, y: u16) {
+        self.sketch.set_goal(Cell::new(x, y));
+    }
+
+    /// Returns the maze as text.
+    pub fn text(&self) -> String {
+        self.sketch.text()
+    }
+
+    /// Returns what is drawn of the maze.
+    pub fn plan(&self) -> String {
+        json(&self.sketch.plan())
+    }
+
+    /// Sends a system into the maze.
+    pub fn begin(&mut self, system: &str, seed: u32) -> Result<String, String> {
+        let session = told(self.playground.begin(&self.sketch, system, seed.into()))?;
+        let state = json(&session.state());
+        self.session = Some(session);
+        Ok(state)
+    }
+
+    /// Lets it act.
+    pub fn advance(&mut self, steps: u32) -> Result<String, String> {
+        Ok(json(&self.session()?.advance(steps as usize)))
+    }
+
+    /// Puts the robot elsewhere.
+    pub fn put_down(&mut self, x: f64, y: f64) -> Result<String, String> {
+        let state = told(self.session()?.put_down(x, y))?;
+        Ok(json(&state))
+    }
+
+    /// Sends the robot to the goal.
+    pub fn go_home(&mut self) -> Result<String, String> {
+        Ok(json(&self.session()?.go_home()))
+    }
+
+    /// Returns the run so far.
+    pub fn replay(&mut self) -> Result<String, String> {
+        told(self.session()?.replay())
+    }
+
+    /// Returns a fingerprint of the run so far.
+    pub fn fingerprint(&mut self) -> Result<String, String> {
+        Ok(self.session()?.fingerprint())
+    }
+
+    fn session(&mut self) -> Result<&mut Session, String> {
+        self.session
+            .as_mut()
+            .ok_or_else(|| "nobody was sent into the maze yet".to_owned())
+    }
+}

@@ -1,0 +1,21 @@
+//! A page on which robots learn a maze that the reader draws.
+//!
+//! In the order data flows: a [`Sketch`] is the maze under the reader's hand. A [`Playground`]
+//! sends a system into it. A [`Session`] lets the system act a few time steps at a time, puts its
+//! robot elsewhere, sends it to the goal, and says what came of it. What it shows is a replay that
+//! grows, for the same player as every other run.
+//!
+//! Compiled for `wasm32-unknown-unknown`, the module `bindings` hands these to JavaScript;
+//! `cargo xtask playground` puts them into one HTML file with the page below `page`.
+
+#[cfg(target_arch = "wasm32")]
+mod bindings;
+mod playground;
+mod session;
+mod sketch;
+mod verdict;
+
+pub use playground::{Playground, PlaygroundError, SystemChoice};
+pub use session::{Session, SessionState, SessionTask};
+pub use sketch::{Sketch, SketchPlan, SketchWall};
+pub use verdict::{TaskVerdict, Tone};

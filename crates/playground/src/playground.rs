@@ -1,0 +1,168 @@
+use serde::Serialize;
+use thiserror::Error;
+use tolman_arena::BoxError;
+use tolman_arena::contest::{
+    Condition, Contest, ContestError, ContestRobot, Contestant, Schooling, SteppedContest,
+};
+use tolman_maze::MazeError;
+use tolman_replay::EncodeError;
+
+use crate::{Session, Sketch};
+
+/// Reason why the playground cannot do what is asked.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PlaygroundError {
+    /// The text is no maze that can be solved.
+    #[error("this is no maze that a robot can be sent into: {0}")]
+    Maze(#[from] MazeError),
+    /// The maze that is drawn cannot be solved.
+    #[error("no robot can be sent into this maze: {0}")]
+    Sketch(String),
+    /// A family has no such maze.
+    #[error("no maze of the family {name} can be drawn: {source}")]
+    Family {
+        /// The family's name.
+        name: String,
+        /// The underlying error.
+        source: BoxError,
+    },
+    /// There is no such system.
+    #[error("there is no system {name}")]
+    System {
+        /// The name that was given.
+        name: String,
+    },
+    /// System, robot and maze do not go together, or the robot cannot stand somewhere.
+    #[error("{0}: {source}", source = root(.0))]
+    Contest(#[from] ContestError),
+    /// A cell has no way out.
+    #[error("this cell is walled in: choose one with a way out")]
+    WalledIn,
+    /// The run cannot be shown.
+    #[error(transparent)]
+    Replay(#[from] EncodeError),
+}
+
+/// Returns what is at the bottom of an error.
+fn root(error: &dyn core::error::Error) -> String {
+    let mut error = error;
+    while let Some(source) = error.source() {
+        error = source;
+    }
+    error.to_string()
+}
+
+/// A system that can be chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct SystemChoice {
+    /// Its name in tables.
+    pub name: &'static str,
+    /// What it does, in one line.
+    pub about: &'static str,
+    /// Whether it is as its paper has it.
+    pub is_paper: bool,
+}
+
+/// Sends systems into mazes, and keeps what they learned before: CPM's common patterns, which take
+/// a second.
+#[derive(Debug, Default)]
+pub struct Playground {
+    schooling: Schooling,
+}
+
+impl Playground {
+    /// Returns the systems that can be chosen: all that learn a map, those that work best first.
+    #[must_use]
+    pub fn systems() -> Vec<SystemChoice> {
+        let mut systems: Vec<SystemChoice> = Contestant::ALL
+            .into_iter()
+            .filter(|contestant| contestant.learns())
+            .map(choice)
+            .collect();
+        systems.sort_by_key(|choice| choice.is_paper);
+        systems
+    }
+
+    /// Puts a system's own robot at the start of a maze. `seed` is that of all noise.
+    ///
+    /// # Errors
+    /// [`PlaygroundError`] if there is no such system, or it cannot work in that maze.
+    pub fn begin(
+        &self,
+        sketch: &Sketch,
+        system: &str,
+        seed: u64,
+    ) -> Result<Session, PlaygroundError> {
+        let contestant = Contestant::named(system).filter(|contestant| contestant.learns());
+        let contestant = contestant.ok_or_else(|| PlaygroundError::System {
+            name: system.to_owned(),
+        })?;
+        if let Some(fault) = sketch.fault() {
+            return Err(PlaygroundError::Sketch(fault));
+        }
+        let contest = Contest {
+            contestant,
+            robot: ContestRobot::Own,
+            maze: &sketch.maze,
+            name: &sketch.name,
+            condition: Condition::AsMade,
+            starts: 0,
+            seed,
+            stopwatch: None,
+        };
+        let stepped = SteppedContest::new(&contest, &self.schooling)?;
+        Ok(Session::new(contestant, &sketch.name, seed, stepped))
+    }
+}
+
+const fn choice(contestant: Contestant) -> SystemChoice {
+    let (about, is_paper) = match contestant {
+        Contestant::Mslst => (
+            "learns a graph of states and actions from laser scans, for as long as it may drive",
+            true,
+        ),
+        Contestant::MslstBetter => (
+            "draws walls from laser scans and explores where its map has gaps",
+            false,
+        ),
+        Contestant::Cpm => (
+            "takes paths for sequences of common patterns, on an e-puck",
+            true,
+        ),
+        Contestant::CpmBetter => (
+            "common patterns of paths with dead reckoning and several hypotheses; corridors alone",
+            false,
+        ),
+        Contestant::Diktiometry => (
+            "maps places that look alike, with bounds on where they lie, by a camera",
+            true,
+        ),
+        Contestant::DiktiometryBetter => (
+            "maps places that look alike, with a journal of all its moves; walls have eight colours",
+            false,
+        ),
+        Contestant::GngSlam => (
+            "lets a neural gas learn images, sonar and odometry, after all is gathered",
+            true,
+        ),
+        Contestant::GngSlamBetter => (
+            "maps places by sonar and camera, and corrects its pose while it learns",
+            false,
+        ),
+        Contestant::Micromouse => (
+            "is told the grid, the start and the goal, and explores wall by wall",
+            true,
+        ),
+        Contestant::WallBelief => (
+            "a noisy micromouse: believes in walls, and knows where it is by particles",
+            false,
+        ),
+        Contestant::Baseline(_) => ("learns no map", true),
+    };
+    SystemChoice {
+        name: contestant.name(),
+        about,
+        is_paper,
+    }
+}

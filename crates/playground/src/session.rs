@@ -1,0 +1,220 @@
+use serde::Serialize;
+use tolman_arena::Outing;
+use tolman_arena::contest::{Contestant, SteppedContest, TaskRecord};
+use tolman_film::Film;
+use tolman_geom::Point;
+use tolman_replay::json;
+
+use crate::verdict::{TaskVerdict, explored, found, home};
+use crate::{PlaygroundError, Tone};
+
+/// A system that learns a maze while somebody looks on.
+#[derive(Debug)]
+pub struct Session {
+    contestant: Contestant,
+    maze: String,
+    seed: u64,
+    contest: SteppedContest,
+    film: Film,
+    task: SessionTask,
+    verdict: Option<TaskVerdict>,
+}
+
+/// Last task of a session, which may be over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SessionTask {
+    /// It learns the maze.
+    Explore,
+    /// It finds out where it was put down.
+    Localize,
+    /// It drives to the goal.
+    Home,
+}
+
+/// The map is recorded after every such action: that of the better MSLST takes as long as ten
+/// actions.
+const EVERY: u32 = 4;
+
+/// A session at a moment.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SessionState {
+    /// The task.
+    pub task: SessionTask,
+    /// Whether the task is under way.
+    pub is_busy: bool,
+    /// Time steps made so far.
+    pub steps: usize,
+    /// Duration of a time step, s.
+    pub step_s: f64,
+    /// Places of the map when it was recorded last.
+    pub places: usize,
+    /// Number of places or poses that the system takes for possible.
+    pub guesses: usize,
+    /// What is happening, or what came of the task; one or two sentences.
+    pub told: String,
+    /// How that sounds.
+    pub tone: Tone,
+}
+
+impl Session {
+    pub(crate) fn new(
+        contestant: Contestant,
+        maze: &str,
+        seed: u64,
+        mut contest: SteppedContest,
+    ) -> Self {
+        contest.explore();
+        let outing = contest.outing();
+        let start = outing.path().first().copied().unwrap_or_default();
+        Self {
+            contestant,
+            maze: maze.to_owned(),
+            seed,
+            film: Film::laid_at(outing, contestant.world_from_map(start)).recording_every(EVERY),
+            contest,
+            task: SessionTask::Explore,
+            verdict: None,
+        }
+    }
+
+    /// Lets the system act until its robot has made at least `steps` further time steps, or the
+    /// task is over, and returns what it has come to.
+    pub fn advance(&mut self, steps: usize) -> SessionState {
+        let until = self.steps().saturating_add(steps);
+        while self.contest.is_busy() && self.steps() < until {
+            let record = self.contest.act();
+            self.film.see(self.contest.outing());
+            self.verdict = record.map(|record| self.judge(&record));
+        }
+        self.state()
+    }
+
+    /// Lifts the robot and puts it down in the cell at a position in the world, m. The system knows
+    /// that it was lifted, not where it is, and begins to find out.
+    ///
+    /// # Errors
+    /// [`PlaygroundError`] if the robot cannot stand there.
+    pub fn put_down(&mut self, x: f64, y: f64) -> Result<SessionState, PlaygroundError> {
+        let cell = self.contest.cell_at(Point::new(x, y));
+        let cell = cell.ok_or(PlaygroundError::WalledIn)?;
+        self.film.lifted(self.contest.outing());
+        let found = self.contest.put_down(cell)?;
+        self.task = SessionTask::Localize;
+        self.verdict = found.map(|found| self.judge(&TaskRecord::Found(found)));
+        Ok(self.state())
+    }
+
+    /// Sends the robot to the goal.
+    pub fn go_home(&mut self) -> SessionState {
+        self.contest.go_home();
+        self.task = SessionTask::Home;
+        self.verdict = None;
+        self.state()
+    }
+
+    /// Returns what it has come to.
+    #[must_use]
+    pub fn state(&self) -> SessionState {
+        let (places, guesses) = (self.film.place_count(), self.film.guess_count());
+        let verdict = self.verdict.clone().unwrap_or_else(|| TaskVerdict {
+            told: self.under_way(places, guesses),
+            tone: Tone::Neutral,
+        });
+        SessionState {
+            task: self.task,
+            is_busy: self.contest.is_busy(),
+            steps: self.steps(),
+            step_s: self.contest.outing().robot().step_us as f64 * 1e-6,
+            places,
+            guesses,
+            told: verdict.told,
+            tone: verdict.tone,
+        }
+    }
+
+    /// Returns the system with its robot.
+    #[must_use]
+    pub fn outing(&self) -> &dyn Outing {
+        self.contest.outing()
+    }
+
+    /// Returns the run so far as the replay player takes it. O(steps + map).
+    ///
+    /// # Errors
+    /// [`PlaygroundError::Replay`] if it cannot be written.
+    pub fn replay(&self) -> Result<String, PlaygroundError> {
+        let title = format!("{} in the maze {}", self.contestant.name(), self.maze);
+        let film = self.film.clone().replay(self.contest.outing(), title);
+        Ok(json(&film.fact("seed", self.seed.to_string()))?)
+    }
+
+    /// Returns a fingerprint of the robot's way and of the map, to the bit: the same on every
+    /// machine.
+    #[must_use]
+    pub fn fingerprint(&self) -> String {
+        let outing = self.contest.outing();
+        let mut hash = Fnv::default();
+        for pose in outing.path() {
+            for number in [pose.position.x, pose.position.y, pose.heading.radians()] {
+                hash.take(&number.to_bits().to_le_bytes());
+            }
+        }
+        hash.take(format!("{:?}", outing.map()).as_bytes());
+        hash.take(format!("{:?}", outing.belief()).as_bytes());
+        format!("{:016x}", hash.0)
+    }
+
+    fn steps(&self) -> usize {
+        self.contest.outing().path().len().saturating_sub(1)
+    }
+
+    fn judge(&self, record: &TaskRecord) -> TaskVerdict {
+        let name = self.contestant.name();
+        match record {
+            TaskRecord::Learned(record) => explored(name, record),
+            TaskRecord::Found(record) => found(record),
+            TaskRecord::Home(record) => home(record),
+        }
+    }
+
+    /// Returns what is happening.
+    fn under_way(&self, places: usize, guesses: usize) -> String {
+        let name = self.contestant.name();
+        match self.task {
+            SessionTask::Explore => {
+                format!("{name} explores: {} on its map.", count(places, "place"))
+            }
+            SessionTask::Localize if guesses > 1 => {
+                format!("It was put down and finds out where: it may be at {guesses} places.")
+            }
+            SessionTask::Localize => "It was put down and finds out where.".to_owned(),
+            SessionTask::Home => "It drives to the goal by its map.".to_owned(),
+        }
+    }
+}
+
+/// Returns a number of things with the right ending.
+pub(crate) fn count(number: usize, thing: &str) -> String {
+    match number {
+        1 => format!("1 {thing}"),
+        _ => format!("{number} {thing}s"),
+    }
+}
+
+/// FNV-1a, 64 bits.
+struct Fnv(u64);
+
+impl Default for Fnv {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Fnv {
+    fn take(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+}
