@@ -273,9 +273,9 @@ fn hostile_parts_are_refused() {
         ),
         (
             |parts| parts.places[1].position.x = f64::INFINITY,
-            "place 1 lies at",
+            "place 1 is at",
         ),
-        (|parts| parts.goal[0].y = f64::NAN, "goal 0 lies at"),
+        (|parts| parts.goal[0].y = f64::NAN, "goal 0 is at"),
         (
             |parts| parts.links[0] = [1, 1],
             "link 0 goes from place 1 to place 1",

@@ -2,7 +2,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 use tolman_arena::family::Family;
-use tolman_maze::{Cell, Direction, Grid, Maze, MazeFile};
+use tolman_maze::{Cell, Direction, Format, Grid, Maze, MazeFile};
 
 use crate::PlaygroundError;
 
@@ -132,7 +132,9 @@ impl Sketch {
     /// Returns the maze as the text of a `.maze` file.
     #[must_use]
     pub fn text(&self) -> String {
-        self.maze.to_string()
+        let file = MazeFile::from(self.maze.clone());
+        // A drawing alone does not say where a robot looks that starts before a wall.
+        tolman_maze::write(&file, Format::Tolman).unwrap_or_else(|_| self.maze.to_string())
     }
 
     /// Returns why no robot can be sent into it, as a sentence without a full stop; `None` if one

@@ -84,8 +84,8 @@ impl SteppedContest {
     }
 
     /// Lifts the robot, puts it down in the middle of a cell, tells its system, and begins to
-    /// localize. A task under way is [stopped](Self::stop). Returns the result at once if the system
-    /// gives up: it follows its robot, so it is put back.
+    /// localize. A task under way is [stopped](Self::stop). Returns the result at once if the
+    /// system gives up: it follows its robot, so it is put back.
     ///
     /// # Errors
     /// [`ContestError::PutDown`] if the robot cannot stand there.

@@ -183,7 +183,7 @@ fn fragments_that_look_alike_are_told() {
     let corridor = "corridor_width = 0.25\nstart = 0 0 east\n\no---o---o---o---o---o\n| S               G |\no---o---o---o---o---o\n";
     fs::write(folder.join("corridor.maze"), corridor).unwrap();
     let alike = ["maze", "distinct", "corridor.maze", "--walks", "1"];
-    tolman_in(&folder, &alike).refused(2, &["which is not below 0.8", "bend one of them"]);
+    tolman_in(&folder, &alike).refused(2, &["not below 0.8", "bend one of them"]);
     let none = ["maze", "distinct", "corridor.maze", "--walks", "0"];
     tolman_in(&folder, &none).refused(2, &["--walks"]);
     let below = ["maze", "distinct", "corridor.maze", "--below", "nan"];

@@ -275,7 +275,7 @@ fn what_is_not_this_run_is_not_gone_on_with() {
     );
     let parts = ["a.maze is a maze", "Ctrl-C"];
     refused(&format!("{run} --from a.maze"), 2, &parts);
-    let parts = ["run.unfinished is a run that was interrupted"];
+    let parts = ["run.unfinished is an interrupted run"];
     refused("map show run.unfinished", 2, &parts);
 
     let mut read: serde_json::Value = serde_json::from_str(&text).unwrap();

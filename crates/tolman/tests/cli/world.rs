@@ -110,7 +110,7 @@ fn a_map_of_cpm_says_what_it_can_of_a_world() {
     );
     let learn = "learn --system cpm --robot laser-pioneer --steps 1500 --out map.json --replay map.html --world";
     let arguments: Vec<&str> = learn.split(' ').chain([world]).collect();
-    tolman_in(&folder, &arguments).failed(1, &["time was up"]);
+    tolman_in(&folder, &arguments).failed(1, &["ran out of time"]);
     let replay = fs::read_to_string(folder.join("map.html")).unwrap();
     assert!(replay.contains("places on the map"));
     let check = ["map", "check", "map.json", "--world", world];
@@ -175,7 +175,7 @@ fn a_world_that_does_not_serve_is_refused() {
     );
     refused(
         &["--world", "passage.json", "--goal", "0,0"],
-        &["of its own", "leave --goal out"],
+        &["already", "leave --goal out"],
     );
     refused(
         &["--world", "passage.json", "--corridor", "0.3"],
