@@ -48,7 +48,7 @@ impl CpmConfig {
         }
     }
 
-    /// Returns the online CPM of section 6: [`CpmMapperConfig::online`]. It gives up after 1000
+    /// Returns the online CPM of section 6: [`CpMapperConfig::online`]. It gives up after 1000
     /// fragments, which is not in the paper. By Theorem 1 a maze of 44 fragments takes at most 990;
     /// in practice a maze of 500 takes about as many.
     #[must_use]
@@ -56,7 +56,7 @@ impl CpmConfig {
         Self::with(CpMapperConfig::online())
     }
 
-    /// Returns the configuration with all our improvements: [`CpmMapperConfig::robust`].
+    /// Returns the configuration with all our improvements: [`CpMapperConfig::robust`].
     #[must_use]
     pub const fn robust() -> Self {
         Self {
@@ -66,7 +66,7 @@ impl CpmConfig {
         }
     }
 
-    /// Returns the offline CPM of section 4: [`CpmMapperConfig::offline`].
+    /// Returns the offline CPM of section 4: [`CpMapperConfig::offline`].
     #[must_use]
     pub const fn offline() -> Self {
         Self::with(CpMapperConfig::offline())
