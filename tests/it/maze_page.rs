@@ -15,7 +15,7 @@ fn the_example_is_read_as_it_is_explained() {
     assert_eq!(Format::detect(example()).unwrap(), Format::Tolman);
     let file = read(example()).unwrap();
     assert_eq!(file.name.as_deref(), Some("Loop with a room"));
-    assert_eq!(file.corridor_width, Some(0.5));
+    assert_eq!(file.corridor_width, Some(0.95));
     assert_eq!(file.maze.start().unwrap().0, Cell::new(0, 0));
     assert_eq!(file.maze.goals(), [Cell::new(4, 1)]);
     assert_eq!(

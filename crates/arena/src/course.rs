@@ -72,7 +72,7 @@ pub enum CourseError {
     },
     /// The corridors are too narrow for the robot.
     #[error(
-        "a robot {diameter} m across does not fit corridors {width} m wide: widen them with `corridor_width` in the maze file's header, or --corridor of a world"
+        "a robot {diameter} m across does not fit corridors {width} m wide: leave `corridor_width` out of the maze file for corridors that fit, or give a larger one; for a world, give a larger --corridor"
     )]
     TooNarrow {
         /// The robot's diameter, m.
@@ -83,7 +83,7 @@ pub enum CourseError {
     /// The e-puck cannot recognize such corridors.
     #[error(
         "the corridors are {width} m wide; an e-puck, whose sensors reach {reach} m, recognizes junctions only in corridors of {least} to {most} m: set \
-         corridor_width to 0.25"
+         corridor_width to 0.25, or leave it out"
     )]
     Unseen {
         /// From wall to wall, m.

@@ -18,8 +18,8 @@ const PATIENCE: u8 = 60;
 /// Cell and direction in which the mouse starts.
 const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
 
-/// The mouse: what it knows and what it is doing. Directions are in its own frame, in which north
-/// is ahead at the start.
+/// The mouse: what it knows and what it is doing. Directions to and from it are relative to its
+/// heading: north is ahead, east is to its right.
 #[derive(Clone, Debug)]
 pub struct Mouse<'a> {
     times: &'a SpeedRunTimes<MAZE>,
@@ -58,7 +58,7 @@ pub struct Sides {
 /// A command to the motors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command {
-    /// Turn to this side, drive to the next cell and look.
+    /// Turn to this side, where north is ahead, drive to the next cell and look.
     Drive(Direction),
     /// Stay: the mouse is back at the start and knows the fastest run.
     Ready {

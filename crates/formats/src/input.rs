@@ -33,6 +33,9 @@ pub enum SourceError {
         /// `UTF-8` or `UTF-16`.
         encoding: &'static str,
     },
+    /// It is packed by gzip.
+    #[error("it is packed by gzip; unpack it with `gunzip`")]
+    Packed,
     /// It is no UTF-8 text.
     #[error("line {line}: byte {byte} of the file is not UTF-8; save it as UTF-8 text")]
     NoText {
@@ -86,6 +89,9 @@ pub fn text_of(source: impl Read) -> Result<String, SourceError> {
     if let Some((_, encoding)) = marks.iter().find(|(mark, _)| bytes.starts_with(mark)) {
         return Err(SourceError::ByteOrderMark { encoding });
     }
+    if bytes.starts_with(b"\x1f\x8b") {
+        return Err(SourceError::Packed);
+    }
     String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
         let before = error.as_bytes().iter().take(byte);
@@ -108,6 +114,7 @@ mod tests {
     fn what_is_no_text_is_told_with_its_place() {
         assert_eq!(text_of(&b"o---o\n"[..]).unwrap(), "o---o\n");
         assert!(told(b"a\nb\n\xe9\n").starts_with("line 3: byte 4 of the file is not UTF-8"));
+        assert!(told(b"\x1f\x8b\x08").starts_with("it is packed by gzip"));
         assert!(told(b"\xef\xbb\xbfo---o").contains("byte order mark of UTF-8"));
         assert!(told(b"\xff\xfeo\0").contains("byte order mark of UTF-16"));
     }

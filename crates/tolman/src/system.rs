@@ -238,14 +238,30 @@ impl Settings<'_> {
         for (path, value) in self.set {
             set(&mut table, path, value)?;
         }
-        table.try_into().with_context(|| {
+        table.try_into().map_err(|error: toml::de::Error| {
             let set = self
                 .set
                 .iter()
                 .map(|(path, value)| format!("{path}={value}"));
-            format!("--set {}", set.collect::<Vec<_>>().join(" --set "))
+            let set = set.collect::<Vec<_>>().join(" --set ");
+            anyhow!("--set {set}: {}", in_plain_words(error.message()))
         })
     }
+}
+
+/// Returns what a reader of TOML says, with words in place of the names of Rust's types.
+fn in_plain_words(message: &str) -> String {
+    let message = message.trim_end();
+    let Some((before, wanted)) = message.rsplit_once("expected ") else {
+        return message.to_owned();
+    };
+    let wanted = match wanted {
+        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, 0 or more",
+        "i8" | "i16" | "i32" | "i64" | "isize" => "a whole number",
+        "f32" | "f64" => "a number",
+        other => other,
+    };
+    format!("{before}expected {wanted}")
 }
 
 /// Sets the field at `path` of a table to `value`.

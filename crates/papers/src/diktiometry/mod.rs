@@ -43,11 +43,14 @@ struct Diktiometry {
     fresh: Vec<FreshRow>,
 }
 
-/// Returns the experiment with its offices. Maze files are not used.
+/// Returns the experiment with its offices.
 ///
 /// # Errors
-/// If an office cannot be built.
+/// If the caller names mazes, which this experiment does not use, or an office cannot be built.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
+    if !options.mazes.is_empty() {
+        return Err("the tables are of offices: leave --maze out".into());
+    }
     let trials = settings::all()?;
     let fresh = fresh::rows();
     let mut tables: Vec<Table> = trials.iter().map(table).collect();

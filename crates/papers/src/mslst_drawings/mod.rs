@@ -86,6 +86,9 @@ impl DrawingRun {
 struct Drawings;
 
 fn open(options: &Options) -> Result<Experiment, BoxError> {
+    if !options.mazes.is_empty() {
+        return Err("the tables are of random drawings: leave --maze out".into());
+    }
     let judged = options.runs_of(&ENTRY);
     if judged > MOST_DRAWINGS {
         return Err(format!("{judged} drawings: the rule judges {MOST_DRAWINGS} at most").into());

@@ -44,11 +44,14 @@ struct Sweeps {
     sweeps: Vec<Sweep>,
 }
 
-/// Returns the experiment with its tables. Maze files are not used; `mslst` takes them.
+/// Returns the experiment with its tables.
 ///
 /// # Errors
-/// If a world cannot be built.
-fn open(_options: &Options) -> Result<Experiment, BoxError> {
+/// If the caller names mazes, which this experiment does not use, or a world cannot be built.
+fn open(options: &Options) -> Result<Experiment, BoxError> {
+    if !options.mazes.is_empty() {
+        return Err("the tables have mazes of their own: leave --maze out, or give it to `tolman experiment mslst`".into());
+    }
     let sweeps = settings::all()?;
     let tables = sweeps.iter().map(table).collect();
     let mut config = BTreeMap::<_, BTreeMap<_, _>>::new();

@@ -76,7 +76,17 @@ pub(super) fn carry_out(
     let mut setup = arguments.sent_out.setup(&terrain);
     // Unless --robot names another, the robot that learned the map drives.
     setup.robot = setup.robot.or(Some(&maps[0].origin.robot));
-    let context = || format!("{} cannot drive in {}", system.name(), setup.world);
+    let context = || {
+        let context = format!("{} cannot drive in {}", system.name(), setup.world);
+        let mut origins = maps.iter().map(|map| &map.origin.world);
+        match origins.all(|world| world != setup.world) {
+            true => format!(
+                "{context}, and the map in {} was learned in {}",
+                maps[0].name, maps[0].origin.world
+            ),
+            false => context,
+        }
+    };
     let outing = system.driver(&maps, &setup);
     let mut outing = outing
         .map_err(|error| error.context(context()))

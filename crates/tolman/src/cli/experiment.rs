@@ -13,7 +13,8 @@ use tolman_experiment::{
     compare, execute, open, tables_as_text, verify, write_replay,
 };
 
-use super::{App, Failure, called, ink, interrupt};
+use super::kind::Kind;
+use super::{App, Failure, called, ink, interrupt, maze};
 
 /// Runs an experiment, shows its tables beside the paper's, and writes a folder of results; without
 /// NAME and --all it gives a tour of all experiments in about a minute
@@ -128,6 +129,7 @@ pub(super) fn carry_out(
     // The first Ctrl-C lets runs in progress finish.
     let stop = interrupt::flag()?;
     let mut disagreements = Vec::new();
+    refuse_other_files(&arguments.choice.mazes)?;
     let chosen = arguments.chosen(app);
     let all = chosen.len();
     for (number, (name, options)) in (1..).zip(chosen) {
@@ -214,6 +216,22 @@ fn replay(
         let experiment = open(&app.catalogue.experiments, name, &options).map_err(classify)?;
         let file = write_replay(&experiment, &options, table, row, run).map_err(classify)?;
         writeln!(out, "The replay: {}", file.display())?;
+    }
+    Ok(())
+}
+
+/// Refuses files of a known kind that are not mazes. The experiment reports what is unknown.
+fn refuse_other_files(mazes: &[PathBuf]) -> Result<(), Failure> {
+    for path in mazes.iter().filter(|path| path.is_file()) {
+        let text = maze::text(path)?;
+        if Kind::Maze.is_not_of(&text) {
+            let error = anyhow!("it is not a maze");
+            return Err(Failure::BadInput(Kind::Maze.explain(
+                &text,
+                &maze::name(path),
+                error,
+            )));
+        }
     }
     Ok(())
 }

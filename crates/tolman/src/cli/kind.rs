@@ -14,6 +14,8 @@ pub(super) enum Kind {
     World,
     /// An interrupted run.
     Unfinished,
+    /// A robot's log in lines of CARMEN.
+    Log,
 }
 
 impl Kind {
@@ -31,6 +33,7 @@ impl Kind {
                 "tolman-unfinished" => Some(Self::Unfinished),
                 _ => None,
             },
+            None if is_log(text) => Some(Self::Log),
             None => tolman_maze::parse(text).is_ok().then_some(Self::Maze),
         }
     }
@@ -40,14 +43,22 @@ impl Kind {
         Self::of(text) == Some(self)
     }
 
+    /// Returns whether a text is of a known kind, and not of this one.
+    pub(super) fn is_not_of(self, text: &str) -> bool {
+        Self::of(text).is_some_and(|kind| kind != self)
+    }
+
     /// Returns what a file of this kind is called, and which verb takes it.
     const fn told(self) -> &'static str {
         match self {
             Self::Maze => "a maze: give it to `tolman maze show` or to --maze",
             Self::Map => "a learned map: give it to `tolman map show` or to `tolman drive --map`",
             Self::Trace => "a trace: give it to `tolman replay`",
-            Self::World => "a world with free walls: give it to --world",
+            Self::World => {
+                "a world with free walls: give it to --world of `tolman run`, `learn` or `drive`"
+            }
             Self::Unfinished => "an interrupted run: give it to --from of the verb that wrote it",
+            Self::Log => "a robot's log: give it to `tolman map --log`",
         }
     }
 
@@ -59,6 +70,7 @@ impl Kind {
             Self::Trace => "--trace of a verb that drives writes a trace",
             Self::World => "docs/worlds.md says how to write a world with free walls",
             Self::Unfinished => "a verb that Ctrl-C interrupts writes its run to a file",
+            Self::Log => "docs/logs.md says which logs are read",
         }
     }
 
@@ -74,4 +86,11 @@ impl Kind {
             _ => error.into().context(name.to_owned()),
         }
     }
+}
+
+/// Returns whether `text` begins as a log of CARMEN does.
+fn is_log(text: &str) -> bool {
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    let mut words = lines.take(3).filter_map(|line| line.split(' ').next());
+    words.any(|word| matches!(word, "FLASER" | "ROBOTLASER1" | "ODOM" | "PARAM"))
 }

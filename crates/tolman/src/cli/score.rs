@@ -11,6 +11,7 @@ use tolman_formats::{ReadRelations, ReadTrajectory};
 use tolman_geom::Point;
 use tolman_robot::Trajectory;
 
+use super::words::counted;
 use super::{Failure, OrBadInput};
 
 /// Measures the error of a trajectory: against relative poses that a person verified, or against
@@ -135,12 +136,4 @@ fn tell_aligned(as_json: bool, score: &AlignedScore, out: &mut dyn Write) -> Res
         "{}, error {rms:.3} m (root mean square), at most {largest:.3} m",
         counted(*pairs, "pose")
     )?)
-}
-
-/// Returns a count with its noun, such as "3 poses".
-fn counted(count: usize, thing: &str) -> String {
-    match count {
-        1 => format!("1 {thing}"),
-        _ => format!("{count} {thing}s"),
-    }
 }

@@ -1,4 +1,4 @@
-//! Words on the command line that stand for values.
+//! Words on the command line that stand for values, and counts with their nouns.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
@@ -15,4 +15,12 @@ pub(super) fn words<T: Clone + Send + Sync + 'static, const N: usize>(
             .map(|(.., value)| value.clone())
             .ok_or("this word is not one of them")
     })
+}
+
+/// Returns a count with its noun, such as "3 poses".
+pub(super) fn counted(count: usize, thing: &str) -> String {
+    match count {
+        1 => format!("1 {thing}"),
+        _ => format!("{count} {thing}s"),
+    }
 }

@@ -60,6 +60,8 @@ fn a_file_of_another_kind_is_named_with_the_verb_that_takes_it() {
     std::fs::write(folder.join("map.json"), map).unwrap();
     let world = r#"{"format":"tolman-world","version":1,"walls":[]}"#;
     std::fs::write(folder.join("world.json"), world).unwrap();
+    std::fs::write(folder.join("a.log"), "# CARMEN\nPARAM a 1 nohost 0\n").unwrap();
+    std::fs::write(folder.join("log.gz"), [0x1f, 0x8b, 8, 0]).unwrap();
     let run = "run avoid --maze a.maze --steps 3 --trace trace.jsonl";
     let words: Vec<&str> = run.split(' ').collect();
     tolman_in(&folder, &words).failed(1, &[]);
@@ -82,6 +84,34 @@ fn a_file_of_another_kind_is_named_with_the_verb_that_takes_it() {
         ),
         ("replay a.maze --out a.html", "a.maze is a maze", "--maze"),
         ("map show trace.jsonl", "is a trace", "tolman replay"),
+        (
+            "maze show a.log",
+            "a.log is a robot's log",
+            "tolman map --log",
+        ),
+        (
+            "map show a.log",
+            "a.log is a robot's log",
+            "tolman map --log",
+        ),
+        ("maze show log.gz", "is packed by gzip", "tolman map --log"),
+        ("map show log.gz", "is packed by gzip", "gunzip"),
+        (
+            "experiment mslst --maze map.json",
+            "is a learned map",
+            "map show",
+        ),
+        (
+            "experiment mslst --maze log.gz",
+            "is packed by gzip",
+            "tolman map --log",
+        ),
+        (
+            "map --log a.maze --out o",
+            "a.maze is a maze",
+            "tolman maze",
+        ),
+        ("map --log map.json --out o", "is a learned map", "map show"),
         ("run avoid --world a.maze", "a.maze is a maze", "--maze"),
     ] {
         let words: Vec<&str> = words.split(' ').collect();

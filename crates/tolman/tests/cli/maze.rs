@@ -10,7 +10,7 @@ Corridor
 o---o---o---o
 | S       G |
 o---o---o---o
-standard input: 3 × 1 cells of 0.95 m, start (0, 0) north, 1 goal cells, 2 dead ends, 0 junctions, shortest way 2 cells
+standard input: 3 × 1 cells of 0.95 m, start (0, 0) north, 1 goal cell, 2 dead ends, 0 junctions, shortest way 2 cells
 ";
     assert_eq!(shown, expected);
 }

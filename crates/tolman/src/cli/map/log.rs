@@ -8,11 +8,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, anyhow};
 use clap::ValueEnum;
 use tolman_draw::{Figure, Page, PageTable};
-use tolman_formats::{dot, graphml, node_link_json, route_geojson, tum};
+use tolman_formats::{dot, graphml, input, node_link_json, route_geojson, tum};
 use tolman_papers::real::{LogSystem, MapPicture, MappedLog, RobotLog, ros_map};
 use tolman_robot::MapLink;
 
 use crate::cli::bar::bar;
+use crate::cli::kind::Kind;
 use crate::cli::replay_file::{self, Overwrite};
 use crate::cli::{Failure, OrBadInput, called, file};
 
@@ -85,7 +86,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         return Err(Failure::BadInput(anyhow!("give --log FILE and --out DIR")));
     };
     let log = RobotLog::read(path)
-        .map_err(anyhow::Error::from_boxed)
+        .map_err(|error| explain(path, anyhow::Error::from_boxed(error)))
         .or_bad_input()?;
     for sentence in log.report.sentences() {
         writeln!(out, "{sentence}")?;
@@ -146,6 +147,16 @@ fn sentences(found: &MappedLog) -> Vec<String> {
         told.push(format!("places: {places}, ways between them: {links}"));
     }
     told
+}
+
+/// Returns the error of a file that is not a log: what it is instead, if that is known.
+fn explain(path: &Path, error: anyhow::Error) -> anyhow::Error {
+    match input::text(path) {
+        Ok(text) if Kind::Log.is_not_of(&text) => {
+            Kind::Log.explain(&text, &path.display().to_string(), error)
+        }
+        _ => error,
+    }
 }
 
 /// Returns the way found in the log, and shows a progress bar on the terminal.

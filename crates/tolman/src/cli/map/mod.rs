@@ -119,8 +119,16 @@ impl Verb {
 fn show(app: &App<'_>, arguments: &Show, out: &mut dyn Write) -> Result<(), Failure> {
     let (text, map) = read(app, &arguments.file)?;
     if let Some(path) = &arguments.svg {
-        let (_, terrain) = arguments.ground.read()?;
-        let drawing = map.drawing(&terrain).or_bad_input()?;
+        let (world, terrain) = arguments.ground.read()?;
+        let drawing = map.drawing(&terrain);
+        let drawing = drawing.map_err(|error| match world == text.origin.world {
+            true => error,
+            false => error.context(format!(
+                "the map in {} was learned in {}, and this is {world}",
+                text.name, text.origin.world
+            )),
+        });
+        let drawing = drawing.or_bad_input()?;
         let figure = Figure::new("map", &text.origin.world, drawing);
         file::write(path, figure.standalone())?;
     }

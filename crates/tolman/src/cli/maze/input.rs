@@ -88,6 +88,11 @@ pub(in crate::cli) fn text(path: &Path) -> Result<String, Failure> {
             "cannot read {}; give the path of a file",
             name(path)
         )),
+        SourceError::Packed => anyhow!(
+            "{} is packed by gzip; unpack a maze or world with `gunzip`, and give a robot's log to \
+             `tolman map --log`",
+            name(path)
+        ),
         error => anyhow!(
             "{}: {error}: expected a maze or a world in text form",
             name(path)

@@ -5,6 +5,8 @@ use core::fmt;
 use serde::Serialize;
 use tolman_maze::{Cell, MazeFile};
 
+use crate::cli::words::counted;
+
 /// The figures of a maze. Displayed as one line.
 #[derive(Serialize)]
 pub(super) struct Summary {
@@ -80,13 +82,20 @@ impl fmt::Display for Summary {
         let (goals, dead_ends, junctions) = (self.goals.len(), self.dead_ends, self.junctions);
         write!(
             formatter,
-            ", {goals} goal cells, {dead_ends} dead ends, {junctions} junctions"
+            ", {}, {}, {}",
+            counted(goals, "goal cell"),
+            counted(dead_ends, "dead end"),
+            counted(junctions, "junction")
         )?;
         if self.sealed > 0 {
-            write!(formatter, ", {} cells sealed off", self.sealed)?;
+            write!(formatter, ", {} sealed off", counted(self.sealed, "cell"))?;
         }
         match self.shortest_way {
-            Some(steps) => write!(formatter, ", shortest way {steps} cells"),
+            Some(steps) => write!(
+                formatter,
+                ", shortest way {}",
+                counted(steps as usize, "cell")
+            ),
             None => Ok(()),
         }
     }
