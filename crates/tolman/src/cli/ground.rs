@@ -208,7 +208,7 @@ mod tests {
             ("1", "expected X,Y"),
             ("1,2,3,4", "expected X,Y"),
             ("1,NaN", "`NaN`"),
-            ("1,2,0", "a radius of 0 m"),
+            ("1,2,0", "the radius is 0 m"),
         ] {
             let error = text.parse::<Goal>().unwrap_err();
             assert!(error.contains(expect), "{text}: {error}");
