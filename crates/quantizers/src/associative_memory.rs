@@ -235,7 +235,7 @@ impl<S: Scalar> AssociativeMemory<S> {
     }
 }
 
-/// One association after the other: see [`AssociativeMemory::chain`].
+/// A chain of associations; see [`AssociativeMemory::chain`].
 #[derive(Clone, Debug)]
 pub struct Chain<'a, S: Scalar> {
     memory: &'a AssociativeMemory<S>,

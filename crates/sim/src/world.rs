@@ -243,7 +243,7 @@ impl World {
         &*self.caster
     }
 
-    /// Returns all walls by place.
+    /// Returns the index of all walls.
     pub(crate) fn index(&self) -> &Arc<WallIndex> {
         &self.index
     }

@@ -190,7 +190,7 @@ impl MapFiles {
             .map_err(|source| FileError::Unwritable { system, source })
     }
 
-    /// Returns where the map of a file was learned, and what the file keeps besides.
+    /// Returns the origin of the map in a file, and the rest of the file's contents.
     ///
     /// # Errors
     /// [`FileError`] if the text has no header, or one of another format or version, or if the map

@@ -156,7 +156,8 @@ impl Junction {
         }
     }
 
-    /// Returns where its ways lead, for one who enters by a port, or `None` if no robot has looked.
+    /// Returns the bearings of its ways for a robot that enters by `port`; `None` if no robot has
+    /// looked.
     #[must_use]
     pub fn bearings_from(&self, port: u32) -> Option<Bearings> {
         Some(self.bearings.as_ref()?.counted_from(port))

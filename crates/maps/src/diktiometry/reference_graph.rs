@@ -101,8 +101,8 @@ impl ReferenceGraph {
         }
     }
 
-    /// Takes in an estimate of where `to` lies in `from`. One that what is known excludes changes
-    /// nothing but the envelope.
+    /// Takes in an estimate of the position of `to` in `from`. An estimate that contradicts what is
+    /// known changes only the envelope.
     pub(super) fn relate(
         &mut self,
         from: FrameId,

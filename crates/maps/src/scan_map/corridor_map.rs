@@ -142,7 +142,7 @@ impl CorridorMap {
         visits
     }
 
-    /// Returns places and ways as any scorer and any drawing can read them. O(places + ways).
+    /// Returns places and ways in the form that scorers and drawings read. O(places + ways).
     #[must_use]
     pub fn view(&self) -> MapView {
         let place = |(id, place): (u32, &CorridorPlace)| MapPlace {

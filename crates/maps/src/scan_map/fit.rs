@@ -31,7 +31,7 @@ const COARSE: f64 = 0.05;
 const LEAST_WINDOW: f64 = 0.1;
 /// An axis on which the walls leave more than this open tells nothing, m (standard deviation).
 const TELLS: f64 = 0.05;
-/// No position is surer than that, m.
+/// Minimum standard deviation of a position, m.
 const SUREST: f64 = 0.005;
 /// Fewest beams that can be compared.
 const FEWEST: usize = 10;

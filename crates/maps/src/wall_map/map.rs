@@ -242,7 +242,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         visits.copied().unwrap_or(0)
     }
 
-    /// Returns how many bytes it takes for its largest maze, without the log of observations.
+    /// Returns the size for its largest maze, bytes, without the log of observations.
     #[must_use]
     pub const fn bytes(&self) -> usize {
         size_of::<Self>() - size_of::<Log<LOG>>()

@@ -234,7 +234,7 @@ impl Judged {
         conditions.any(|judgement| judgement.condition == condition && judgement.excess > 0.0)
     }
 
-    /// Returns the sum of the excesses over all conditions, as shares of their bounds; 0 for an
+    /// Returns the sum of the excesses over all conditions, as shares of their bounds; 0 for a
     /// kept drawing.
     pub(crate) fn summed_excess(&self) -> f64 {
         self.conditions
