@@ -112,8 +112,8 @@ impl WallGrid {
         sees(from, to, |at| self.is_wall(at))
     }
 
-    /// Returns the share of beams that end elsewhere, among those whose ends the grid knows; `None` if
-    /// it knows fewer than `fewest`. O(beams · range).
+    /// Returns the share of beams that end elsewhere, among those whose ends the grid knows. `None`
+    /// if it knows fewer than `fewest`. O(beams · range).
     pub(super) fn contradiction(
         &self,
         from: Point,
