@@ -20,7 +20,7 @@ pub const CAMERA_PIONEER: &str = "camera Pioneer";
 /// Width of a corridor if a maze does not give one: 1.9 robot units, in metres.
 ///
 /// Avoid's buffer of 0.9 units needs more than 1.8; the corridor test needs less than 2.0 (see
-/// `docs/mslst.md`).
+/// `docs/notebook/mslst.md`).
 pub const CORRIDOR_WIDTH: f64 = 1.9 * ROBOT_UNIT;
 
 /// Number of beams of the ring.

@@ -45,7 +45,7 @@ impl MoveError {
     }
 }
 
-/// Summary of a run's errors. See `docs/diktiometry.md` for the definitions.
+/// Summary of a run's errors. See `docs/notebook/diktiometry.md` for the definitions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorSummary {
     /// The mean error per move by the map over the last [`TAIL`] of all moves, m².

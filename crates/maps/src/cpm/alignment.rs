@@ -25,7 +25,7 @@ pub struct Alignment {
 }
 
 impl Alignment {
-    /// Returns the costs chosen on random mazes (see docs/cpm.md).
+    /// Returns the costs chosen on random mazes (see `docs/notebook/cpm.md`).
     #[must_use]
     pub const fn tuned() -> Self {
         Self {

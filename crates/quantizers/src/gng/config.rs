@@ -142,7 +142,7 @@ impl GngConfig {
     /// Returns the equilibrium GNG of MSLST with an error threshold of its table 1, in squared
     /// robot units for scans in robot units. The paper gives no rates; these are Fritzke's. His
     /// decay d = 0.995 is also the one at which the scans of the Large maze at threshold 50 give
-    /// the paper's 26 units, which it was chosen by (see docs/quantizers.md).
+    /// the paper's 26 units, which it was chosen by (see docs/notebook/quantizers.md).
     pub fn mslst(threshold: f64) -> Self {
         Self {
             decay: 0.995,

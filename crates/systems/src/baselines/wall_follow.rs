@@ -19,7 +19,7 @@ use crate::{Brain, Doing, TimeStep};
 /// The paper does not say that this brain uses the laser, but its figures do. An action takes 2.1
 /// time steps in both mazes, which is the cost of actions that hardly ever fail. A brain that feels
 /// for the wall by trying to turn into it fails every other action (1.7 steps; see
-/// `docs/mslst.md`).
+/// `docs/notebook/mslst.md`).
 #[derive(Clone, Debug)]
 pub struct WallFollow {
     corridor_width: f64,

@@ -12,7 +12,7 @@ pub struct MslstConfig {
     /// on the large maze."
     pub scan_steps: u32,
     /// Phase II, how long it wanders: actions, at least 1. The paper does not say: "chosen largely
-    /// based on how much time was available". See `docs/mslst.md`.
+    /// based on how much time was available". See `docs/notebook/mslst.md`.
     pub graph_actions: u32,
     /// Number of pairs of state and action that Phase III remembers, at least 1. "The last eight …
     /// when solving the large maze, and six for the J-maze."
