@@ -99,7 +99,7 @@ impl SoinnConfig {
 
     /// For noisy data: the paper's λ = 100 and c = 1, but units are judged
     /// [by their age](Denoising::LowRate) and age_dead = 20, so that edges let go of noise
-    /// (measured in docs/quantizers.md).
+    /// (measured in `docs/notebook/quantizers.md`).
     pub fn noisy() -> Self {
         Self {
             max_age: 20,

@@ -59,7 +59,7 @@ impl SecondLayerConfig {
 
     /// For noisy data: T_c four times the mean length of the first layer's edges; else the paper's,
     /// but λ = 500, since its units are few and have to find neighbours among as few inputs
-    /// (measured in docs/quantizers.md).
+    /// (measured in `docs/notebook/quantizers.md`).
     pub fn noisy() -> Self {
         Self {
             layer: SoinnConfig {
