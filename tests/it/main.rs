@@ -1,5 +1,5 @@
-//! Scenarios that need several crates at once, seen from outside: mazes become courses, brains
-//! drive robots through them, and what comes of it is physically possible and always the same.
+//! Scenarios that need several crates at once, by their public API. Mazes become courses, and
+//! brains drive robots through them. The result is physically possible and always the same.
 #![expect(
     clippy::unwrap_used,
     clippy::panic,

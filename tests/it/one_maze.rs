@@ -120,8 +120,8 @@ fn the_diktiometry_does() {
     );
     let mut system = Diktiometer::new(config, LaserEye { columns: 24 }, SEED);
     let (end, (explored, reached)) = explore_then_reach(pioneer(), &mut system);
-    // A link or two that are not there stay on the map, with all seeds that were tried: it says so,
-    // and finds the goal by it.
+    // One or two false links stay on the map, with all seeds that were tried. The robot says so,
+    // and finds the goal by that map.
     assert!(
         matches!(&end, TaskEnd::GaveUp { why } if why.contains("contradicts itself")),
         "{end:?}"

@@ -1,5 +1,5 @@
-//! The code of README and of the guides in `docs/`, compiled and run; and what all readers of files
-//! must hold to, whatever the file, for [fuzzing](fuzz).
+//! The code of README and of the guides in `docs/`, compiled and run. For [fuzzing](fuzz), also
+//! what every reader must keep to, whatever the file.
 
 pub mod fuzz;
 

@@ -1,4 +1,5 @@
-//! `cargo xtask ci`: what a change must pass, each step timed, a table at the end.
+//! `cargo xtask ci`: runs the steps that a change must pass, times each, and prints a table at the
+//! end.
 
 mod bare_metal;
 mod firmware;
@@ -16,18 +17,18 @@ use anyhow::{Result, bail};
 use crate::workspace::{self, built, cargo, installed, succeed};
 use crate::{docs, fuzz, golden, layers, mazes, playground, prose, python};
 
-/// How a step went when it did not fail.
+/// Outcome of a step that did not fail.
 pub(crate) enum Outcome {
     Passed,
-    /// Not run, and why.
+    /// Not run, with the reason.
     Skipped(String),
 }
 
 type Step = (&'static str, fn() -> Result<Outcome>);
 
-/// Cheap and telling steps first. All that is linted, tested and documented has all features on, so
-/// that none stays unseen, and is compiled but once; what only holds without them is for the plain
-/// build, bare metal and firmware.
+/// The steps of every run, cheap and telling ones first. Lints, tests and docs have all features
+/// on, so that no feature is missed and everything is compiled once. The plain build, bare metal
+/// and firmware check what holds only without them.
 const STEPS: &[Step] = &[
     ("format", || passes("fmt --all --check")),
     ("layers", || passed(layers::run())),
@@ -42,9 +43,9 @@ const STEPS: &[Step] = &[
     }),
     // The tests have just built the command.
     ("mazes", || passed(mazes::check_with(|| built("tolman")))),
-    // What a user builds: without the features that nobody but the steps above switches on.
+    // The build of a user, without the features that only the steps above switch on.
     ("plain build", || passes("check --workspace --quiet")),
-    // A workspace's members switch one another's default features on.
+    // The members of a workspace switch each other's default features on.
     ("no parry2d", || {
         passes(
             "clippy --package tolman-sim --no-default-features --all-targets --quiet -- --deny warnings",
@@ -71,7 +72,7 @@ const STEPS: &[Step] = &[
     }),
 ];
 
-/// What takes longer than a change should wait for.
+/// The steps that take too long for every change.
 const THOROUGH: &[Step] = &[
     ("fuzz", fuzz_targets),
     ("fuzzing", || passed(fuzz::run(FUZZING, 1, &[]))),
@@ -82,10 +83,10 @@ const THOROUGH: &[Step] = &[
     ("packages", || passed(packages::all())),
 ];
 
-/// How long all readers get mutated files, seconds.
+/// Duration of fuzzing all readers, seconds.
 const FUZZING: u64 = 600;
 
-/// Runs all steps, with `thorough` also the long ones; the first failure ends it unless
+/// Runs all steps, with `thorough` also the long ones. The first failure ends the run unless
 /// `keep_going`.
 ///
 /// # Errors
@@ -130,8 +131,8 @@ fn print_table(table: &[(&str, Duration, String)], total: Duration) {
     eprintln!("{:<11} {:>7.1} s", "total", total.as_secs_f64());
 }
 
-/// With one seed for all property tests, so that a change passes or fails by what it changes; by
-/// hand they draw again.
+/// Runs the tests with one seed for all property tests, so that only a change decides whether they
+/// pass. Tests run by hand draw a new seed.
 fn tests() -> Result<Outcome> {
     let mut test = cargo(if installed("cargo-nextest") {
         "nextest run --workspace --all-features --status-level fail"
@@ -141,14 +142,14 @@ fn tests() -> Result<Outcome> {
     passed(succeed(test.env("PROPTEST_RNG_SEED", "1")))
 }
 
-/// Every command that README, pages and help texts show.
+/// Runs every command that README, pages and help texts show.
 fn commands() -> Result<Outcome> {
-    // For the whole workspace, so that what the tests have compiled serves.
+    // For the whole workspace, so that it reuses what the tests have compiled.
     let mut test = cargo("test --workspace --all-features --test commands --quiet -- --ignored");
     passed(succeed(test.env("TOLMAN", built("tolman")?.get_program())))
 }
 
-/// The pages that golden runs and shown commands have left, in a browser.
+/// Tests the pages that golden runs and shown commands have left, in a browser.
 fn all_pages() -> Result<Outcome> {
     let target = workspace::target_folder()?;
     let folders = [target.join("golden"), target.join("tmp").join("commands")];
@@ -156,10 +157,10 @@ fn all_pages() -> Result<Outcome> {
     passed(succeed(test.env("TOLMAN_PAGES", env::join_paths(folders)?)))
 }
 
-/// Running the fuzz targets takes a nightly compiler; that they still build takes none.
+/// Checks that the fuzz targets build. Only running them needs a nightly compiler.
 fn fuzz_targets() -> Result<Outcome> {
     let mut check = cargo("check --quiet --manifest-path fuzz/Cargo.toml");
-    // Nothing is linked, so the C++ library need not be there, nor a compiler for it.
+    // Nothing is linked, so neither the C++ library nor a C++ compiler is needed.
     passed(succeed(
         check.env("CUSTOM_LIBFUZZER_PATH", "/nowhere/libfuzzer.a"),
     ))

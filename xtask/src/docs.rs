@@ -9,7 +9,7 @@ use anyhow::{Result, bail};
 
 use crate::workspace::{cargo, entries, read, root, succeed};
 
-/// Does all three.
+/// Builds the API documentation, makes the picture and checks the pages.
 ///
 /// # Errors
 /// If rustdoc warns, a link leads nowhere or the demo fails.

@@ -1,10 +1,10 @@
-//! `cargo xtask fuzz`: gives every reader of files mutated ones.
+//! `cargo xtask fuzz`: gives mutated files to every reader.
 
 use anyhow::Result;
 
 use crate::workspace::{built, cargo, succeed, target_folder};
 
-/// Mutates the seeds of these targets, or of all, for `seconds` altogether. Overflow checks are on.
+/// Mutates the seeds of these targets, or of all, for `seconds` in total. Overflow checks are on.
 /// Files that show a fault go to `target/fuzz`.
 ///
 /// # Errors

@@ -14,7 +14,7 @@ use crate::workspace::{self, cargo, succeed};
 /// the tables that have another number.
 type Pinned = (&'static str, u32, &'static [(u32, &'static str)]);
 
-/// Number that stands for the rows and runs of `--quick`, which leaves out the slowest.
+/// Number that stands for the rows and runs of `--quick`, which leaves out the slowest rows.
 const QUICK: u32 = 0;
 
 const PINNED: &[Pinned] = &[
@@ -45,8 +45,8 @@ const TABLES: &[(&str, &[&str])] = &[(
     ],
 )];
 
-/// Plays the runs of these experiments, or of all, and compares them with those in `tests/golden`.
-/// With `bless` it writes them there instead.
+/// Plays the runs of these experiments, or of all if none is named, and compares them with those in
+/// `tests/golden`. With `bless` it writes them there instead.
 ///
 /// External data sets are not used, because not every machine has them.
 ///
@@ -66,10 +66,10 @@ pub(crate) fn run(names: &[String], bless: bool) -> Result<()> {
     run_those(is_asked_for, bless, "release")
 }
 
-/// The slowest experiments, which are left to `cargo xtask golden` by hand.
+/// The slowest experiments, which only `cargo xtask golden` plays.
 const SLOW: &[&str] = &["mslst", "mslst-sweeps", "diktiometry", "gngslam"];
 
-/// Compares all but the slowest, with the command that the tests have built.
+/// Compares all experiments but the slowest, with the command that the tests have built.
 ///
 /// # Errors
 /// If an experiment fails or a value differs.
@@ -108,7 +108,8 @@ fn run_those(is_asked_for: impl Fn(&str) -> bool, bless: bool, profile: &str) ->
         let mut all = fs::read_to_string(&file)?;
         for (runs, table) in *more {
             play(*runs, &[table])?;
-            // A table alone leaves the runs of the others aside; its first are there already.
+            // A run of one table leaves the runs of the others alone; the first ones are already
+            // there.
             let lines: BTreeSet<String> = all.lines().map(str::to_owned).collect();
             for line in fs::read_to_string(&file)?.lines() {
                 if !lines.contains(line) {

@@ -1,7 +1,7 @@
-//! The project's chores, one module per verb: `cargo xtask --help`.
+//! The project's chores, one module per verb. `cargo xtask --help` lists them.
 //!
-//! It depends on none of the crates it checks. So it builds in seconds, and still runs when they do
-//! not build.
+//! This crate depends on none of the crates it checks. So it builds in seconds, and runs even when
+//! they do not build.
 #![expect(clippy::print_stderr, reason = "a chore reports on stderr")]
 
 extern crate alloc;
@@ -77,7 +77,7 @@ enum Verb {
     Prose,
     /// Builds the command as one file that runs on every Linux of this processor: target/dist
     Dist,
-    /// Gives every reader of files, or those named, mutated files; exits 1 if one panics, takes
+    /// Gives mutated files to every reader, or to those named. Exits with 1 if one panics, takes
     /// longer than 2 s or uses more than 1 GiB
     Fuzz {
         /// Duration of the whole run, seconds
@@ -92,8 +92,8 @@ enum Verb {
     /// Builds the Python module, installs it into target/python and runs its tests; skipped with a
     /// note if Python or a package is missing
     Python,
-    /// Builds the playground, a page on which robots learn a maze that the reader draws; needs a
-    /// target of rustc and wasm-bindgen, and says how to install them where they are not there
+    /// Builds the playground, a page on which robots learn a maze that the reader draws. Needs a
+    /// target of rustc and wasm-bindgen; if one is missing, says how to install it
     Playground {
         /// The file to write [default: target/playground/tolman-playground.html]
         #[arg(long, value_name = "FILE")]

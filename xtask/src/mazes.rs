@@ -1,5 +1,5 @@
-//! `cargo xtask mazes`: checks that every maze of the project can be read and solved, and that the
-//! fragments of Mazes 1 to 3 of CPM are distinctive.
+//! `cargo xtask mazes`: checks that every maze of the project can be read and solved. Also checks
+//! that the fragments of Mazes 1 to 3 of CPM are distinctive.
 
 use std::process::Command;
 
@@ -13,12 +13,12 @@ const DISTINCTIVE: [&str; 3] = ["cpm-1.maze", "cpm-2.maze", "cpm-3.maze"];
 /// Builds the command and checks all files in `mazes/` with it.
 ///
 /// # Errors
-/// If there is none, or one of them is refused.
+/// If there is no maze, or one of them is refused.
 pub(crate) fn run() -> Result<()> {
     check_with(|| Ok(workspace::cargo("run --quiet --package tolman --")))
 }
 
-/// Checks all files in `mazes/` with `tolman`, and lets an e-puck walk those that have to be
+/// Checks all files in `mazes/` with `tolman`, and lets an e-puck walk the mazes that have to be
 /// distinctive.
 ///
 /// # Errors

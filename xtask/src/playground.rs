@@ -11,16 +11,16 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use crate::ci::Outcome;
 use crate::workspace::{cargo, output, read, root, succeed, target_folder};
 
-/// What the module is compiled for.
+/// Target for which the module is compiled.
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// Where the page lies, with the places for the files that belong into it.
+/// Path of the page, which has placeholders for the embedded files.
 const PAGE: &str = "crates/playground/page/index.html";
 
-/// The page must stay smaller than this, bytes: it is sent by mail and opened on phones.
+/// Size that the page must stay below, bytes: it is sent by mail and opened on phones.
 const LARGEST: usize = 5_000_000;
 
-/// Builds the page and says how large it is.
+/// Builds the page and prints its size.
 ///
 /// # Errors
 /// If the target or wasm-bindgen is not installed, or something does not build.
@@ -35,10 +35,10 @@ pub(crate) fn run(out: Option<&Path>) -> Result<()> {
     build(&file)
 }
 
-/// Builds the page and tries it in a browser, if all is there that this takes.
+/// Builds the page and tests it in a browser, if all needed tools are installed.
 ///
 /// # Errors
-/// If something does not build, or the page is not as it should be.
+/// If something does not build, or a test of the page fails.
 pub(crate) fn check() -> Result<Outcome> {
     if let Some(why) = missing()? {
         return Ok(Outcome::Skipped(why));
@@ -61,7 +61,7 @@ fn usual() -> Result<PathBuf> {
     Ok(folder()?.join("tolman-playground.html"))
 }
 
-/// Returns what is not installed, with the command that installs it.
+/// Returns the tool that is not installed, with the command that installs it.
 fn missing() -> Result<Option<String>> {
     let installed =
         output(Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]))?;
@@ -81,7 +81,7 @@ fn missing() -> Result<Option<String>> {
     })
 }
 
-/// The version of wasm-bindgen in the lock file; the program must have the same.
+/// Returns the version of wasm-bindgen in the lock file; the program must have the same.
 fn bindgen_version() -> Result<String> {
     let lock = read(&root().join("Cargo.lock"))?;
     let mut lines = lock.lines();
@@ -115,7 +115,7 @@ fn build(file: &Path) -> Result<()> {
         size < LARGEST,
         "the page has {size} bytes, and may have {LARGEST}: leave something out"
     );
-    // Written beside its place and renamed: no half a page is left.
+    // Written beside its place and renamed, so that no half-written page is left.
     let mut beside = OsString::from(file);
     beside.push(".new");
     fs::write(&beside, page).with_context(|| format!("cannot write {}", file.display()))?;
@@ -130,9 +130,9 @@ fn build(file: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Puts files into the places of the page. `{{ PATH }}` is the text of a file of the workspace, or
-/// of the folder `bound`; `{{ string PATH }}` is the same as a text of JavaScript, and
-/// `{{ base64 PATH }}` its bytes.
+/// Replaces the placeholders of the page by files of the workspace or of the folder `bound`. `{{
+/// PATH }}` is a file's text, `{{ string PATH }}` the same as a string of JavaScript, and `{{
+/// base64 PATH }}` its bytes.
 fn fill(page: &str, bound: &Path) -> Result<String> {
     let mut parts = page.split("{{ ");
     let mut filled = parts.next().unwrap_or_default().to_owned();
@@ -162,7 +162,7 @@ fn fill(page: &str, bound: &Path) -> Result<String> {
     Ok(filled)
 }
 
-/// Returns bytes as text, four letters for three of them.
+/// Returns `bytes` in base64.
 fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);

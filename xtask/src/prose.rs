@@ -1,5 +1,5 @@
-//! `cargo xtask prose`: checks that comments keep to the code's width, and that comments, messages
-//! and pages use no phrase for which the project has a better word.
+//! `cargo xtask prose`: checks that comments keep to the code's width. Also checks that comments,
+//! messages and pages use no phrase for which the project has a better word.
 
 use std::path::{Path, PathBuf};
 
@@ -57,7 +57,7 @@ const PLAIN: &[&str] = &["there is none", "there are none"];
 /// Checks every Rust file and every page of the project.
 ///
 /// # Errors
-/// One line for each breach, with its place and the repair.
+/// If there are breaches; one line for each, with its place and the repair.
 pub(crate) fn run() -> Result<()> {
     let mut files = Vec::new();
     collect(root(), &mut files)?;
@@ -150,8 +150,8 @@ fn begins_in(text: &str, length: usize, phrase: &str) -> bool {
     })
 }
 
-/// Returns the words of a line in lower case: of a comment without its slashes, of a line of code
-/// only what is in quotes, of a page all.
+/// Returns the words of a line in lower case. A comment loses its slashes; a line of code counts
+/// only in quotes; a line of a page counts whole.
 fn prose(line: &str, kind: Kind) -> String {
     let line = line.trim();
     let words = match kind {

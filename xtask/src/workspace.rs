@@ -1,4 +1,4 @@
-//! The workspace's folders, and starting other programs in it.
+//! The workspace's folders, and how to start other programs there.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

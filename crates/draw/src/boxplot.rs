@@ -56,8 +56,8 @@ pub struct BoxGroup {
     pub paper: Option<PaperMark>,
 }
 
-/// A box plot: R-7 quartiles, whiskers to the last datum within 1.5 interquartile ranges, every run
-/// as a dot beside its box, and a diamond with a bar for the paper's mean ± standard deviation.
+/// A box plot: R-7 quartiles, and whiskers to the last datum within 1.5 interquartile ranges. Every
+/// run is a dot beside its box. A diamond with a bar shows the paper's mean ± standard deviation.
 ///
 /// The value axis begins at 0, or below the smallest value if that is negative.
 #[derive(Clone, Debug, PartialEq)]

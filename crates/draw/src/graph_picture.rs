@@ -169,8 +169,8 @@ impl GraphPicture {
         }
     }
 
-    /// Returns the labels of nodes, each with the position where its text begins: beside its node,
-    /// where it covers the least of nodes, signs and earlier labels.
+    /// Returns the labels of nodes, each with the position where its text begins. A label stands
+    /// beside its node, where it covers the least of nodes, signs and earlier labels.
     fn labels(
         &self,
         at: &dyn Fn(Point) -> (f64, f64),

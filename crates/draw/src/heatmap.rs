@@ -17,8 +17,8 @@ const HATCH: f64 = 5.0;
 /// Text of a cell that is completely hatched.
 const NONE: &str = "–";
 
-/// A table of values as a picture: one parameter across, another down, each value written in its
-/// cell and shown by the depth of its colour.
+/// A table of values as a picture, with one parameter across and another down. Each value is
+/// written in its cell and shown by the depth of its colour.
 ///
 /// ```
 /// use tolman_draw::{HeatMap, Shade};

@@ -1,8 +1,8 @@
 //! Pictures as SVG: plans of worlds with what robots did and learned there, plots of runs, charts.
 //!
 //! A [`Drawing`] is the content of a picture; a [`Figure`] is a drawing with its name, title and
-//! caption. The same drawing stands alone in a file or inline on a page: it is styled by classes
-//! only, whose rules ([`style`]) follow the reader's light or dark scheme.
+//! caption. The same drawing works alone in a file or inline on a page. It is styled only by
+//! classes, whose rules ([`style`]) follow the reader's light or dark scheme.
 //!
 //! | to show | take |
 //! | --- | --- |

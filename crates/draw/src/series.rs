@@ -2,8 +2,8 @@
 
 /// The colour of one row, the same in every plot and plan of an experiment.
 ///
-/// Seven colours that stay apart for colour-blind readers, after Okabe and Ito ("Color universal
-/// design", 2008), lightened on dark pages; from the eighth series on they begin again.
+/// Seven colours that colour-blind readers can tell apart, after Okabe and Ito ("Color universal
+/// design", 2008). They are lighter on dark pages. From the eighth series on they repeat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Series(pub u32);
 

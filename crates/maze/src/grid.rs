@@ -52,12 +52,12 @@ fn side<'de, D: serde::Deserializer<'de>>(from: D) -> Result<u16, D::Error> {
 }
 
 impl Grid {
-    /// The most columns or rows that readers and generators accept: far above any maze run by a
-    /// robot, and low enough that a hostile file cannot ask for much memory.
+    /// Maximum number of columns or rows that readers and generators accept. It is far above any
+    /// robot's maze, and low enough that a hostile file cannot ask for much memory.
     pub const MAX_SIDE: u16 = 1024;
 
-    /// Returns a grid of `width` columns and `height` rows, 46340 at most: a longer side is cut to
-    /// that, since 32 bits do not number the walls of more.
+    /// Returns a grid of `width` columns and `height` rows. A side longer than 46340 is cut to
+    /// that, because 32 bits cannot number the walls of more.
     #[must_use]
     pub const fn new(width: u16, height: u16) -> Self {
         Self {

@@ -2,11 +2,11 @@
 //!
 //! A maze is a rectangle of square cells. [`Cell`] (0, 0) lies in the south-west corner, x grows to
 //! the east and y to the north. Every edge between two cells, and every edge of the border, is one
-//! [`Wall`]: both sides of it are the same wall, so two cells can never disagree.
+//! [`Wall`]. Both sides of it are the same wall, so two cells can never disagree.
 //!
-//! A maze comes from a file: [`read`] takes the text of any [`Format`], finds out which one it is,
-//! and hands back a [`MazeFile`] whose maze can be solved, or a [`MazeError`] that names line,
-//! column, the offending value and the repair.
+//! A maze comes from a file: [`read`] takes the text of any [`Format`] and detects which one it is.
+//! It returns a [`MazeFile`] whose maze can be solved, or a [`MazeError`] that names line, column,
+//! the offending value and the repair.
 //!
 #![cfg_attr(feature = "alloc", doc = "```")]
 #![cfg_attr(not(feature = "alloc"), doc = "```ignore")]

@@ -126,7 +126,7 @@ impl Maze {
     }
 
     /// Returns whether a cell, those to its north and east and the one between them are open to
-    /// each other: no wall ends at the post in their middle.
+    /// each other. Then no wall ends at the post in their middle.
     #[must_use]
     pub fn is_room(&self, cell: Cell) -> bool {
         let [north, east] =
@@ -149,8 +149,8 @@ impl Maze {
         self.grid.cells().filter(|cell| self.degree(*cell) >= 3)
     }
 
-    /// Returns the cells a way leads from to a goal, the goals among them, in the order of
-    /// [`Grid::index`]: what a robot sees of the maze. O(cells).
+    /// Returns the cells from which a way leads to a goal, including the goals, in the order of
+    /// [`Grid::index`]. These are the cells a robot can be in. O(cells).
     ///
     /// ```
     /// let text = "\
@@ -183,8 +183,8 @@ impl Maze {
     }
 
     /// Returns how many inner edges no wall stands on. A maze is perfect (every two cells are
-    /// joined by exactly one way) when all its cells hang together and this is one less than they
-    /// are many.
+    /// joined by exactly one way) if all its cells are connected and this is their number minus
+    /// one.
     #[must_use]
     pub fn opening_count(&self) -> usize {
         self.grid
@@ -263,10 +263,10 @@ impl Maze {
         steps
     }
 
-    /// Returns whether a robot can be put into this maze and sent to its destination: the border is
-    /// closed, there is a goal, start and goals lie on the grid, and a way leads from the start to
-    /// at least one goal (without a start: from some other cell). Other cells may be enclosed.
-    /// O(cells).
+    /// Checks that a robot can be put into this maze and sent to its destination. The border must
+    /// be closed, and there must be a goal. Start and goals must lie on the grid. A way must lead
+    /// from the start to at least one goal (without a start: from some other cell). Other cells may
+    /// be enclosed. O(cells).
     ///
     /// # Errors
     /// The first of these that does not hold, with the cell it fails at.

@@ -2,8 +2,8 @@
 //! second.
 //!
 //! One iteration is one input. The table at the end gives the median in million per second of this
-//! thread's processor time, by scan with plain and with the widest lanes, and by the index where
-//! there is one.
+//! thread's processor time. It has a column for a scan with plain lanes, one for the widest lanes,
+//! and one for the index where there is one.
 
 #![expect(
     clippy::unwrap_used,
@@ -100,8 +100,9 @@ fn grown(dimension: usize, units: usize, growth_period: u32, inputs: &[Vec<f32>]
     gng
 }
 
-/// Points on a smooth surface of three dimensions (of two where there are only two features), bent
-/// into the space of all features, with noise: what sensors of a robot give, shuffled.
+/// Points on a smooth surface that is bent into the space of all features, with noise: what sensors
+/// of a robot give, shuffled. The surface has three dimensions, or two where there are only two
+/// features.
 fn inputs(dimension: usize) -> Vec<Vec<f32>> {
     let mut rng = ChaCha8Rng::seed_from_u64(dimension as u64);
     let bends: Vec<[f64; 4]> = (0..dimension)

@@ -2,7 +2,7 @@
 //! the bare search.
 //!
 //! One iteration is one input. The table at the end gives the median in million inputs per second
-//! of this thread's processor time; the search alone, which looks at all units, is the floor of
+//! of this thread's processor time. The search alone, which looks at all units, is the floor of
 //! both.
 
 #![expect(

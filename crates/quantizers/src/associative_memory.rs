@@ -9,10 +9,10 @@ use crate::{
     SoinnConfig, UnitId,
 };
 
-/// An associative memory: a one-layer SOINN that learns each key and its response as one vector,
-/// and recalls by searching on the features of one of them only ("Associative memory for online
+/// An associative memory: a one-layer SOINN that learns each key and its response as one vector. It
+/// recalls by searching on the features of only one of them. ("Associative memory for online
 /// learning in noisy environments using self-organizing incremental neural network", Sudo, Sato,
-/// Hasegawa 2009).
+/// Hasegawa 2009.)
 ///
 /// A key may have many responses and a response many keys. Where responses are keys themselves,
 /// associations can be followed as a [chain](Self::chain).

@@ -20,7 +20,7 @@ use crate::{
 /// A growing neural gas.
 ///
 /// It begins empty. The first input and the first one that differs from it become the first two
-/// units, joined by an edge; inputs until then are not counted as steps.
+/// units, joined by an edge. Inputs until then do not count as steps.
 ///
 /// ```
 /// use tolman_quantizers::{Gng, GngConfig, Quantizer};

@@ -1,8 +1,8 @@
 //! Streaming vectors in, a growing graph of prototypes out.
 //!
-//! A quantizer watches one input after the other, each a slice of `f32` or `f64`, and grows a
-//! graph: its *units* each hold a *prototype* near the inputs it stands for, its *edges* join units
-//! whose inputs are neighbours. In the order data flows:
+//! A quantizer observes inputs one by one, each a slice of `f32` or `f64`, and grows a graph. Each
+//! *unit* holds a *prototype* near the inputs it stands for. *Edges* join units whose inputs are
+//! neighbours. In the order data flows:
 //!
 //! - [`Scalar`]: what an input is made of;
 //! - [`Quantizer::observe`] takes an input and learns: [`Gng`], as its [`GngConfig`] says, or

@@ -318,8 +318,8 @@ impl<S: Scalar> Network<S> {
         squares.sum()
     }
 
-    /// Returns the edge on which a unit is needed most: from the unit of largest error, the first
-    /// of equals, to its neighbour of largest error.
+    /// Returns the edge that needs a new unit most: from the unit of largest error to its neighbour
+    /// of largest error. Of equals the first counts.
     pub(crate) fn worst_edge(&self, error: impl Fn(usize) -> f64) -> Option<(usize, usize)> {
         let worse = |worst, slot| {
             if error(slot) > error(worst) {
@@ -503,8 +503,8 @@ impl<S: Scalar> Network<S> {
     }
 
     /// To be called when a quantizer is done with an input. Builds the index once it pays, and
-    /// closes the gaps that removed units left if it is worthwhile, in `per_unit` as well, which
-    /// has one item a slot. Slots known from before are void.
+    /// closes the gaps that removed units left if it is worthwhile. It closes them in `per_unit` as
+    /// well, which has one item per slot. Slots known from before are void.
     #[inline]
     pub(crate) fn tidy<T: Copy>(&mut self, per_unit: &mut Vec<T>) {
         let blocks = |units: usize| units.div_ceil(prototypes::LANES);

@@ -15,8 +15,8 @@ use crate::{
 ///
 /// A robot's inputs come in the order of its way: one place for a while, then another. A quantizer
 /// that learns from them as they come spends its units on where the robot has been last. This one
-/// keeps a sample of the past, and for every input it is shown it lets the quantizer learn from
-/// `per_input` remembered ones, drawn at random. The input itself is learnt when it is drawn.
+/// keeps a sample of the past. For every new input it lets the quantizer learn from `per_input`
+/// remembered ones, drawn at random. The input itself is learnt when it is drawn.
 ///
 /// ```
 /// use tolman_quantizers::{Gng, GngConfig, Quantizer, ReplayConfig, ReplayQuantizer};

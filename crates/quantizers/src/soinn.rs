@@ -176,8 +176,8 @@ impl<S: Scalar> Soinn<S> {
         Ok(self.tallies[self.network.slot(id)?].wins)
     }
 
-    /// Returns E, the sum of the distances, not squared, of the inputs that a unit has won, minus
-    /// what it has passed to units inserted beside it.
+    /// Returns E, the sum of the distances (not squared) of the inputs that a unit has won. What it
+    /// has passed to units inserted beside it is subtracted.
     ///
     /// # Errors
     /// If there is no such unit.
@@ -302,9 +302,9 @@ impl<S: Scalar> Soinn<S> {
         self.tallies.push(r_tally);
     }
 
-    /// Removes what [`Denoising`] counts as noise. It is called by itself at the end of every
-    /// period of λ inputs (step 10, its second half); to be called before clusters are counted in
-    /// the midst of one, when there are units too new to have a neighbour.
+    /// Removes what [`Denoising`] counts as noise. It is called automatically at the end of every
+    /// period of λ inputs (step 10, its second half). Call it before you count clusters in the
+    /// middle of a period, when some units are too new to have a neighbour.
     ///
     /// # Complexity
     /// Units.

@@ -73,8 +73,8 @@ impl WheelSpeeds {
         right: 0.0,
     };
 
-    /// Returns the speeds at which the robot moves like this (m/s, rad/s); where a wheel would turn
-    /// faster than `most`, rad/s, both are slowed alike, so that the path is the same.
+    /// Returns the wheel speeds at which the robot moves like this (m/s, rad/s). If a wheel would
+    /// turn faster than `most`, rad/s, both are slowed alike, so that the path is the same.
     ///
     /// ```
     /// use tolman_geom::Twist;

@@ -1,18 +1,19 @@
 //! A driver for the real e-puck, over its serial ASCII protocol, which its standard firmware speaks
 //! over Bluetooth.
 //!
-//! Each command is a letter with its arguments, each answer the same letter in lower case: `D,l,r`
-//! sets the speeds of the wheels (answer `d`), `E` asks what speeds are set (`e,l,r`), `N` for the
-//! proximity sensors (`n,` and eight numbers), `Q` for the encoders (`q,l,r`). Speeds and encoders
-//! count thousandths of a turn. Any port that reads and writes bytes will do; give it a time-out.
+//! Each command is a letter with its arguments, and each answer begins with the same letter in
+//! lower case. `D,l,r` sets the speeds of the wheels (answer `d`). `E` asks for the set speeds
+//! (`e,l,r`), `N` for the proximity sensors (`n,` and eight numbers), and `Q` for the encoders
+//! (`q,l,r`). Speeds and encoders count thousandths of a turn. Any port that reads and writes bytes
+//! will do; give it a time-out.
 //!
-//! `E` is not what the wheels do, which `Q` tells, but what the firmware goes by: a command that
-//! lost a byte on its way is answered with `d` all the same, and a remote control sets other speeds
-//! behind the driver's back. So every `D` is followed by an `E`.
+//! `Q` tells what the wheels do; `E` tells the speeds that the firmware uses. A command that lost a
+//! byte on its way is answered with `d` all the same, and a remote control may set other speeds
+//! without the driver's knowledge. So every `D` is followed by an `E`.
 //!
-//! A step is `D`, `E`, the time step, `N`, `Q`. The robot drives on while these lines go to and
-//! fro, so let `wait` return when a step has passed since it returned last, as below, rather than
-//! sleep for a whole one, and choose a step in which they have room.
+//! A step is `D`, `E`, the time step, `N`, `Q`. The robot drives on while these lines are
+//! exchanged. So let `wait` return one step after it last returned, as below, rather than sleep for
+//! a whole step. Choose a step long enough for the lines.
 //!
 //! ```
 //! use std::thread::sleep;

@@ -1,8 +1,8 @@
 //! What a robot senses and is told, simulated or real.
 //!
 //! A [`Robot`] carries a command for one time step and answers with what it senses. The crates
-//! above are written against this trait and these value types only, so a brain or a layer that was
-//! tried on the simulator runs on a driver without a change.
+//! above use only this trait and these value types. So a brain or a layer that was tried on the
+//! simulator runs on a driver without a change.
 //!
 //! A robot of one make has a module of its own with its measures: [`epuck`], [`pioneer_2dx`].
 //!

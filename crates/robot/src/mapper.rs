@@ -7,10 +7,10 @@ use crate::Landmark;
 /// Learns a map from what a robot sensed and did. It watches and never drives, so it works on a log
 /// as on a robot.
 ///
-/// Each mapper says in [`Observation`](Self::Observation) what it takes in at a time: MSLST a time
-/// step with its scan and the action under way, CPM a fragment walked from place to place, the
-/// diktiometry a move with bounds on its odometry. Make these from your log; what a
-/// mapper needs and a log does not have is a field that cannot be filled.
+/// Each mapper names in [`Observation`](Self::Observation) what it observes at a time. MSLST
+/// observes a time step with its scan and the action under way. CPM observes a fragment walked from
+/// place to place, and the diktiometry a move with bounds on its odometry. Make these from your
+/// log; what a mapper needs and a log does not have is a field that cannot be filled.
 pub trait Mapper {
     /// One observation of the mapper.
     type Observation;
@@ -36,8 +36,8 @@ pub trait Mapper {
     }
 
     /// Returns the places that it came to, in order, as it understands them by all that it has seen
-    /// since; `None` of one that is not on its map. Empty if its places keep their names, so that
-    /// its beliefs of old still hold. O(visits · log map).
+    /// since. A place that is not on its map is `None`. Empty if its places keep their names, so
+    /// that its beliefs of old still hold. O(visits · log map).
     fn visits(&self) -> Vec<Option<u32>> {
         Vec::new()
     }

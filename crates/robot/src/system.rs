@@ -18,9 +18,9 @@ pub trait System<R: Robot>: Mapper {
     /// If the robot fails or the system cannot go on with it.
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure>;
 
-    /// Tells it that its robot was lifted and put down, perhaps elsewhere, and returns whether it
-    /// goes on: if nothing is said, it gives up, since it follows its robot and cannot find it
-    /// again.
+    /// Tells the system that its robot was lifted and put down, perhaps elsewhere, and returns
+    /// whether it goes on. The default gives up, because the system follows its robot and cannot
+    /// find it again.
     fn put_down(&mut self) -> Standing {
         Standing::gave_up("it follows its robot, and cannot find out where it is put down")
     }

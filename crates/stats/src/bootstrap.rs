@@ -30,8 +30,8 @@ use super::{ConfidenceInterval, SampleError, normal};
 /// ```
 ///
 /// # Errors
-/// If the sample has fewer than two values or more than 2³², there are no resamples, the level is
-/// no probability, or the statistic is not finite.
+/// If the sample has fewer than two values or more than 2³², or the statistic is not finite. Also
+/// if there are no resamples or the level is not a probability.
 pub fn bca_interval<T: Copy>(
     sample: &[T],
     statistic: impl Fn(&[T]) -> f64,
@@ -115,11 +115,11 @@ pub(super) fn from_replicates(
     Ok(ConfidenceInterval::new(end(tail), end(1.0 - tail)))
 }
 
-/// Returns the means of `points` values drawn from a sample with replacement, `resamples` times: a
-/// bootstrap in which the number drawn need not be the size of the sample.
+/// Returns the means of `points` values drawn from a sample with replacement, `resamples` times.
+/// Unlike in a bootstrap, `points` need not be the size of the sample.
 ///
-/// The spread of the means is σ / √points, so with more points than the sample has values it tells
-/// less than what is unknown of the mean: [`bca_interval`] tells that.
+/// The spread of the means is σ / √points. With more points than the sample has values, it is
+/// smaller than the uncertainty of the mean; [`bca_interval`] gives that.
 ///
 /// O(resamples × points).
 ///

@@ -19,9 +19,9 @@ pub struct MannWhitney {
 /// Mann and Whitney's U test ("On a test of whether one of two random variables is stochastically
 /// larger than the other", 1947), two-sided.
 ///
-/// [`Method::Auto`] is exact if one sample has at most 8 values and there are no ties, and
-/// otherwise asymptotic with corrections for ties and continuity, as in SciPy. O(N log N), and for
-/// the exact distribution O(n² m²) with n the smaller sample.
+/// [`Method::Auto`] is exact if one sample has at most 8 values and there are no ties. Otherwise it
+/// is asymptotic with corrections for ties and continuity, as in SciPy. O(N log N), and for the
+/// exact distribution O(n² m²) with n the smaller sample.
 ///
 /// ```
 /// use tolman_stats::{Method, mann_whitney};

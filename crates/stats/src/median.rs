@@ -7,11 +7,11 @@ use super::{ConfidenceInterval, SampleError};
 
 /// Returns the interval of a median between two order statistics (Conover, "Practical Nonparametric
 /// Statistics", 1999, section 3.2). It holds the median of any distribution with at least the
-/// probability `level`, draws nothing, and is what a median of ties needs, where a bootstrap sees
-/// only a few values.
+/// probability `level`, and draws no random numbers. It also suits samples with ties, where a
+/// bootstrap sees only a few values.
 ///
-/// The ends are the kth least and the kth greatest value, with the greatest k for which fewer than
-/// k of n fair coins show heads with a probability of at most (1 − level) / 2.
+/// The ends are the kth least and the kth greatest value. k is the greatest for which fewer than k
+/// of n fair coins show heads with a probability of at most (1 − level) / 2.
 ///
 /// O(n log n).
 ///

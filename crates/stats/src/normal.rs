@@ -11,7 +11,7 @@ pub(super) fn cumulative(z: f64) -> f64 {
 /// 38).
 pub(super) fn ln_upper_tail(z: f64) -> f64 {
     // From here on six terms of the asymptotic series (Abramowitz and Stegun 26.2.12) are exact to
-    // the last bits, and erfc is still far from underflow.
+    // the last bits. erfc is still far from underflow.
     const FAR: f64 = 30.0;
     if z < 0.0 {
         return libm::log1p(-cumulative(z));

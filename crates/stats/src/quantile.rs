@@ -4,7 +4,8 @@ use super::SampleError;
 use super::error::{check, check_probability};
 
 /// Returns the quantile of a sample by definition R-7 (Hyndman and Fan, "Sample quantiles in
-/// statistical packages", 1996): linear between order statistics, as in R and NumPy by default.
+/// statistical packages", 1996). It is linear between order statistics, as by default in R and
+/// NumPy.
 ///
 /// O(n log n).
 ///

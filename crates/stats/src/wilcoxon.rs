@@ -23,8 +23,8 @@ pub struct Wilcoxon {
 /// asymptotic with corrections for ties and continuity. O(n log n), and O(n³) if exact.
 ///
 /// # Errors
-/// If the samples are empty, unequally long or not finite, if all differences are zero, or if an
-/// exact test is asked for differences with ties or zeros.
+/// If the samples are empty, unequally long or not finite, or all differences are zero. Also if an
+/// exact test is asked for and the differences have ties or zeros.
 pub fn wilcoxon(a: &[f64], b: &[f64], method: Method) -> Result<Wilcoxon, SampleError> {
     check(a, 1)?;
     check(b, 1)?;
@@ -71,8 +71,8 @@ pub fn wilcoxon(a: &[f64], b: &[f64], method: Method) -> Result<Wilcoxon, Sample
     })
 }
 
-/// Returns the probability that the rank sum of `n` differences is `sum` or more under the
-/// hypothesis: the share of subsets of the ranks 1 to n whose sum is that large.
+/// Returns the probability that the rank sum of `n` differences is `sum` or more under the null
+/// hypothesis. It is the share of subsets of the ranks 1 to n whose sum is that large.
 fn exact_tail(n: usize, sum: f64) -> f64 {
     // Shares rather than numbers of subsets, which would overflow beyond a thousand pairs.
     let mut share = vec![0.0_f64; n * (n + 1) / 2 + 1];

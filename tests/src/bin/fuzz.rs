@@ -80,8 +80,8 @@ fn run() -> Result<bool, Box<dyn Error>> {
     Ok(faults == 0)
 }
 
-/// No process of this program gets more than 4 GiB: a reader that asks for more ends it, and the
-/// line of the target that is missing says which.
+/// No process of this program gets more than 4 GiB. A reader that asks for more ends it; the target
+/// whose line is missing is the one.
 fn limit_memory() {
     #[cfg(target_os = "linux")]
     {

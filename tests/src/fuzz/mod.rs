@@ -2,8 +2,8 @@
 //! are valid, and a mutator.
 //!
 //! [`TARGETS`] is the one table. `cargo xtask ci` gives each reader a few hundred mutated seeds,
-//! `cargo xtask fuzz` as many as there is time for, and the folder `fuzz` has a target of libFuzzer
-//! for each line of the table. The seeds lie in `fuzz/seeds`, a folder a target.
+//! `cargo xtask fuzz` as many as there is time for. The folder `fuzz` has a target of libFuzzer for
+//! each line of the table. The seeds lie in `fuzz/seeds`, a folder a target.
 
 #![expect(
     clippy::unwrap_used,

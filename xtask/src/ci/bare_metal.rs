@@ -1,4 +1,4 @@
-//! The crates that claim to be `no_std` build where there is no standard library.
+//! Checks that the crates that claim to be `no_std` build where there is no standard library.
 
 use std::path::Path;
 
@@ -12,8 +12,8 @@ use crate::workspace::{cargo, output, read, root, succeed};
 const TARGET: &str = "thumbv7em-none-eabihf";
 
 /// Builds every `no_std` crate of the layer table for [`TARGET`], default features off. Without
-/// that target it builds them here and looks for `std` among their dependencies' features instead,
-/// which proves less.
+/// that target it builds them for this machine and looks for `std` among their dependencies'
+/// features, which proves less.
 pub(super) fn check() -> Result<Outcome> {
     let page = layers::read_page()?;
     let claims = page

@@ -1,4 +1,4 @@
-//! What the compiler makes of the firmware calls neither std nor an allocator, and cannot panic.
+//! Checks that the compiled firmware calls neither std nor an allocator, and cannot panic.
 
 use std::process::Command;
 
@@ -8,10 +8,10 @@ use serde_json::Value;
 use super::Outcome;
 use crate::workspace::{cargo, installed, output};
 
-/// The package that puts the `no_std` crates together.
+/// Name of the package that combines the `no_std` crates.
 const FIRMWARE: &str = "tolman-firmware";
 
-/// What must not be called, as `nm` writes it.
+/// Names that must not be called, as `nm` writes them.
 const BANNED: [&str; 6] = [
     "core::panicking",
     "core::option::",
@@ -21,13 +21,13 @@ const BANNED: [&str; 6] = [
     "__rust_alloc",
 ];
 
-/// Builds the firmware for this machine, optimized, and looks through the names that it and the
-/// project's crates below it leave for others to define.
+/// Builds the firmware for this machine, optimized, and checks the undefined symbols of it and of
+/// the project's crates below it.
 pub(super) fn check() -> Result<Outcome> {
     if !installed("nm") {
         return Ok(Outcome::Skipped("nm is missing: install binutils".into()));
     }
-    // With link-time optimization the libraries would hold no machine code yet.
+    // With link-time optimization the libraries would not hold machine code yet.
     let messages = output(
         cargo("build --quiet --release --message-format json --no-default-features --package")
             .arg(FIRMWARE)
@@ -52,7 +52,7 @@ pub(super) fn check() -> Result<Outcome> {
     Ok(Outcome::Passed)
 }
 
-/// The libraries of the project's own that a message of cargo says were built.
+/// Returns the project's own libraries that a message of cargo names as built.
 fn own_libraries(message: &str) -> Vec<String> {
     let Ok(message) = serde_json::from_str::<Value>(message) else {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! The `rust-version` of the manifest is true.
+//! Checks the `rust-version` of the manifest.
 
 use std::process::Command;
 
@@ -7,7 +7,8 @@ use anyhow::{Context, Result};
 use super::Outcome;
 use crate::workspace::{metadata, output, root, succeed};
 
-/// Passes if this run's rustc is the stated one; else builds with the stated one if rustup has it.
+/// Passes if this run's rustc is the stated one. Otherwise builds with the stated one if rustup has
+/// it.
 pub(super) fn check() -> Result<Outcome> {
     let stated = stated()?;
     let here = output(Command::new("rustc").arg("--version"))?;
@@ -43,14 +44,14 @@ pub(super) fn check() -> Result<Outcome> {
     Ok(Outcome::Passed)
 }
 
-/// The `rust-version` all members inherit.
+/// Returns the `rust-version` that all members inherit.
 fn stated() -> Result<String> {
     let metadata = metadata()?;
     let version = metadata["packages"][0]["rust_version"].as_str();
     Ok(version.context("no rust-version is stated")?.to_owned())
 }
 
-/// Whether `version` is a release of `series`: 1.95.1 is one of 1.95.
+/// Returns whether `version` is a release of `series`: 1.95.1 is one of 1.95.
 fn is_of(version: &str, series: &str) -> bool {
     version
         .strip_prefix(series)

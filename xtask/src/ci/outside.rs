@@ -1,5 +1,4 @@
-//! The program of somebody else in `tests/outside`: that it builds against the workspace, and does
-//! what it says.
+//! Checks that a user's program, `tests/outside`, builds against the workspace and works.
 
 use std::fs;
 use std::path::Path;
@@ -15,8 +14,7 @@ const COMMIT: &str = "0123abcd";
 /// Builds the program, and lets it draw a world, learn it and run an experiment.
 ///
 /// # Errors
-/// If it does not build, a command of it fails, or its report names another program or commit than
-/// its own.
+/// If it does not build, one of its commands fails, or its report names another program or commit.
 pub(crate) fn check() -> Result<()> {
     let folder = workspace::root().join("tests/outside");
     let target = workspace::target_folder()?;
@@ -56,14 +54,14 @@ pub(crate) fn check() -> Result<()> {
     ] {
         let mut command = Command::new(target.join("debug/outside"));
         command.current_dir(&work).args(line.split(' '));
-        // As a user calls it, not Cargo.
+        // As a user calls it, not through Cargo.
         command.env_remove("CARGO");
         workspace::succeed(&mut command)?;
     }
     names_itself(&work.join("combs/config.toml"))
 }
 
-/// Asks what made a folder of results.
+/// Checks which program and commit made a folder of results.
 fn names_itself(config: &Path) -> Result<()> {
     let text = fs::read_to_string(config)?;
     for part in [

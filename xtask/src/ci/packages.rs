@@ -1,5 +1,4 @@
-//! What would be published builds and passes its tests where nothing of the workspace lies beside
-//! it.
+//! Checks that each published package builds and passes its tests without the workspace beside it.
 
 use core::fmt::Write as _;
 use std::fs;
@@ -11,10 +10,11 @@ use serde_json::Value;
 
 use crate::workspace::{cargo, metadata, read, root, succeed, target_folder};
 
-/// What is packed with every change: it is built on no other package, and tested in seconds.
+/// The package that is packed with every change: it depends on no other package, and its tests take
+/// seconds.
 const ONE: &str = "tolman-stats";
 
-/// A member of the workspace that is published.
+/// A published member of the workspace.
 struct Package {
     name: String,
     version: String,
@@ -55,7 +55,7 @@ pub(super) fn all() -> Result<()> {
     let packages = published()?;
     let folder = unpacked("packages", &packages)?;
     for Package { name, .. } in &packages {
-        // Together they would switch on one another's features.
+        // Built together, they would switch on each other's features.
         succeed(&mut inside(
             &folder,
             &format!("check --quiet --package {name}"),
@@ -76,8 +76,8 @@ fn published() -> Result<Vec<Package>> {
     Ok(members.iter().filter_map(Package::of).collect())
 }
 
-/// Packs them, and lays what was packed into a workspace of its own, which has the dependencies'
-/// versions and the profiles of this one, and nothing else. Returns its folder.
+/// Packs the packages and unpacks them into a workspace of their own. It has only the dependencies'
+/// versions and the profiles of this one. Returns its folder.
 fn unpacked(name: &str, packages: &[Package]) -> Result<PathBuf> {
     let mut pack = cargo("package --quiet --offline --no-verify --allow-dirty");
     for package in packages {
@@ -100,7 +100,7 @@ fn unpacked(name: &str, packages: &[Package]) -> Result<PathBuf> {
     Ok(folder)
 }
 
-/// The manifest of that workspace.
+/// Returns the manifest of that workspace.
 fn manifest(packages: &[Package]) -> Result<String> {
     let mut text = "[workspace]\nresolver = \"3\"\nmembers = [\"*-*.*.*\"]\n\n".to_owned();
     text.push_str("[patch.crates-io]\n");
@@ -118,7 +118,7 @@ fn manifest(packages: &[Package]) -> Result<String> {
     Ok(text + "\n" + &own[profiles..])
 }
 
-/// Cargo in that workspace, which shares what others wrote with this one.
+/// Returns cargo in that workspace, which shares the compiled outside crates with this one.
 fn inside(folder: &Path, arguments: &str) -> Result<Command> {
     let mut command = cargo(arguments);
     command.current_dir(folder).arg("--offline");

@@ -1,4 +1,4 @@
-//! Checks that each crate for users re-exports the crates that its signatures name.
+//! Checks that each stable crate re-exports the crates that its signatures name.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! The rules: compare the page with the packages.
+//! Compares the page with the packages.
 
 use super::page::{CrateRow, Page};
 
@@ -85,7 +85,7 @@ fn census(page: &Page, packages: &[Package]) -> Vec<String> {
     faults
 }
 
-/// Checks that what a row allows leads strictly downward.
+/// Checks that a row allows only crates of lower layers.
 fn row_faults(page: &Page, row: &CrateRow) -> Vec<String> {
     let upward = |used: &String| {
         let below = page.row(used).and_then(|used| used.layer);
@@ -136,7 +136,7 @@ fn edge_fault(page: &Page, row: &CrateRow, used: &str) -> Option<String> {
 fn circle(packages: &[Package]) -> Option<String> {
     let mut left: Vec<&Package> = packages.iter().collect();
     loop {
-        // A package that depends on none of the rest, or is used by none of it, is on no cycle.
+        // A package that depends on no other, or on which no other depends, is on no cycle.
         let inside = |name: &str| left.iter().any(|other| other.name == name);
         let lies_on_none = |package: &Package| {
             package.dependencies.iter().all(|(name, _)| !inside(name))

@@ -237,8 +237,8 @@ fn rows<'a>(lines: &mut Lines<'a>) -> Result<Vec<Row<'a>>, MazeError> {
     }
 }
 
-/// Returns how many columns the first line of a drawing has posts for; at least one, so that
-/// whatever is wrong with the first is found where it is.
+/// Returns the number of columns for which the first line of a drawing has posts. It is at least
+/// one, so that a fault in the first column is reported at its place.
 fn width(first: &Row<'_>) -> usize {
     (1..)
         .take_while(|column| is_post(first.char(column * PITCH)))

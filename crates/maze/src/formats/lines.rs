@@ -74,8 +74,8 @@ impl<'a> Line<'a> {
     }
 }
 
-/// The lines of a text: LF or CR LF ends them, CR in a text without any LF, and a byte order mark
-/// before them is dropped.
+/// Returns the lines of a text. They end with LF or CR LF, or with CR in a text without any LF. A
+/// leading byte order mark is dropped.
 #[derive(Clone)]
 pub(super) struct Lines<'a> {
     rest: core::str::Split<'a, char>,

@@ -71,15 +71,15 @@ impl From<Maze> for MazeFile {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Format {
-    /// The numbers of the micromouse paper's test program. Line 1 is the size n, an even number;
-    /// then line x has n comma-separated numbers, item y of it the sum of the open sides of the
-    /// cell in column x from the west and row y from the south: 1 north, 2 east, 4 south, 8 west.
+    /// The numbers of the micromouse paper's test program. Line 1 is the size n, an even number.
+    /// Each further line is a column, from the west, with n comma-separated numbers, from the
+    /// south. A number is the sum of the open sides of its cell: 1 north, 2 east, 4 south, 8 west.
     /// Squares only; the start is the south-west cell, looking north; the goal is the middle 2 × 2.
     Numbers,
-    /// A drawing as in the `mazefiles` collection: 2h + 1 lines of 4w + 1 characters, north first;
-    /// posts `o` or `+`, walls `---` and `|`, marks `S` and `G`. Without an `S` the start is the
-    /// south-west cell; it looks north. The drawing ends at the first line that starts with neither
-    /// a post, a wall nor a blank; what follows is ignored.
+    /// A drawing as in the `mazefiles` collection: 2h + 1 lines of 4w + 1 characters, north first.
+    /// Posts are `o` or `+`, walls `---` and `|`, marks `S` and `G`. Without an `S` the start is
+    /// the south-west cell; it looks north. The drawing ends at the first line that starts with
+    /// neither a post, a wall nor a blank; what follows is ignored.
     Mazefiles,
     /// The `.num` files of the simulator mms: a line `X Y N E S W` for each cell, 1 where a wall
     /// stands. The start is the south-west cell, looking north; the goal is the middle.
@@ -115,9 +115,10 @@ impl Format {
         }
     }
 
-    /// Returns the format that `text` is in, by its first line that is not blank: a `key = value`
-    /// or a comment is [`Format::Tolman`], a post [`Format::Mazefiles`], one number (or numbers
-    /// parted by commas) [`Format::Numbers`], several parted by blanks [`Format::Num`].
+    /// Returns the format of `text`, by its first line that is not blank. A `key = value` or a
+    /// comment is [`Format::Tolman`], a post [`Format::Mazefiles`]. One number, or numbers
+    /// separated by commas, is [`Format::Numbers`]; several separated by blanks are
+    /// [`Format::Num`].
     ///
     /// # Errors
     /// [`MazeFault::Empty`], or [`MazeFault::UnknownFormat`] with the line.

@@ -8,8 +8,8 @@ use crate::{Cell, Direction, Maze};
 /// A maze with loops: a [`Perfect`] one of whose dead ends a share is opened.
 ///
 /// A dead end is opened by removing one of its inner walls, at random, if possible one to another
-/// dead end. The start keeps its three walls. With a share of 0 the maze stays perfect; with 1 no
-/// other dead end is left, except where only the border and the start are beside it. O(cells).
+/// dead end. The start keeps its three walls. With a share of 0 the maze stays perfect. With 1 the
+/// only other dead ends are those that have only the border and the start beside them. O(cells).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Braided {
     /// Columns.

@@ -32,8 +32,8 @@ fn grid(width: u16, height: u16) -> Result<Grid, GenerateError> {
 /// Start and goal where classic competitions have them: the south-west cell, looking through its
 /// first opening clockwise from north; and the middle.
 ///
-/// Where the middle of a small maze holds the start, the run would be over before it began: there
-/// the goal is the one cell farthest from the start, of several the last by [`Grid::index`].
+/// If the middle of a small maze holds the start, the run would be over before it began. Then the
+/// goal is the cell farthest from the start, of several the last by [`Grid::index`].
 fn mark(maze: &mut Maze) {
     let start = Cell::new(0, 0);
     let heading = maze

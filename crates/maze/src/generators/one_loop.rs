@@ -8,10 +8,10 @@ use crate::{Cell, Direction, Grid, Maze};
 
 /// A small maze of corridors with one loop, one four-way crossing and several dead ends.
 ///
-/// Junctions, bends and dead ends lie on lines of a lattice, two or three cells apart; over it
-/// grows a random tree, by one random corridor at a time, and one more corridor closes the loop.
-/// Trees are drawn until one has what is asked for. The goal lies in the bottom right corner; no
-/// start is marked, and cells between the corridors are closed. O(tries · cells).
+/// Junctions, bends and dead ends lie on lines of a lattice, two or three cells apart. A random
+/// tree grows over it, one random corridor at a time, and one more corridor closes the loop. Trees
+/// are drawn until one has what is asked for. The goal lies in the bottom right corner; no start is
+/// marked, and cells between the corridors are closed. O(tries · cells).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OneLoop {
     /// Columns, at least 3.

@@ -8,10 +8,10 @@ use crate::{Cell, Direction, Maze};
 
 /// A perfect maze: exactly one way between any two cells, so no loops.
 ///
-/// Made by the recursive backtracker (a depth-first walk that carves into a random unvisited
-/// neighbour and turns back where there is none): long winding corridors, few short dead ends.
-/// Start in the south-west, open to one side; goal in the middle, of at most 2 × 2 cells the one
-/// farthest from the start. O(cells).
+/// It has long winding corridors and few short dead ends. The recursive backtracker makes it: a
+/// depth-first walk that carves into a random unvisited neighbour and turns back where there is
+/// none. Start in the south-west, open to one side; goal in the middle, of at most 2 × 2 cells the
+/// one farthest from the start. O(cells).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Perfect {
     /// Columns.
@@ -45,8 +45,8 @@ impl Perfect {
     }
 }
 
-/// The recursive backtracker from `start` through every cell it can reach over cells that belong to
-/// no region yet; all of them then belong to `region`. `regions` is by
+/// Carves with the recursive backtracker from `start` through every cell that it can reach over
+/// cells without a region. All of them then belong to `region`. `regions` is by
 /// [`Grid::index`](crate::Grid::index).
 ///
 /// In the south-west corner it leaves to the north, so that this cell keeps three walls, as the

@@ -10,8 +10,8 @@ use crate::{Cell, Direction, Grid, Maze};
 /// Rooms and corridors: open rectangles, the space between them filled with winding corridors, and
 /// doors from one to the other.
 ///
-/// Rooms are tried at random places and kept where they overlap no other room and not the start, so
-/// there may be fewer than asked for. Corridors come from the recursive backtracker. Doors first
+/// Rooms are tried at random places and kept where they overlap neither another room nor the start.
+/// So there may be fewer than asked for. Corridors come from the recursive backtracker. Doors first
 /// make a tree of all rooms and corridors, then close loops. Start in the south-west, goal in the
 /// middle. O(cells + attempts · largest²).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

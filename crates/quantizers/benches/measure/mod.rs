@@ -7,8 +7,8 @@ use std::time::Instant;
 use cpu_time::ThreadTime;
 use criterion::Criterion;
 
-/// Lets criterion measure `work` and gives how often it is done a second: the median over samples,
-/// or `None` if the command line left it out.
+/// Measures `work` with criterion and returns how often it is done per second, the median over
+/// samples; `None` if the command line left it out.
 pub(crate) fn per_second<R>(
     criterion: &mut Criterion,
     label: &str,

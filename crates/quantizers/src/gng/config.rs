@@ -37,16 +37,16 @@ pub struct GngConfig {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum StepOrder {
-    /// "A growing neural gas network learns topologies" (Fritzke 1995), section 2: age the winner's
-    /// edges, add to its error, move, **then** link the two nearest, drop old edges, **grow, then
-    /// decay** all errors. The input does not move a second unit it has just linked, and a new edge
-    /// ends the step with age 0.
+    /// "A growing neural gas network learns topologies" (Fritzke 1995), section 2. The order is age
+    /// the winner's edges, add to its error, move, **then** link the two nearest, drop old edges,
+    /// **grow, then decay** all errors. The input does not move a second unit it has just linked,
+    /// and a new edge ends the step with age 0.
     #[default]
     Fritzke,
-    /// "Maze Solving by Learning State Topologies" (Tingle, Ball, Augat), related work, steps 1 to
-    /// 6: **first** link the two nearest with age 0, then age the winner's edges, add to its error,
-    /// move, drop old edges, **decay all errors, then grow**. The second unit moves as a neighbour,
-    /// and the new edge ends the step with age 1.
+    /// "Maze Solving by Learning State Topologies" (Tingle, Ball, Augat), related work, steps 1
+    /// to 6. The order is **first** link the two nearest with age 0, then age the winner's edges,
+    /// add to its error, move, drop old edges, **decay all errors, then grow**. The second unit
+    /// moves as a neighbour, and the new edge ends the step with age 1.
     Mslst,
 }
 
@@ -92,9 +92,9 @@ pub enum GrowthGate {
     },
 }
 
-/// GNG-U, "A self-organizing network that can follow non-stationary distributions" (Fritzke 1997):
-/// the utility of a unit is how much the error of its inputs would be larger without it, summed and
-/// decayed as errors are.
+/// GNG-U, "A self-organizing network that can follow non-stationary distributions" (Fritzke 1997).
+/// The utility of a unit is how much larger the error of its inputs would be without it. It is
+/// summed and decayed like errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Utility {
@@ -114,15 +114,15 @@ pub enum Removal {
     /// After every input (Fritzke 1997): the number of units follows the stream as well.
     #[default]
     EveryInput,
-    /// When only `max_units` stops the network from growing: a unit moves from where it is least
-    /// useful to where the error is largest, as in LBG-U ("The LBG-U method for vector
+    /// When only `max_units` stops the network from growing. Then a unit moves from where it is
+    /// least useful to where the error is largest, as in LBG-U ("The LBG-U method for vector
     /// quantization", Fritzke 1997).
     WhenFull,
 }
 
 impl GngConfig {
-    /// Returns the growing neural gas of Fritzke 1995 with the values of its section 4: ε_b 0.2,
-    /// ε_n 0.006, a_max 50, λ 100, α 0.5, d 0.995.
+    /// Returns the growing neural gas of Fritzke 1995 with the values of section 4: ε_b 0.2, ε_n
+    /// 0.006, a_max 50, λ 100, α 0.5, d 0.995.
     pub fn fritzke() -> Self {
         Self {
             winner_rate: 0.2,
@@ -141,8 +141,8 @@ impl GngConfig {
 
     /// Returns the equilibrium GNG of MSLST with an error threshold of its table 1, in squared
     /// robot units for scans in robot units. The paper gives no rates; these are Fritzke's. His
-    /// decay d = 0.995 is also the one at which the scans of the Large maze at threshold 50 give
-    /// the paper's 26 units, which it was chosen by (see docs/notebook/quantizers.md).
+    /// decay d = 0.995 was chosen because it gives the paper's 26 units for the Large maze at
+    /// threshold 50 (see `docs/notebook/quantizers.md`).
     pub fn mslst(threshold: f64) -> Self {
         Self {
             decay: 0.995,
@@ -168,9 +168,9 @@ impl GngConfig {
     }
 
     /// Returns the values for inputs in the order of a robot's way, behind a
-    /// [`ReplayQuantizer`](crate::ReplayQuantizer). They are Fritzke's with two changes: units move
-    /// to where they are needed ([`Removal::WhenFull`], k = 4), and errors are remembered long
-    /// enough to tell where that is (d = 0.9995). Our own; measured in `docs/quantizers.md`.
+    /// [`ReplayQuantizer`](crate::ReplayQuantizer). They are Fritzke's with two changes. Units move
+    /// to where they are needed ([`Removal::WhenFull`], k = 4). Errors are remembered long enough
+    /// to tell where that is (d = 0.9995). Our own; measured in `docs/quantizers.md`.
     pub fn in_order(max_units: usize) -> Self {
         Self {
             max_units,

@@ -13,8 +13,7 @@ struct Half {
 /// Symmetric adjacency of slots.
 ///
 /// A step of a neural gas ages all edges of the winner by one. So the age of an edge is how often
-/// its ends have won since it was renewed, and counting the wins of units is all there is to
-/// ageing.
+/// its ends have won since it was renewed. To age edges it is enough to count the wins of units.
 #[derive(Clone, Debug)]
 pub(crate) struct Links {
     /// Places for neighbours a slot has in `halves`; grows with the largest degree.

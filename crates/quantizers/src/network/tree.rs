@@ -1,11 +1,10 @@
 //! Which units are nearest where there are few features and many units: an exact index.
 //!
-//! A k-d tree whose leaves hold up to 16 units each, side by side, so that a leaf is compared as
-//! fast as a block of [`Prototypes`]. It answers what a scan of all units answers, to the bit: it
-//! leaves a subtree out only if every unit in it is farther than the second nearest so far **as
-//! computed**. That can be told, since rounding keeps order: where |x − p| ≥ |x − s| in a feature,
-//! the same holds for their rounded differences, squares and sums, as long as both are summed in
-//! the same order.
+//! A k-d tree whose leaves hold up to 16 units each, side by side. So a leaf is compared as fast as
+//! a block of [`Prototypes`]. It gives the same answer as a scan of all units, to the bit. It skips
+//! a subtree only if every unit in it is farther than the second nearest so far **as computed**.
+//! This is decidable because rounding keeps order. Where |x − p| ≥ |x − s| in a feature, the same
+//! holds for the rounded differences, squares and sums, if both are summed in the same order.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -17,8 +16,8 @@ use crate::Scalar;
 /// With more features than that, a search visits nearly all leaves.
 pub(crate) const MOST_FEATURES: usize = 4;
 
-/// Returns how many inner nodes may stand on a path to a leaf of a tree of `units` units: twice
-/// what a balanced one has, and two.
+/// Returns the maximum number of inner nodes on a path to a leaf in a tree of `units` units: twice
+/// that of a balanced tree, plus two.
 fn steepest(units: usize) -> u32 {
     2 * (units / (LANES / 2)).max(1).ilog2() + 2
 }
@@ -59,8 +58,8 @@ struct Place {
 
 /// An exact index of up to [`MOST_FEATURES`] features.
 ///
-/// It stays balanced by being built again when a path has become too long or leaves have become too
-/// empty, which takes many units that came or moved since the last time.
+/// It stays balanced because it is built again when a path has become too long or leaves too empty.
+/// That takes many units that came or moved since the last time.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree<S> {
     dimension: usize,

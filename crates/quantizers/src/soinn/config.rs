@@ -20,11 +20,12 @@ pub struct SoinnConfig {
     pub threshold: SimilarityThreshold,
 }
 
-/// Every λ inputs, a unit half-way between the unit q of largest error and its neighbour f of
-/// largest error ("within-class insertion", Shen and Hasegawa 2006, algorithm 3.1, step 10): r gets
-/// a sixth of the errors, a quarter of the wins and of the remembered radii; q and f keep ⅔ of
-/// their errors and ¾ of their wins. It is undone if the mean error E / M has thereby grown beyond
-/// the radius remembered from the insertion before, which a unit that has seen none has at +∞.
+/// Inserts a unit r every λ inputs ("within-class insertion", Shen and Hasegawa 2006, algorithm
+/// 3.1, step 10). It lies half-way between the unit q of largest error and its neighbour f of
+/// largest error. r gets a sixth of the errors, and a quarter of the wins and of the remembered
+/// radii. q and f keep ⅔ of their errors and ¾ of their wins. It is undone if the mean error E / M
+/// has grown beyond the radius remembered from the previous insertion. For a unit without a
+/// previous insertion that radius is +∞.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -50,16 +51,16 @@ pub enum Denoising {
     /// Units without a neighbour, and those with one that have won less than `c` times the mean of
     /// all units (Shen and Hasegawa 2006).
     ///
-    /// It compares a new unit with units that have won since the beginning: the longer a stream,
-    /// the fewer stay, until the network grows no more, and a curve of units that has a hole or an
-    /// end is never continued.
+    /// It compares a new unit with units that have won since the beginning. The longer a stream,
+    /// the fewer new units stay, until the network stops growing. A curve of units with a hole or
+    /// an end is then never continued.
     FewWins {
         /// c: 0 to 1; the nearer to 1, the noisier the data are.
         c: f64,
     },
-    /// Units without a neighbour, and those with one that have won less than `c` times what a unit
-    /// wins in the time since it came, which is one of as many inputs as there are units. Ours, not
-    /// the paper's: the same question, asked in proportion to age.
+    /// Removes units without a neighbour. Also removes units with one neighbour that have won less
+    /// than `c` times their share. A unit's share since it came is the number of inputs divided by
+    /// the number of units. Ours, not the paper's: the same question, asked in proportion to age.
     ///
     /// What the stream has left for long is taken away from its loose ends on.
     LowRate {
@@ -76,8 +77,8 @@ pub enum Denoising {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SimilarityThreshold {
-    /// Farther than the unit's farthest neighbour, or if it has none, than the unit nearest to it
-    /// (Shen and Hasegawa 2006, algorithm 3.2): the first layer.
+    /// Farther than the unit's farthest neighbour or, if it has none, than the unit nearest to it
+    /// (Shen and Hasegawa 2006, algorithm 3.2). For the first layer.
     #[default]
     Adaptive,
     /// Farther than this distance: the second layer. Not negative.
@@ -97,9 +98,9 @@ impl SoinnConfig {
         }
     }
 
-    /// For noisy data: the paper's λ = 100 and c = 1, but units are judged
-    /// [by their age](Denoising::LowRate) and age_dead = 20, so that edges let go of noise
-    /// (measured in `docs/notebook/quantizers.md`).
+    /// Returns the values for noisy data: the paper's λ = 100 and c = 1, but units are judged [by
+    /// their age](Denoising::LowRate). age_dead = 20, so that edges to noise are dropped (measured
+    /// in `docs/notebook/quantizers.md`).
     pub fn noisy() -> Self {
         Self {
             max_age: 20,
@@ -119,10 +120,10 @@ impl SoinnConfig {
         }
     }
 
-    /// For inputs without noise, each of which counts also if it comes but once, as in an
-    /// [`AssociativeMemory`](crate::AssociativeMemory) of single lessons: whatever differs from all
-    /// units is a new unit, nothing is removed as noise, nothing put between what was learnt. An
-    /// input that comes again and again makes two units, then an edge.
+    /// Returns the values for inputs without noise that count even if they come only once, as in an
+    /// [`AssociativeMemory`](crate::AssociativeMemory) of single lessons. Every input that differs
+    /// from all units becomes a new unit. Nothing is removed as noise, and nothing is inserted
+    /// between learnt inputs. An input that comes again and again makes two units, then an edge.
     pub fn exact() -> Self {
         Self {
             insertion: ErrorInsertion::Off,

@@ -28,17 +28,17 @@ pub struct SecondLayerConfig {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SecondThreshold {
-    /// The smallest distance between two clusters of the first layer that is at least the mean
-    /// length of its edges (Shen and Hasegawa 2006, algorithm 3.3). If none is that large, the
+    /// The smallest distance between two clusters of the first layer, of those that are at least
+    /// its mean edge length (Shen and Hasegawa 2006, algorithm 3.3). If none is that large, the
     /// largest there is; if there is but one cluster, its longest edge.
     ///
-    /// It takes for granted that the first layer has told the clusters apart, which is what a
-    /// second layer is for: where noise joins two of them the smallest distance left is too large,
-    /// and they stay together.
+    /// It assumes that the first layer has separated the clusters, which is the purpose of a second
+    /// layer. Where noise joins two of them, the smallest remaining distance is too large, and they
+    /// stay together.
     BetweenClusters,
-    /// A multiple of the mean length of the first layer's edges, which is algorithm 3.3's measure
-    /// of how far apart units of one cluster lie, and does not depend on whether clusters are told
-    /// apart already.
+    /// A multiple of the mean length of the first layer's edges. That length is algorithm 3.3's
+    /// measure of how far apart units of one cluster lie. It does not depend on whether clusters
+    /// are already separated.
     WithinClusters {
         /// Above 1: the second layer has to be coarser than the first. 4 works where clusters are 5
         /// or more edges apart.
@@ -57,8 +57,8 @@ impl SecondLayerConfig {
         }
     }
 
-    /// For noisy data: T_c four times the mean length of the first layer's edges; else the paper's,
-    /// but λ = 500, since its units are few and have to find neighbours among as few inputs
+    /// Returns the values for noisy data: T_c is four times the mean length of the first layer's
+    /// edges, and λ = 500, because its few units have to find neighbours. The rest is the paper's
     /// (measured in `docs/notebook/quantizers.md`).
     pub fn noisy() -> Self {
         Self {

@@ -9,8 +9,8 @@ use crate::{Cell, Direction, Maze};
 /// From one crossing to the next, cells.
 const STREET: u16 = 2;
 
-/// Draws city blocks: streets along every other row and column, of whose ways between two crossings
-/// a quarter is walled up, as far as nothing is cut off by that. Start and goal lie at crossings or
+/// Draws city blocks: streets along every other row and column. A quarter of the ways between two
+/// crossings is walled up, as long as that cuts nothing off. Start and goal lie at crossings or
 /// ends. O(ways · cells).
 ///
 /// # Errors

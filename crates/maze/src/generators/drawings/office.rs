@@ -10,8 +10,8 @@ use crate::{Cell, Direction, Maze};
 /// Rows of one corridor with the rooms on both its sides.
 const DEPTH: u16 = 3;
 
-/// Draws an office floor: corridors from west to east with rooms on both sides, one or two cells
-/// wide and each with one doorway, and a corridor at both ends that joins them all. The start is
+/// Draws an office floor: corridors from west to east with rooms on both sides. Rooms are one or
+/// two cells wide and have one doorway each. A corridor at both ends joins them all. The start is
 /// the west end of the first corridor, the goal a room. O(cells).
 ///
 /// # Errors

@@ -4,9 +4,9 @@ use super::super::{GenerateError, chance};
 use super::pen::Pen;
 use crate::{Cell, Direction, Maze};
 
-/// Draws an open room with pillars of one cell, one anywhere in each square of three by three that
-/// fits: never in its first row and column, so that one can go round it. Start in the south-west.
-/// O(cells).
+/// Draws an open room with pillars of one cell, one in each square of three by three that fits. A
+/// pillar is never in the square's first row or column, so that a robot can go round it. Start in
+/// the south-west. O(cells).
 ///
 /// # Errors
 /// [`GenerateError`] below 4 × 4 cells or above 1024 a side.

@@ -5,7 +5,7 @@ use super::pen::Pen;
 use crate::{Cell, Direction, Maze};
 
 /// Draws a spiral: one corridor that winds inwards from the south-west corner, to the right or to
-/// the left, and ends at any of the last cells. The start is its outer end, the goal its inner one.
+/// the left. It ends at any of the last cells. The start is its outer end, the goal its inner one.
 /// O(cells).
 ///
 /// # Errors
