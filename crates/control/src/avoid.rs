@@ -5,10 +5,10 @@ use crate::{Layer, Outcome, Proposal, Situation};
 
 /// The last resort before a wall (MSLST, "Avoid").
 ///
-/// Works only while the robot translates, on the beams in the direction of travel. Any of the three
-/// in the middle below the buffer stops the translation and ends the action: cut short if a step
-/// was already made, failed if not. The eight beside them end it only when far below the buffer,
-/// and otherwise add a small turn away from the nearest wall.
+/// Works only while the robot translates, on the beams in the direction of travel. If any of the
+/// three in the middle is below the buffer, the translation stops and the action ends. It is cut
+/// short if a step was already made, and failed if not. The eight beside them end it only when far
+/// below the buffer, and otherwise add a small turn away from the nearest wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -57,7 +57,7 @@ pub struct Corridor {
 /// In a corridor the walls are close at most angles and far only along it; in a junction they are
 /// far in several directions. With 72 beams there are 36 sums; at least 14 in a row, counted round
 /// the circle, must be below 1.625 corridor widths. Other rings ask for the same share of the half
-/// circle. A corridor runs north–south or east–west: one that seems to run along a diagonal is the
+/// circle. A corridor runs north–south or east–west. One that seems to run along a diagonal is the
 /// inside of a bend, whose two corners look like walls. O(beams).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorridorDetector {
@@ -113,8 +113,8 @@ impl CorridorDetector {
         self.ring
     }
 
-    /// Returns whether a view can be read: a scan of the detector's ring with a number for every
-    /// beam (infinity is one: nothing met), and a heading.
+    /// Returns whether a view can be read. It needs a scan of the detector's ring with a number for
+    /// every beam (infinity where nothing is met), and a heading.
     #[must_use]
     pub fn reads(&self, view: View<'_>) -> bool {
         view.heading.is_finite()
@@ -123,8 +123,8 @@ impl CorridorDetector {
             && !view.scan.ranges.iter().any(|range| range.is_nan())
     }
 
-    /// Returns the corridor that is in view, or none where it looks like a junction, a bend or an
-    /// open place (or where it does not [read](Self::reads) the view).
+    /// Returns the corridor in view. `None` at what looks like a junction, a bend or an open place,
+    /// or if it cannot [read](Self::reads) the view.
     #[must_use]
     pub fn detect(&self, view: View<'_>) -> Option<Corridor> {
         if !self.reads(view) {

@@ -2,9 +2,9 @@
 //!
 //! This is the *layered corrections architecture* of MSLST (Tingle, Ball, Augat: "Maze Solving by
 //! Learning State Topologies"). A brain names a compass direction; the [`Stack`] turns it into
-//! motor commands, one time step at a time. The top layer proposes, and every layer below has a
-//! [`correct`](Layer::correct) method that takes the proposal of the layer above and may add to it,
-//! override it, or end the action. What subsumption can only replace, a correction can add to.
+//! motor commands, one time step at a time. The top layer proposes a command. Every layer below has
+//! a [`correct`](Layer::correct) method. It takes the proposal of the layer above and may add to
+//! it, override it, or end the action. What subsumption can only replace, a correction can add to.
 //!
 //! In the order the data flows:
 //!
@@ -15,7 +15,7 @@
 //! 5. [`Avoid`]: stop before a wall, and edge away from one beside.
 //! 6. [`Settle`], which is ours: make a turn to and fro die out, so that every action ends.
 //!
-//! The robot of another paper, CPM's e-puck, has its own layers in [`epuck`]; those of a robot that
+//! The robot of another paper, CPM's e-puck, has its own layers in [`epuck`]. Those of a robot that
 //! drives until something is near are in [`wander`].
 //!
 //! A [`Drive`] carries out whole actions by a stack, with any robot that senses ranges and its
@@ -32,11 +32,11 @@
 //! # On your own robot
 //!
 //! The gains are fractions of a full motor command, so the drive decides what they do. One full
-//! turn command should turn less than 108° in a time step: Move's 0.0105 and Orient's 0.008 a
-//! degree add up, and twice the error is where a swing no longer dies out (the calibrated robot
-//! turns 91°). Beams wider than 5° can swing earlier. [`Settle`] ends these swings, at the price of
-//! some 25 time steps, as long as a full command turns less than half a circle. Two steps at a
-//! translation of 0.25 should cover about one robot diameter.
+//! turn command should turn less than 108° in a time step; the calibrated robot turns 91°. Move's
+//! 0.0105 and Orient's 0.008 a degree add up, and at twice the error a swing no longer dies out.
+//! Beams wider than 5° can swing earlier. [`Settle`] ends these swings, at the price of some 25
+//! time steps, as long as a full command turns less than half a circle. Two steps at a translation
+//! of 0.25 should cover about one robot diameter.
 //!
 //! ```
 //! use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};

@@ -25,9 +25,9 @@ pub const fn unit_of(direction: Direction) -> Vector {
 
 /// The top layer: expands a direction into a turn and a translation (MSLST, "Move").
 ///
-/// It turns in proportion to the heading error, again and again until the error is within the
-/// tolerance, then translates for a fixed number of steps without checking the distance covered or
-/// the heading any more. Forward and backward are the same to it: it takes whichever turns less.
+/// It turns in proportion to the heading error until the error is within the tolerance. Then it
+/// translates for a fixed number of steps, without checking distance or heading. Forward and
+/// backward are the same to it: it takes whichever turns less.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

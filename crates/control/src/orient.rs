@@ -6,10 +6,10 @@ use crate::{Layer, Outcome, Proposal, Situation};
 ///
 /// - **Turn**: adds 0.04 for each beam between the robot's heading and the corridor's axis.
 /// - **Contradiction**: the paper lets the action fail when that turn "contradicts the rotation
-///   Move requested". Here: the two have opposite signs; or there is nothing to correct, the robot
-///   being aligned to the nearest beam, and Move asks for more than an eighth of a circle, which in
-///   a corridor is the way to the wall. So a robot told to go across the corridor fails in its
-///   first step wherever it looks, and Orient's own turn is carried out in the step that fails.
+///   Move requested". Here that has two cases. The two have opposite signs. Or the robot is aligned
+///   to the nearest beam, and Move asks for more than an eighth of a circle, which in a corridor
+///   leads to the wall. So a robot told to go across the corridor fails in its first step wherever
+///   it looks. The step that fails carries out Orient's own turn.
 /// - **Stuck**: where the walls are noticeably nearer than the corridor is wide, the robot stands
 ///   in a corner: a small random translation is added instead.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,11 +6,11 @@ use crate::{Layer, Proposal, Situation};
 /// Makes a swing die out: halves the turn each time it changes its side too often within one
 /// action. Not in the paper.
 ///
-/// Move and Orient turn by gains, so a turn can miss by as much as it was to correct: where a beam
-/// is wider than Move's tolerance, or where a full command turns by more than 108°. The robot would
-/// then turn to and fro without end. The paper's robot changes the side seven times an action at
-/// most when its motors make no noise. With their noise this layer changes none of its runs in
-/// `docs/mslst.md`.
+/// Move and Orient turn by gains, so a turn can miss by as much as it was to correct. That happens
+/// where a beam is wider than Move's tolerance, or where a full command turns by more than 108°.
+/// The robot would then turn to and fro without end. The paper's robot changes the side seven times
+/// an action at most when its motors make no noise. With their noise this layer changes none of its
+/// runs in `docs/mslst.md`.
 ///
 /// Stands last, so that it sees what the motors would be told. It helps wherever the robot turns to
 /// the side that it is told, by less than half a circle a time step.

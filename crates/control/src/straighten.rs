@@ -2,13 +2,13 @@ use tolman_robot::Scan;
 
 /// Beams beside one, on either side, that a straight wall is looked for on: many first.
 const BESIDE: [usize; 3] = [5, 3, 2];
-/// The farthest that a beam may end from a straight wall, as a share of its range: about two and a
-/// half times the noise of a laser that errs by 2 %.
+/// Maximum distance of a beam's end from a straight wall, as a share of its range. It is about two
+/// and a half times the noise of a laser that errs by 2 %.
 const OFF: f64 = 0.05;
 
-/// Returns a scan whose ranges end on the straight walls that the beams show together: each is that
-/// of the line fitted to the ends of the beams beside it, where they all lie near one line, and
-/// else as it was sensed. Noise of single beams goes, corners stay.
+/// Returns a scan whose ranges end on the straight walls that the beams show together. Where the
+/// ends of the beams beside a beam lie near one line, its range is that of the fitted line.
+/// Elsewhere it is as sensed. Noise of single beams goes, corners stay.
 ///
 /// A line is a · x + b · y = 1, of which the fit is linear in the ends. O(beams).
 ///

@@ -72,8 +72,8 @@ fn truth(pilot: &Pilot<Solo<Epuck>>, maze: &Maze) -> (Point, usize) {
     (Point::from(off), maze.degree(cell))
 }
 
-/// Drives for `observations` observations, at junctions always on by the next branch to the right;
-/// checks what it sees where it stands near the middle of a cell.
+/// Drives for `observations` observations, taking the next branch to the right at junctions. Checks
+/// what it sees where it stands near the middle of a cell.
 fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
     let mut pilot = pilot(maze, slip, seed);
     let (mut right, mut wrong) = (0, 0);

@@ -16,8 +16,8 @@ const UNIT: f64 = 0.5;
 const WIDTH: f64 = 1.9 * UNIT;
 const RING: fn() -> Ring = || Ring::full(72, 2.5 * UNIT);
 
-/// Returns what the ring sees in an endless corridor along `axis`, `left` metres from the wall that
-/// lies to the left of the axis, looking to `heading`.
+/// Returns what the ring sees in an endless corridor along `axis`, looking to `heading`. The robot
+/// is `left` metres from the wall to the left of the axis.
 fn corridor_scan(axis: Heading, left: f64, heading: Heading) -> Scan {
     let mut scan = Scan::clear(RING());
     let ring = scan.ring;

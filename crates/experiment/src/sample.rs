@@ -146,8 +146,8 @@ impl<'a> Sample<'a> {
     }
 
     /// Returns the value and whether it was reached. It is a share of a whole, a mean, median,
-    /// quantile, minimum, maximum, sum, ratio of sums or of spreads, or the time at which the mean
-    /// curve settles. Only a curve may fail to settle; all else counts as reached.
+    /// quantile, minimum, maximum, sum, or ratio of sums or of spreads. Or it is the time at which
+    /// the mean curve settles. Only a curve may fail to settle; all else counts as reached.
     pub(super) fn value(&self) -> (f64, Reached) {
         let value = match self {
             Self::Flags { flags, whole } => whole * mean(&zeros_and_ones(flags)),

@@ -1,8 +1,8 @@
 //! Other people's files, read into plain structs.
 //!
-//! [`RosMap`] is an occupancy grid as `map_server` of ROS writes it: a YAML file with the grid's
-//! scale and place, and a PGM picture beside it. [`RosMapHeader`] and [`GreyMap`] are the two files
-//! by themselves. [`G2o`] is a pose graph in the plane, read and written.
+//! [`RosMap`] is an occupancy grid as `map_server` of ROS writes it. It has a YAML file with the
+//! grid's scale and place, and a PGM picture beside it. [`RosMapHeader`] and [`GreyMap`] are the
+//! two files by themselves. [`G2o`] is a pose graph in the plane, read and written.
 //!
 //! [`LogReader`] reads logs of robots; what cannot be used of them stands in a [`LogReport`].
 //! [`ReadTrajectory`] and [`tum`] are ways in time, [`ReadRelations`] what is known of them.

@@ -17,8 +17,8 @@ pub(super) fn floats(numbers: impl IntoIterator<Item = f64>) -> String {
     bytes(&all)
 }
 
-/// Returns whole numbers in groups of seven bits from the lowest, each byte but a number's last
-/// with its top bit set (LEB128): a byte for each number below 128.
+/// Returns whole numbers as LEB128: groups of seven bits from the lowest, with the top bit set in
+/// each byte but a number's last. A number below 128 takes one byte.
 pub(super) fn numbers(numbers: impl IntoIterator<Item = u32>) -> String {
     let mut all = Vec::new();
     for mut number in numbers {

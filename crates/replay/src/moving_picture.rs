@@ -32,8 +32,8 @@ const WIDTH: f64 = 800.0;
 /// Height for the caption below, user units.
 const FOOT: f64 = 34.0;
 
-/// Returns the first robot of a replay as an SVG that plays in a loop: its way, its map as it grew
-/// and, after it was first lifted, its belief.
+/// Returns the first robot of a replay as an SVG that plays in a loop. It shows the robot's way,
+/// its map as it grew and, after it was first lifted, its belief.
 ///
 /// `chapters` are played in turn and ascend by their first steps. Time passes with the driven
 /// distance, so that slow robots do not bore. Nodes of the map are drawn at their last positions.

@@ -13,8 +13,8 @@ const TURN: f64 = 65536.0;
 
 /// Returns a pose inside a rectangle as x, y and heading, rounded to 16 bits each.
 ///
-/// A coordinate is off by at most half of 1/65535 of the rectangle's side (0.13 mm in a maze of 17
-/// m), a heading by at most π/65536 (0.003°).
+/// A coordinate is off by at most half of 1/65535 of the rectangle's side: 0.13 mm in a maze of 17
+/// m. A heading is off by at most π/65536 (0.003°).
 pub(super) fn rounded(&Bounds { min, max }: &Bounds, pose: Pose) -> [u16; 3] {
     let share = |value: f64, min: f64, max: f64| {
         let extent = max - min;

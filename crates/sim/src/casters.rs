@@ -13,8 +13,8 @@
 //! compiler knows.
 //!
 //! **What touching means.** A wall is a closed segment, so a ray into the joint of two walls never
-//! leaks. Whether a ray that passes the free end of a wall within rounding (10⁻⁹ m) reads the end
-//! or what lies behind it is left open; everywhere else the three agree to 10⁻⁹ m.
+//! leaks. A ray that passes the free end of a wall within rounding (10⁻⁹ m) may read the end or
+//! what lies behind it. Everywhere else the three agree to 10⁻⁹ m.
 
 use core::fmt;
 

@@ -4,13 +4,14 @@ use rand::TryRng;
 
 /// The random numbers of one run, for one robot at one tick.
 ///
-/// Counter-based: a channel's number is a pure function of the run, the robot, the tick, the
-/// channel, and the count of its draws in this tick. Nothing is shared, so a further consumer never
-/// shifts another one's numbers, and a tick can be drawn again without drawing those before it.
+/// The generator is counter-based. A channel's number is a pure function of the run, the robot, the
+/// tick, the channel, and the count of its draws in this tick. Nothing is shared, so a further
+/// consumer never shifts another one's numbers, and a tick can be drawn again without drawing those
+/// before it.
 ///
 /// The function is Philox4x32-10 (Salmon, Moraes, Dror, Shaw: *Parallel random numbers: as easy as
-/// 1, 2, 3*, SC 2011), which passes BigCrush and, unlike a repositioned stream cipher, costs
-/// nothing to position.
+/// 1, 2, 3*, SC 2011). It passes BigCrush and, unlike a repositioned stream cipher, costs nothing
+/// to position.
 ///
 /// ```
 /// use tolman_sim::{Chance, Channel};

@@ -1,8 +1,8 @@
 //! Noise and faults: what comes between a sensor and its reading, or a motor and its motion.
 //!
-//! A [`Fault`] changes a value after it was read or made and knows nothing of where it came from;
-//! [`Faults`] are several of one value, one by one. Every fault draws from a
-//! [`Channel`](crate::Channel) of its own, so none shifts another one's numbers.
+//! A [`Fault`] changes a value after it was read or made, whatever its source. [`Faults`] apply
+//! several faults to one value in turn. Every fault draws from a [`Channel`](crate::Channel) of its
+//! own, so none shifts another one's numbers.
 //!
 //! To add one to a configuration: give [`Fault`] a variant. To add one from another crate:
 //! implement [`Disturbance`], and give it to the robot after it was built. [`Noise`] makes one of
@@ -29,8 +29,8 @@ pub trait Values: Clone {
     /// Replaces every number by what `change` makes of it.
     fn change(&mut self, change: impl FnMut(f64) -> f64);
 
-    /// Returns whether a sensor or a motor can give this value: all its numbers are finite, and
-    /// their count and size are as its type promises.
+    /// Returns whether a sensor or a motor can give this value. All its numbers must be finite, and
+    /// their count and size as its type promises.
     fn is_sound(&self) -> bool {
         let mut is_sound = true;
         self.clone().change(|number| {

@@ -1,6 +1,6 @@
 //! The sensors, one file each.
 //!
-//! To add one: write a file with a type that implements [`Sensor`], and give the model of the robot
+//! To add one, write a file with a type that implements [`Sensor`]. Give the model of the robot
 //! that carries it a field, sensed in [`Model::sense`](crate::Model::sense). [`Surroundings`]
 //! answers what a sensor can ask; [`Faults`](crate::noise::Faults) make its reading noisy.
 //!

@@ -92,8 +92,8 @@ impl<'a> Surroundings<'a> {
         echoes
     }
 
-    /// Collects in `found`, which is emptied first, all walls, shut doors and outlines of other
-    /// robots that come within `reach` m of a point, and some more. A disc counts as the regular
+    /// Clears `found` and collects in it all walls, shut doors and outlines of other robots that
+    /// come within `reach` m of a point. It may hold some more. A disc counts as the regular
     /// polygon of 24 sides round it, which is larger by less than 1 % of its radius.
     pub fn standing_near(&self, centre: Point, reach: f64, found: &mut Vec<WallSegment>) {
         found.clear();

@@ -60,8 +60,8 @@ impl CorridorSize {
 /// What stands still: walls, zones, and doors in their frames.
 ///
 /// Metres; x is east, y is north. A world made from a maze has its origin in the middle of the wall
-/// post at the south-west corner of cell (0, 0), so that cell (x, y) covers
-/// [x, x + 1] × [y, y + 1] pitches, walls half a thickness into it included.
+/// post at the south-west corner of cell (0, 0). So cell (x, y) covers [x, x + 1] × [y, y + 1]
+/// pitches, including half the thickness of its walls.
 #[derive(Clone, Debug)]
 pub struct World {
     walls: Vec<WallSegment>,
@@ -207,8 +207,8 @@ impl World {
     /// This world with a further door.
     ///
     /// # Errors
-    /// If there is a door of that name, it has no length, a number of it is not one, or its
-    /// schedule is not in order of time.
+    /// If there is already a door of that name, the door has no length, one of its numbers is
+    /// invalid, or its schedule is not in order of time.
     pub fn with_door(self, door: Door) -> Result<Self, WorldError> {
         self.with_doors([door])
     }
@@ -294,8 +294,8 @@ impl World {
         self.cells.map(|cells| Grid::new(cells.width, cells.height))
     }
 
-    /// Returns the middle of a cell of the maze this world was made from; in a world of another
-    /// kind, where cells have no size, the origin.
+    /// Returns the middle of a cell of the maze this world was made from. In a world of another
+    /// kind cells have no size, and this is the origin.
     #[must_use]
     pub fn cell_centre(&self, cell: Cell) -> Point {
         let pitch = self.cells.map_or(0.0, |cells| cells.pitch);
@@ -314,8 +314,8 @@ impl World {
         }
     }
 
-    /// Returns the cell of the maze this world was made from in which `point` lies, or `None`
-    /// outside it, and none in a world of another kind.
+    /// Returns the cell in which `point` lies, of the maze this world was made from. `None` outside
+    /// the maze and in a world of another kind.
     #[must_use]
     pub fn cell_at(&self, point: Point) -> Option<Cell> {
         let Cells {
@@ -339,8 +339,8 @@ impl World {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns whether `point` can be stood on at all: not inside a thick wall or an occupied cell,
-    /// and not outside the border of a maze.
+    /// Returns whether `point` is free floor: not inside a thick wall or an occupied cell, and not
+    /// outside the border of a maze.
     #[must_use]
     pub fn is_floor(&self, point: Point) -> bool {
         match &self.lattice {

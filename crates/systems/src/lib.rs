@@ -3,8 +3,8 @@
 //! Each system drives any robot that senses what it needs, simulated or real, through the traits of
 //! `tolman-robot`. Nothing here knows a simulator, a terminal or the truth.
 //!
-//! MSLST and its [`baselines`] share a body: a [`Brain`] observes a [`TimeStep`] at a time and
-//! chooses compass directions, and an [`Actor`] lets it drive a robot through the layers of
+//! MSLST and its [`baselines`] share a body. A [`Brain`] observes one [`TimeStep`] at a time and
+//! chooses compass directions. An [`Actor`] lets it drive a robot through the layers of
 //! `tolman-control`.
 //!
 //! With `tolman-robot` this crate suffices for a system on a robot: it re-exports all that its

@@ -275,8 +275,8 @@ fn patterns() -> CommonPatterns {
     CommonPatterns::learn(&seen, soinn()).unwrap()
 }
 
-/// The same walk to the bit, whether the robot is owned or lent for a fragment at a time; and the
-/// same map as an observer that only watches.
+/// The walk is the same to the bit whether the robot is owned or lent for a fragment at a time. The
+/// map is that of an observer that only watches.
 #[test]
 fn it_walks_as_with_a_body_of_its_own_and_a_watcher_learns_the_same() {
     let patterns = patterns();

@@ -5,17 +5,17 @@ use super::Echoes;
 /// Layer 1: drives forward along the path (section 3.2), in the middle of the corridor and round
 /// its bends.
 ///
-/// It keeps to the middle of the walls beside it, or at half a corridor's width from the one it
-/// sees; where it does not see along a wall, as beside a fork, it goes by how far it has turned
-/// since it did. Where a wall stands across the way, it turns in place to the side with more room,
-/// and keeps to that side until the way ahead is free. It knows no junctions: those are layer 3's.
+/// It keeps to the middle between the walls beside it, or at half a corridor's width from the one
+/// it sees. Where it does not see along a wall, as beside a fork, it uses its turn since it last
+/// did. Where a wall stands across the way, it turns in place to the side with more room. It keeps
+/// to that side until the way ahead is free. It does not handle junctions; layer 3 does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forward {
     config: ForwardConfig,
     /// The side of the bend it is turning in.
     bend: Option<Side>,
-    /// The direction of the way in the robot's frame, rad: that of the walls when it last saw along
-    /// one, turned as the robot has turned since.
+    /// Direction of the way in the robot's frame, rad: that of the walls when it last saw along
+    /// one, corrected by the robot's turn since.
     way: f64,
 }
 
@@ -54,8 +54,9 @@ pub struct ForwardConfig {
 }
 
 impl ForwardConfig {
-    /// Returns the values for corridors of this width, m: 4.5 cm/s, so that half a second takes the
-    /// robot on by 2 cm, and gains that bring the robot back to the middle without a swing.
+    /// Returns the values for corridors of this width, m. The speed is 4.5 cm/s, so that half a
+    /// second takes the robot on by 2 cm. The gains bring the robot back to the middle without a
+    /// swing.
     #[must_use]
     pub const fn for_width(width: f64) -> Self {
         Self {

@@ -11,8 +11,8 @@
 //! 4. [`Profile::segments`]: where the profile changes, and what lies between: [`Segments`] with
 //!    their [`spaces`](Segments::spaces) and the [`feature`](Segments::feature).
 //! 5. [`Profile::meet_point`]: the middle of a junction.
-//! 6. [`Pilot`]: carries all this out on a [`Robot`](tolman_robot::Robot), so that what lies above
-//!    (layer 3, the mapper and planner) asks for a sweep, half a second of path, a turn.
+//! 6. [`Pilot`]: carries all this out on a [`Robot`](tolman_robot::Robot). The levels above (layer
+//!    3, the mapper and planner) ask it for a sweep, half a second of path, or a turn.
 
 mod echoes;
 mod forward;

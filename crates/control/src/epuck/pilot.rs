@@ -47,7 +47,7 @@ pub struct PilotConfig {
     /// Maximum commanded speed of a wheel, rad/s: what they can do, 6.28.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub most_wheel_speed: f64,
-    /// How far a turn may end from where it should, rad: no less than the encoders can tell,
+    /// Maximum error at which a turn ends, rad. It must be at least what the encoders can resolve:
     /// [`TURN_STEP`] on the real robot, next to nothing where they are exact. What is left of a
     /// sample's turn is made up for by the next.
     #[cfg_attr(
@@ -164,8 +164,8 @@ where
         Ok(())
     }
 
-    /// Stands still for a time step, so that the sensors tell what is round the robot now: when it
-    /// was carried elsewhere, they still tell of where it stood before.
+    /// Stands still for a time step, so that the sensors read what is round the robot now. After it
+    /// was carried elsewhere, they still hold the readings of its old position.
     ///
     /// # Errors
     /// If the robot fails.
@@ -182,8 +182,8 @@ where
         self.turn_on(radians, self.config.sweep_speed).map(|_| ())
     }
 
-    /// Drives straight to a point of its own frame, m, ahead or backward, whichever needs the
-    /// smaller turn, as far as layer 0 lets it; then looks again where it looked before.
+    /// Drives straight to a point of its own frame, m, as far as layer 0 lets it. It drives ahead
+    /// or backward, whichever needs the smaller turn. Then it turns back to its heading before.
     ///
     /// # Errors
     /// If the robot fails, or its sensors give nothing.

@@ -135,8 +135,8 @@ impl Profile {
         })
     }
 
-    /// Returns how far the walls are turned out of the robot's axes, rad, from -π/4 to π/4, where
-    /// walls stand at right angles to each other: a heading without drift for mazes of cells. None
+    /// Returns the angle between the walls and the robot's axes, rad, from -π/4 to π/4. Walls must
+    /// stand at right angles to each other. In mazes of cells this is a heading without drift. None
     /// if too few walls are near.
     #[must_use]
     pub fn askew(&self, curve: &RangeCurve) -> Option<f64> {

@@ -72,8 +72,8 @@ impl RangeCurve {
         Ok(Self { points })
     }
 
-    /// Returns the range of what reads `value`, m, or `None` at or below the value of the farthest
-    /// point, which is also read where nothing is near.
+    /// Returns the range at which a sensor reads `value`, m. `None` at or below the value of the
+    /// farthest point, which is also read where nothing is near.
     #[must_use]
     pub fn range(&self, value: f64) -> Option<f64> {
         let far = self.points.partition_point(|(_, at)| *at > value);

@@ -10,10 +10,10 @@ pub const FEATURES: usize = 11;
 
 /// The parts of a [`Profile`] between the places where it changes (section 4.1).
 ///
-/// The profile is cyclic. The first segment is the way by which the robot came, the one nearest to
-/// behind it that is lower than its neighbours; the others follow counter-clockwise. So a place has
-/// the same feature whichever way the robot looks in a bend, and a bend to the left another than
-/// one to the right. Where there is none, the first segment is the one behind.
+/// The profile is cyclic. The first segment is the way by which the robot came: of those lower than
+/// their neighbours, the one nearest to straight behind. The others follow counter-clockwise. So a
+/// place in a bend has the same feature whichever way the robot looks. A bend to the left differs
+/// from one to the right. Where there is no such segment, the first segment is the one behind.
 ///
 /// ```
 /// use tolman_control::epuck::{PlaceKind, Profile, SegmentConfig};
@@ -55,8 +55,8 @@ pub struct SegmentConfig {
         serde(deserialize_with = "crate::read::at_least_one")
     )]
     pub window: u32,
-    /// Raw values are cut to this before steps between them are taken, so that the sharp edge of a
-    /// near wall does not hide all other boundaries. The paper cuts nothing, which is
+    /// Limit to which raw values are cut before steps between them are taken. So the sharp edge of
+    /// a near wall does not hide all other boundaries. The paper cuts nothing, which is
     /// `f64::INFINITY`.
     #[cfg_attr(
         feature = "serde",
@@ -90,9 +90,9 @@ impl SegmentConfig {
         }
     }
 
-    /// Returns the paper's, with values above 60 cut, which are those of walls within 17 cm, and
-    /// spaces of four samples of 100 at least: through less the robot does not fit at the end of
-    /// its sensors' reach.
+    /// Returns the paper's values with two changes. Raw values above 60, those of walls within 17
+    /// cm, are cut. A space has at least four samples of 100; the robot does not fit through less
+    /// at the end of its sensors' reach.
     #[must_use]
     pub const fn cut() -> Self {
         Self {
@@ -127,10 +127,10 @@ pub enum PlaceKind {
 }
 
 impl Profile {
-    /// Segments it: a value is where it changes if the mean of the steps to the δ values after it
-    /// exceeds (S_max + S_min)/2, the middle between the largest and the smallest step from one
-    /// value to the next. Neighbouring such values are one boundary; what lies between two
-    /// boundaries is a segment.
+    /// Divides the profile into segments. The profile changes at a value if the mean of the steps
+    /// to the δ values after it exceeds (S_max + S_min)/2. That is the middle between the largest
+    /// and the smallest step from one value to the next. Neighbouring such values are one boundary;
+    /// what lies between two boundaries is a segment.
     ///
     /// # Errors
     /// If the window is empty or longer than the profile.

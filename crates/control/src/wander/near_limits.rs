@@ -5,9 +5,9 @@ use tolman_robot::Sounding;
 /// How near a thing may come: ahead, and beside.
 ///
 /// A sensor that looks to the side may be nearer to a wall than one that looks ahead, as long as
-/// the wall is beside the lane that the robot drives along: the threshold is `side` divided by the
-/// sine of the angle between the way ahead and the edge of the sensor's cone, and at most `ahead`.
-/// Sensors that look back have none.
+/// the wall is beside the robot's lane. Its threshold is `side` divided by the sine of the angle
+/// between the way ahead and the edge of its cone. It is at most `ahead`. Sensors that look back
+/// have none.
 ///
 /// ```
 /// use tolman_control::wander::NearLimits;

@@ -235,8 +235,8 @@ impl UntilNear {
         Ok(TurnByEnd::Turned)
     }
 
-    /// Goes away from what is nearest by `steps` time steps, at half the speed of a leg: back if
-    /// that lies ahead, and on if it lies behind.
+    /// Moves away from the nearest thing for `steps` time steps, at half the speed of a leg: back
+    /// if it lies ahead, and on if it lies behind.
     ///
     /// # Errors
     /// If the robot fails.

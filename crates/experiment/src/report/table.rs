@@ -233,8 +233,8 @@ fn contrast(comparison: &Comparison, measured: &Measured) -> Markup {
     }
 }
 
-/// Returns the size of an effect in words: that of Vargha and Delaney ("A critique and improvement
-/// of the CL common language effect size statistics of McGraw and Wong", 2000).
+/// Returns the size of an effect in the words of Vargha and Delaney ("A critique and improvement of
+/// the CL common language effect size statistics of McGraw and Wong", 2000).
 fn magnitude(a12: f64) -> &'static str {
     match (a12 - 0.5).abs() {
         distance if distance < 0.06 => "none",

@@ -1,7 +1,7 @@
 //! What the benches share: criterion's measurement, and a table of it with ratios.
 //!
 //! The table counts seconds of this thread's processor time, so that a busy machine does not blur
-//! it; criterion's own report counts seconds on the wall.
+//! it. Criterion's own report counts wall-clock seconds.
 
 use core::fmt;
 use core::time::Duration;

@@ -9,9 +9,9 @@ use crate::{Bounds, WallSegment};
 /// All walls by place: a loose grid on several levels.
 ///
 /// A wall lies in the one cell that holds its middle, on the level whose cells are about half as
-/// large as the wall, so it reaches at most a cell beyond its own. A look at a neighbourhood takes,
-/// on each level, the cells as far around it: no wall is found twice, and long walls cost no more
-/// memory than short ones.
+/// large as the wall. So it reaches at most a cell beyond its own. A search of a neighbourhood
+/// takes, on each level, the cells around it up to that distance. No wall is found twice, and long
+/// walls cost no more memory than short ones.
 ///
 /// Built in O(n log n); a look costs as much as it finds plus a few cells on each level.
 #[derive(Clone, Debug)]

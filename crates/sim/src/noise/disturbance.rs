@@ -85,9 +85,9 @@ pub type Disturbances<V> = Vec<Box<dyn Disturbance<V>>>;
 ///
 /// The bits it draws may differ between platforms and between builds. `rand_distr` takes `exp` and
 /// `ln` from the standard library as soon as any crate of a program switches `num-traits/std` on,
-/// and from libm otherwise; decision 1 of the project has the details. Where runs must repeat to
-/// the bit everywhere, use [`Fault::Gaussian`](super::Fault::Gaussian), which stays the default, or
-/// a distribution that needs no such function, such as [`rand::distr::Uniform`].
+/// and from libm otherwise. Where runs must repeat to the bit everywhere, use
+/// [`Fault::Gaussian`](super::Fault::Gaussian), which stays the default, or a distribution that
+/// needs no such function, such as [`rand::distr::Uniform`].
 ///
 /// ```
 /// use rand_distr::Cauchy;

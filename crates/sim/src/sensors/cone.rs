@@ -111,8 +111,8 @@ mod tests {
         heard.map(|way| way.norm()).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns whether the point that is said to be nearest is on a wall and in the cone: so that
-    /// nothing is heard that is not there.
+    /// Returns whether the point reported as nearest is on a wall and in the cone, so that nothing
+    /// is heard that does not exist.
     fn is_there(mount: Pose, walls: &[WallSegment], echo: ConeEcho) -> bool {
         let count = 4000;
         let bearings =

@@ -129,7 +129,7 @@ impl SonarConfig {
 }
 
 /// Sonars round the body. Each hears in a cone and reads the distance of the nearest point of any
-/// wall, shut door or other robot within it: exact geometry, no fan of rays.
+/// wall, shut door or other robot within it. The geometry is exact, not a fan of rays.
 ///
 /// An echo that is [missed](Misses) reads as nothing met, although something farther might have
 /// been heard.

@@ -13,8 +13,9 @@ pub fn replay<M: Recordable>(trace: impl BufRead) -> Result<Simulation<M>, Repla
     replay_with(trace, |_, config| M::from_config(config))
 }
 
-/// Replays a trace as [`replay`] does, with robots that `build` makes from their configurations:
-/// for robots that are [disturbed](crate::noise::Disturbance) by code which the trace cannot hold.
+/// Replays a trace as [`replay`] does, with robots that `build` makes from their configurations. It
+/// is for robots that are [disturbed](crate::noise::Disturbance) by code, which the trace cannot
+/// hold.
 ///
 /// # Errors
 /// If the trace cannot be read, a robot cannot be built or is not disturbed as the trace says, or

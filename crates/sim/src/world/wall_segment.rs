@@ -50,8 +50,8 @@ impl WallSegment {
     /// Returns how far a ray meets the wall, m; infinity if it does not. `direction` is a unit
     /// vector.
     ///
-    /// Two walls that share an end leave no gap: on which side of the ray an end lies is computed
-    /// from that end alone, so both walls say the same.
+    /// Two walls that share an end leave no gap. The side of the ray on which an end lies is
+    /// computed from that end alone, so both walls agree.
     #[must_use]
     pub fn ray(&self, origin: Point, direction: Vector) -> f64 {
         let (start, end) = (self.start - origin, self.end - origin);

@@ -96,8 +96,8 @@ fn differ(a: Pose, b: Pose, body: &Body) -> f64 {
 }
 
 proptest! {
-    /// Whatever they are told and however far a step goes, robots overlap no wall and not each
-    /// other, stay in the cells they can reach, and bump exactly when their motion was cut.
+    /// Whatever the commands and step lengths, robots overlap neither walls nor each other and stay
+    /// in the cells they can reach. They bump exactly when their motion was cut.
     #[test]
     fn bodies_pass_through_nothing(
         maze in maze(),

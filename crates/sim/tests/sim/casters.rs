@@ -14,8 +14,8 @@ const CLOSE: f64 = 1e-9;
 
 /// What rays may read in a world of walls, by parry2d.
 ///
-/// Where a ray passes the end of a wall closely, a caster may see the end or what lies behind it:
-/// no less than if all walls were a little longer, and no more than if they were a little shorter.
+/// Where a ray passes the end of a wall closely, a caster may see the end or what lies behind it.
+/// The range is at least that of slightly longer walls and at most that of slightly shorter ones.
 /// That no ray slips through where walls meet is a test of its own.
 struct Reference {
     longer: ParryPolyline,

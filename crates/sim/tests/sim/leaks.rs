@@ -17,8 +17,8 @@ const GRAIN: i128 = 1 << 20;
 /// Directions are taken in multiples of 1 / `FINE`.
 const FINE: f64 = 1_152_921_504_606_846_976.0;
 
-/// How closely a ray may pass a wall's end and read either the end or what lies behind it: 2⁻³⁰ of
-/// a cell, times both units.
+/// Distance from a wall's end within which a ray may read either the end or what lies behind it:
+/// 2⁻³⁰ of a cell, times both units.
 const ASIDE: i128 = 1 << (20 + 60 - 30);
 
 /// A ray in integers: the origin in grains, the direction in multiples of 1 / `FINE`.
@@ -99,8 +99,8 @@ fn maze(side: u16, rng: &mut ChaCha8Rng) -> Maze {
     maze
 }
 
-/// Casts at least `count` rays from random points, every other one exactly towards or past a
-/// lattice point, with every caster; gives how many were cast.
+/// Casts at least `count` rays from random points with every caster and returns the number cast.
+/// Every other ray goes exactly towards or past a lattice point.
 fn fuzz(count: u64, seed: u64) -> u64 {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut cast = 0;

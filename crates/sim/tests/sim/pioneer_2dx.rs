@@ -55,8 +55,8 @@ fn what_is_on_the_robots_left_is_on_the_left_of_the_picture() {
     assert_eq!(columns, (0..40).collect::<Vec<u32>>());
 }
 
-/// The foot of a wall z ahead is seen at −0.3 / z, its top at (0.4 − 0.3) / z: by hand, rows 51.5
-/// and 22.8 for 1.25 m.
+/// The foot of a wall z m ahead is seen at −0.3 / z and its top at (0.4 − 0.3) / z. By hand, that
+/// is rows 51.5 and 22.8 for 1.25 m.
 #[test]
 fn the_foot_and_the_top_of_a_wall_are_at_their_rows() {
     let low = Material::painted(WHITE).standing(0.0, 0.4);

@@ -19,8 +19,8 @@ pub struct CpmConfig {
     /// again. 0 in the paper.
     #[serde(default)]
     pub checks: u32,
-    /// Whether a robot whose sensors say that it was moved between two fragments begins another map
-    /// there, or finds itself on the one it was given. `false` in the paper.
+    /// Whether a robot begins another map, or localizes on the one it was given, when its sensors
+    /// say that it was moved between two fragments. `false` in the paper.
     #[serde(default)]
     pub heeds_lifts: bool,
 }

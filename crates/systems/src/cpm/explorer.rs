@@ -163,8 +163,8 @@ impl Explorer {
         }
     }
 
-    /// Returns the first leg to a fragment that was walked too rarely since the map last changed:
-    /// here, or at the nearest place that has one.
+    /// Returns the first leg to a fragment that was walked too rarely since the map last changed.
+    /// It begins here, or at the nearest place that has one.
     fn walk_again(&self, rng: &mut impl Rng) -> Option<Leg> {
         let is_rare = |port: Port| {
             let end = self.map().end_at(port)?;
@@ -201,7 +201,7 @@ impl Explorer {
         })
     }
 
-    /// Returns the next leg on the way back to the start: "Before the robot follows the map …, the
+    /// Returns the next leg on the way back to the start. "Before the robot follows the map …, the
     /// robot tries to enter another different path-fragment … As long as the new path length is
     /// less than the old path length, the robot continues moving along the new path."
     fn way_back(&self, rng: &mut impl Rng) -> Option<Leg> {

@@ -15,8 +15,8 @@ const CONFIG: LocalizerConfig = LocalizerConfig {
     ..LocalizerConfig::usual()
 };
 
-/// Finds out on which of several maps a robot is, and where, after it was put down anywhere, even
-/// in mid-fragment (section 8, "the start point is changed").
+/// Finds the map that a robot is on, of several, and its place there. The robot was put down
+/// anywhere, even in mid-fragment (section 8, "the start point is changed").
 ///
 /// The robot goes to the place ahead by its approach. From there it takes random fragments that its
 /// maps have. The search ends when it is sure, or after a set number of places. The paper's robot

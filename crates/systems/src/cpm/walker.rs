@@ -384,8 +384,8 @@ impl<B: CpmRobot> Walker<B> {
     }
 
     /// Looks round and returns the place where it is. In mid-fragment it first drives to the next
-    /// junction, dead end or landmark ("the robot continues moving forward until the first junction
-    /// is found", section 8).
+    /// junction, dead end or landmark. "The robot continues moving forward until the first junction
+    /// is found" (section 8).
     ///
     /// # Errors
     /// [`WalkError`].
@@ -720,8 +720,8 @@ impl<B: CpmRobot> Walker<B> {
         Bearings::of_directions(&ways).ok()
     }
 
-    /// Returns the bearings of the ways out of the present place, counted from the one that the
-    /// robot came by; `None` before it has come to a place.
+    /// Returns the bearings of the ways out of the present place, beginning with the one that the
+    /// robot came by. `None` before it has come to a place.
     pub fn bearings(&self) -> Option<Bearings> {
         // The branches are already counter-clockwise.
         Bearings::of_directions(&self.memory.branches).ok()

@@ -8,9 +8,9 @@ pub enum Approach {
     /// Goes to the place ahead: it "continues moving forward until the first junction is found"
     /// (section 8).
     StraightOn,
-    /// Goes to the place ahead. If the robot is not sure where it is when that comes into sight, it
-    /// turns round and goes to the place at the other end. Ours: it sees the whole fragment and
-    /// both ends before it enters any place.
+    /// Goes to the place ahead. If the robot is not sure where it is when that place comes into
+    /// sight, it turns round and goes to the other end. Ours: it sees the whole fragment and both
+    /// ends before it enters any place.
     ToAndFro,
 }
 

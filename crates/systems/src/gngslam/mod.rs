@@ -9,7 +9,7 @@
 //! 2. [`OfflineSlam`] lets it wander, and learns a map of all records at once (section 3.4): the
 //!    paper's system.
 //! 3. A [`PlacePilot`] drives to a node of that map.
-//! 4. [`OnlineSlam`] is what the paper's section 6 asks for: it learns while it drives, and
+//! 4. [`OnlineSlam`] does what the paper's section 6 asks for. It learns while it drives, and
 //!    corrects its pose by the places that it has learned ([`tolman_maps::place_graph`]). A
 //!    [`MapFile`] keeps them.
 

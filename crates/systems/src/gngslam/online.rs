@@ -32,8 +32,8 @@ pub struct OnlineSlamConfig {
     pub first_looks: u32,
     /// Where it goes to explore.
     pub explore: ExplorationPolicy,
-    /// Number of looks in a row without a new place after which all is explored, if no place is
-    /// left from which the floor goes on.
+    /// Number of looks in a row without a new place after which all is explored. It counts only if
+    /// no place is left from which the floor goes on.
     pub quiet_looks: u32,
     /// The floor goes on where nothing stands in a lane of half this width, m. It is narrower than
     /// the robot, since places are seldom in the middle of a corridor.

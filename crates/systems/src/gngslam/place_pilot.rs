@@ -49,12 +49,12 @@ pub enum PlacePilotError<E> {
     Map(#[from] PlaceMapError),
 }
 
-/// Drives a robot to a node of a [`PlaceMap`]. It takes a record, asks the map for the nearest
-/// node, plans from there along the links (section 3.4: "find a path"), and drives towards the next
-/// node by its wheels.
+/// Drives a robot to a node of a [`PlaceMap`]. It takes a record, asks the map for the nearest node
+/// and plans from there along the links (section 3.4: "find a path"). Then it drives towards the
+/// next node by its odometry.
 ///
-/// The robot has to be the one that gathered the records, or has to know its pose in the frame of
-/// their odometry, as nodes lie in that frame.
+/// Nodes lie in the frame of the records' odometry. So the robot has to be the one that gathered
+/// them, or has to know its pose in that frame.
 #[derive(Clone, Debug)]
 pub struct PlacePilot<'a> {
     map: &'a PlaceMap,

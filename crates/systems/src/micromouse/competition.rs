@@ -50,8 +50,8 @@ pub struct SpeedRunExploration {
     /// way home.
     pub proof_cells: u32,
     /// The run that the mouse found. If no run leads ahead from the start, its heading differs from
-    /// that of the [`Brief`]: the mouse then turns to the next side, clockwise, from which a run
-    /// does.
+    /// that of the [`Brief`]. The mouse then turns clockwise to the next side from which a run
+    /// leads to a goal.
     pub certificate: SpeedRunCertificate,
     /// The moves of that run, with where each begins and how long it takes.
     pub run: Vec<RunLeg>,

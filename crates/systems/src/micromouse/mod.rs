@@ -2,8 +2,8 @@
 //!
 //! A [`Brief`] is all that a mouse is told of a maze; none of them sees a wall but by its sensors.
 //! In the paper's rules a mouse, a [`Driver`], is told what its three sensors see and answers with
-//! an [`Order`]. In its first run it explores; once it has been at the goal it may ask to be put
-//! back to the start, and makes its second run.
+//! an [`Order`]. In its first run it explores. Once it has been at the goal it may ask to be put
+//! back at the start for its second run.
 //!
 //! A [`Driver`] has a [`Search`] for its first run and a plan for its second, [`RunTwo`].
 //! [`Certify`] stops when the best run is proven and hands out a [`Certificate`]; [`TargetSearch`],

@@ -7,9 +7,9 @@ use super::SIDE;
 use super::counter::pick;
 use super::driver::{Next, Search, SearchView};
 
-/// The paper's *random exploration* (section 3.2): any way, "and choose to stop after we gain about
-/// 70-80 percent knowledge out of the entire maze", here 75 % of the inner walls. It ignores dead
-/// ends and loops.
+/// The paper's *random exploration* (section 3.2): take any way, "and choose to stop after we gain
+/// about 70-80 percent knowledge out of the entire maze". Here that is 75 % of the inner walls. It
+/// ignores dead ends and loops.
 #[derive(Clone, Debug)]
 pub struct RandomSearch {
     rng: ChaCha8Rng,

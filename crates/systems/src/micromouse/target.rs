@@ -5,9 +5,9 @@ use tolman_planners::{Passages, StepMap, TooLarge, Unknown};
 use super::SIDE;
 use super::driver::{Next, Search, SearchView};
 
-/// The paper's *target search* (section 3.3.2): "in each timestamp" to the nearest of the cells of
-/// largest uncertainty, by the shortest path, with unknown walls open. It ends when a goal was
-/// visited and the open path is as short as the closed path, both in cells.
+/// The paper's *target search* (section 3.3.2). It drives "in each timestamp" to the nearest of the
+/// cells of largest uncertainty, by the shortest path, with unknown walls open. It ends when a goal
+/// was visited and the open path is as short as the closed path, both in cells.
 ///
 /// The paper leaves open which shortest path is taken. Here it is one that goes straight on if
 /// possible.

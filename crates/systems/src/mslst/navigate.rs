@@ -129,9 +129,9 @@ impl Navigator {
         }
     }
 
-    /// Returns the path to the nearest destination node, "fully simplified". That is compressed;
-    /// then "if the first action in the path is one the robot just failed at, we remove it from the
-    /// path and begin with the next action".
+    /// Returns the path to the nearest destination node, "fully simplified". The path is
+    /// compressed. Then "if the first action in the path is one the robot just failed at, we remove
+    /// it from the path and begin with the next action".
     fn path_from(&self, node: u32) -> Option<Vec<Direction>> {
         let path = self.map.graph.path_to_destination(node, &self.failed)?;
         let path = compressed(&path, |action| action.opposite());

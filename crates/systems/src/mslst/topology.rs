@@ -13,8 +13,8 @@ use crate::baselines::AvoidBrain;
 use crate::{Brain, Doing, TimeStep};
 
 /// Phase II: "the robot wanders at random as in Phase I, but this time instead of recording sensor
-/// data it determines the closest-matching GNG state at the start of every high-level action", and
-/// maps it.
+/// data it determines the closest-matching GNG state at the start of every high-level action". It
+/// adds that state to the graph.
 ///
 /// An action that was cut short after a step succeeded ("MSLST will not record it as a failed
 /// action"). If the robot is put down again, the graph begins again.

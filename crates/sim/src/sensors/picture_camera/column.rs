@@ -67,8 +67,8 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// Returns the pixel at `upward` of the axis, as the tangent of the angle: the first wall that
-    /// covers this height, or the floor before it.
+    /// Returns the pixel at `upward`, the tangent of its angle above the axis. It shows the first
+    /// wall that covers this height, or the floor before it.
     pub(super) fn pixel(&self, upward: f64, backdrop: &Backdrop, shine: &Shine) -> Pixel {
         let floor = if upward < 0.0 {
             -self.eye_height / upward

@@ -34,10 +34,10 @@ const DOUBTFUL: usize = 2;
 ///
 /// The mouse starts in the south-west and looks north; its goal is the middle of the maze. In every
 /// cell where it stops it asks for the distances to walls on all four sides. It plans in the
-/// simulator's score, diagonals included. It explores like the mouse of the
-/// [speed run](tolman_planners::speed_run): it looks at the unknown walls of the best run that can
-/// be hoped for, the nearest first. After a press of the reset button it continues from the start.
-/// After a crash it does so too, and forgets its last observations.
+/// simulator's score, diagonals included. It explores like the mouse of the [speed
+/// run](tolman_planners::speed_run). It looks at the unknown walls of the best possible run, the
+/// nearest first. After a press of the reset button it continues from the start. After a crash it
+/// does so too, and forgets its last observations.
 ///
 /// # Errors
 /// If the simulator goes away or answers nonsense, the maze has more than 32 columns or rows, or no

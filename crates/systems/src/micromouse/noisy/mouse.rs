@@ -48,11 +48,11 @@ pub struct NoisyMouse {
 /// Minimum number of readings per stop; and the maximum, while a visible side of the cell is
 /// unknown.
 const LOOKS: (u32, u32) = (4, 16);
-/// Distance to a wall ahead from which a mouse stops, from its middle, as a share of the pitch; and
+/// Distance from the mouse's middle to a wall ahead at which it stops, as a share of the pitch; and
 /// the number of readings in a row that must agree.
 const TOO_NEAR: (f64, u32) = (0.055 / 0.18, 3);
-/// Range of positions ahead of the middle of its cell, as a share of the pitch, in which a bump is
-/// with the cell's wall and not with a post.
+/// Range of positions ahead of the cell's middle in which a bump is with the cell's wall, not with
+/// a post; as a share of the pitch.
 const AT_WALL: (f64, f64) = (0.1, 0.4);
 /// Number of times that beliefs are doubted before the mouse gives up as stuck.
 const DOUBTS: u32 = 12;

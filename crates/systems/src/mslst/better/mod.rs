@@ -3,8 +3,8 @@
 //!
 //! - [`BetterExplorer`] learns: it merges places while its map grows, and goes where the map has
 //!   gaps until it has none.
-//! - [`BetterMap`] is the learned map made ready. The robot tries every action in thought from
-//!   every standpoint, and so knows the cost of each way to the goal for a robot that errs.
+//! - [`BetterMap`] is the learned map made ready. The robot simulates every action from every
+//!   standpoint on its own map. So it knows the cost of each way to the goal for a robot that errs.
 //! - [`BetterMapFile`] keeps the learned map.
 //! - [`BetterNavigator`] navigates: it believes in places instead of strings of states, and chooses
 //!   the action of least average cost.
