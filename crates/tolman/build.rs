@@ -35,8 +35,8 @@ fn main() {
     );
 }
 
-/// Whether this crate lies in the project's repository, not in a package or in the sources of
-/// another project, whose commit would say nothing of it.
+/// Whether this crate lies in the project's repository. In a package or in the sources of another
+/// project, the commit would say nothing of it.
 fn is_checkout() -> bool {
     Path::new(REPOSITORY).exists() && Path::new(NEIGHBOUR).exists()
 }

@@ -46,8 +46,8 @@ fn confusing(side: u32) -> PlaneMaze {
     PlaneMaze::random(&maze, &mut rng).unwrap()
 }
 
-/// Returns a robot that sees a way too many at one place of thirty, as in an open room, so that no
-/// map explains all that it meets.
+/// Returns a robot that sees one way too many at one place of thirty, as in an open room. So no map
+/// explains all that it meets.
 fn miscounted(world: &PlaneMaze, walks: u32) -> Explorer {
     let mut rng = ChaCha8Rng::seed_from_u64(2);
     let mut rover = PlaneWalker::new(world, WalkerNoise::NOISY, Reckoning::Bounded);

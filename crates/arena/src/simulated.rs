@@ -96,8 +96,8 @@ impl<M: Model> Simulated<M> {
 }
 
 impl<M: Recordable> Simulated<M> {
-    /// Returns the trace of the run so far, from where it was put first: JSON lines with the world,
-    /// the robot, and every step's command, true pose, bump and readings.
+    /// Returns the trace of the run from its first pose on, as JSON lines. They hold the world, the
+    /// robot, and every step's command, true pose, bump and readings.
     ///
     /// The run is repeated for it: the same commands make the same run, unless the robot was lifted
     /// or a door was moved.

@@ -1,5 +1,5 @@
-//! The better MSLST's map of the Large maze: how much memory it takes, that it comes back from its
-//! file, and what becomes of a robot or a world that is not as it was learned.
+//! The better MSLST's map of the Large maze: its memory, how it comes back from its file, and what
+//! happens in a robot or a world other than the learned one.
 #![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 extern crate alloc;

@@ -3,7 +3,7 @@
 //! a [`Mouse`] holds fits into 10 kB.
 //!
 //! The firmware's main loop drives one cell, reads the three wall sensors and asks for the next
-//! [`Command`]; when it notices a crash it says so. The fast run comes out as moves.
+//! [`Command`]. When it notices a crash, it reports it. The fast run comes out as moves.
 //!
 //! ```
 //! use tolman_firmware::{Command, Mouse, Sides};

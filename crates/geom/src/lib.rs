@@ -3,14 +3,14 @@
 //! Metres, radians, seconds; angles grow counter-clockwise; in a robot's own frame x is ahead and
 //! y is left. In a world frame x is east and y is north, so a heading of 0 looks east.
 //!
-//! Points and vectors are [nalgebra]'s. A [`Pose`] is a position and a [`Heading`]; it is also the
-//! transform that takes coordinates of its own frame to those of the frame it is given in, which is
-//! why poses are named `world_from_robot` where both frames matter. A [`Twist`] is a velocity, and
+//! Points and vectors are [nalgebra]'s. A [`Pose`] is a position and a [`Heading`]. It is also the
+//! transform from coordinates of its own frame to those of the frame it is given in. So poses are
+//! named `world_from_robot` where both frames matter. A [`Twist`] is a velocity, and
 //! [`Pose::moved`] follows one along its exact arc.
 //!
-//! What is known only within bounds has types of its own: an [`Interval`] holds a number, a
-//! [`PointBox`] a position, a [`PoseBox`] a pose, and all that is computed with them is rounded
-//! outwards, so that what is true stays inside.
+//! Values known only within bounds have types of their own: an [`Interval`] for a number, a
+//! [`PointBox`] for a position, a [`PoseBox`] for a pose. Computations with them round outwards, so
+//! that the true value stays inside.
 //!
 //! All other trigonometry goes through [`libm`], so the same numbers come out on every platform.
 //!

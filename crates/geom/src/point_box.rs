@@ -132,7 +132,7 @@ impl PointBox {
     /// box up to rounding.
     ///
     /// For a given angle the turned position depends linearly on the position, so it is extreme in
-    /// a corner; along the angles a corner follows a circle about the origin, whose extremes lie at
+    /// a corner. Along the angles a corner follows a circle about the origin, whose extremes lie at
     /// the ends or where it crosses an axis. (Cosine and sine each as an interval of its own would
     /// be sound, but wider.)
     #[must_use]

@@ -2,8 +2,8 @@ use nalgebra::{Isometry2, UnitComplex};
 
 use crate::{Heading, Point, Twist, Vector};
 
-/// A position and a heading, and so the rigid transform from the frame it carries to the frame it
-/// is given in: `world_from_robot.transform(point_in_robot)` is the point in the world.
+/// A position and a heading. It is also the rigid transform from its own frame to the frame it is
+/// given in: `world_from_robot.transform(point_in_robot)` is the point in the world.
 ///
 /// ```
 /// use tolman_geom::{Heading, Point, Pose};

@@ -5,9 +5,9 @@ use crate::{Interval, IntervalError, PointBox, Pose};
 /// A pose known to lie within bounds, and so a rigid transform known within bounds: the uncertain
 /// [`Pose`].
 ///
-/// The heading is not wrapped: it may be wider than a full circle, and headings a full circle apart
-/// are the same wherever poses are compared. All operations are sound: whatever true poses lie in
-/// the operands, the true result lies in the result.
+/// The heading is not wrapped and may be wider than a full circle. Headings a full circle apart are
+/// the same wherever poses are compared. All operations are sound: whatever true poses lie in the
+/// operands, the true result lies in the result.
 ///
 /// ```
 /// use tolman_geom::{Heading, Interval, Point, PointBox, Pose, PoseBox};
@@ -106,10 +106,9 @@ impl PoseBox {
             && heading.is_ok_and(|heading| self.heading.meets(nearest(heading, self.heading)))
     }
 
-    /// Returns what both allow, headings up to full circles, or `None` if they contradict each
-    /// other, which is a *fact*: a bound was broken, or the two are not estimates of the same pose.
-    /// Where wide headings agree in two parts of the circle, what lies between them is in the
-    /// result as well.
+    /// Returns what both allow, with headings up to full circles. `None` if they contradict each
+    /// other: then a bound was broken, or the two are not estimates of the same pose. Where wide
+    /// headings agree in two parts of the circle, what lies between them is in the result as well.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         Some(Self::new(

@@ -270,8 +270,8 @@ proptest! {
     }
 }
 
-/// Round a square, a side 1 m ± 10 cm ahead and 5 cm aside, a corner 90° ± 1°: how the bounds grow,
-/// as the sound and tight arithmetic of others has it.
+/// Goes round a square with sides of 1 m ± 10 cm ahead and 5 cm aside and corners of 90° ± 1°. The
+/// bounds grow as in another implementation of sound and tight arithmetic.
 #[test]
 fn boxes_grow_round_a_square_as_they_must() {
     let leg = PoseBox::new(

@@ -1,6 +1,6 @@
-//! The observer of a diktiometry takes in moves, on open worlds of places that all look alike:
-//! while the world is being learned, and once it is known. Another world has places with many
-//! looks.
+//! Times how the observer of a diktiometry takes in moves, on open worlds of places that all look
+//! alike: while the world is being learned, and once it is known. Another world has places with
+//! many looks.
 //!
 //! Criterion measures moves on known maps. The table is of single moves, because percentiles say
 //! more on a busy machine.

@@ -1,12 +1,12 @@
-//! Step maps, speed runs and the decisions of their exploration, on the mazes of competitions where
-//! they are at hand and else on generated ones; `SPEED_RUN_MAZES=FOLDER` names others.
+//! Step maps, speed runs and the decisions of their exploration. The mazes are those of
+//! competitions if they are available, otherwise generated ones; `SPEED_RUN_MAZES=FOLDER` names
+//! others.
 //!
 //! A mouse never plans the same maze twice, and a processor that has seen a maze before foresees
 //! its branches. So the maze changes at every call: all mazes are walked in turn, fifteen times.
-//! Each maze has a JSON line with the least and the median of its fifteen times, which another
-//! program's figures for the same mazes can be set beside. The table at the end has the means over
-//! all mazes of both, the *worst* of the least ones, and what the very same work takes when it is
-//! repeated at once.
+//! Each maze has a JSON line with the minimum and the median of its fifteen times, for comparison
+//! with another program. The table at the end has the means of both over all mazes, and the *worst*
+//! of the minima. It also has the time of the same work when it is repeated at once.
 
 #![expect(
     clippy::unwrap_used,

@@ -17,8 +17,8 @@
 //! The steps: closures that odometry alone refutes are found in O(1) by sums of its covariance
 //! (`chain`). The others are compared in pairs (`consistency`), and the greatest group without
 //! conflicts is believed first. A closure then stays believed only as long as the surest way over
-//! odometry and other believed closures agrees with it (`belief`, `search`): a greatest fixed
-//! point.
+//! odometry and other believed closures agrees with it (`belief`, `search`). The result is a
+//! greatest fixed point.
 //!
 //! [`verify`] measures every cycle of an audit again. [`SigmaScale::estimate`] tells whether the
 //! stated covariances are those of the graph.

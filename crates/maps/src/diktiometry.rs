@@ -2,8 +2,8 @@
 //!
 //! "The world is modelled as a set of places with relative positions and known actions that get the
 //! robot from place to place." An [`Observer`] watches the moves of any robot and keeps a
-//! [`Diktiometry`]: a *path graph* of places and actions, a *reference graph* of local frames with
-//! bounds on where they lie, and reference links between the two.
+//! [`Diktiometry`]. That is a *path graph* of places and actions, a *reference graph* of local
+//! frames with bounds on their positions, and reference links between the two.
 //!
 //! In the order data flows (the paper's figure 1):
 //!

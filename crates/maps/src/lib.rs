@@ -18,9 +18,9 @@
 //! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the
 //!   next.
 //!
-//! A map takes in what is observed and answers what is known. What to do next is the business of
-//! planners, which see no map type: they ask a trait of their own crate or of the vocabulary below
-//! them, such as [`tolman_maze::Walls`].
+//! A map takes in what is observed and answers what is known. Planners decide what to do next. They
+//! depend on no map type, only on a trait of their own crate or of the vocabulary below them, such
+//! as [`tolman_maze::Walls`].
 //!
 //! # A mapper on your own robot
 //!

@@ -18,9 +18,9 @@
 //! 6. [`ScanMatching::overlay`] finds where the map of another day lies on this one.
 //!
 //! Sources: E. Olson: Real-Time Correlative Scan Matching, 2009; K. Konolige et al.: Efficient
-//! Sparse Pose Adjustment for 2D Mapping, 2010 (the program Karto). Unlike
-//! [`scan_map`](crate::scan_map), which has a compass and corrects positions on a map that never
-//! moves, it finds headings too, and old parts of its map move when a place is seen again.
+//! Sparse Pose Adjustment for 2D Mapping, 2010 (the program Karto). [`scan_map`](crate::scan_map)
+//! has a compass and corrects positions on a map that never moves. This module finds headings too,
+//! and old parts of its map move when a place is seen again.
 
 mod closures;
 mod config;

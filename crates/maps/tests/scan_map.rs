@@ -35,8 +35,8 @@ fn scan_of(length: f64, at: Point, heading: Heading) -> Scan {
     scan
 }
 
-/// Walks along a corridor in steps whose odometry is off by `errors`, and back to where it began;
-/// returns the map and how far off its last position is.
+/// Walks along a corridor in steps whose odometry is off by `errors`, and back to the start.
+/// Returns the map and the error of its last position.
 fn walked(length: f64, errors: &[f64]) -> (ScanMap, f64) {
     let mut map = ScanMap::new(ScanMapConfig::for_robot(DIAMETER));
     let start = Point::new(0.5, 0.475);
@@ -114,9 +114,9 @@ fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     assert!(belief.certainty(&on, DIAMETER) > 0.95);
 }
 
-/// Returns what it believes who knows that it stands in a corridor 5 m long, `from` its western
-/// end, and then sees what is seen at `seen` from there in one of `length`, `looks` times; and what
-/// explained that best each time.
+/// Returns what a robot believes and what explained its looks best each time. It knows that it
+/// stands in a corridor 5 m long, `from` m from its western end. Then it sees, `looks` times, what
+/// is seen at `seen` in a corridor of `length` m.
 fn surprised(
     from: f64,
     seen: f64,
@@ -313,8 +313,8 @@ proptest! {
     #[test]
     fn errors_do_not_add_up(errors in prop::collection::vec(-0.03..0.03_f64, 3..9), length in 2.0..3.4_f64) {
         let (map, off) = walked(length, &errors);
-        // Unseen, errors of one sign would add up to 0.36 m. In longer corridors these can be more
-        // than the odometry is told to err by, and the walls at its ends are then not known again.
+        // Unseen, errors of one sign would add up to 0.36 m. In longer corridors these can exceed
+        // the stated error of the odometry. Then the walls at the ends are not recognized.
         prop_assert!(off < 0.25, "{off}");
         prop_assert!(map.agreement() > 0.5);
     }

@@ -278,8 +278,8 @@ fn doors(runs: u64) {
     }
 }
 
-/// What merges by looks are worth, and whether they confuse places, where boxes are too wide for
-/// geometry: with more and more colours, and where rooms are furnished alike.
+/// Measures what merges by looks are worth, and whether they confuse places, where boxes are too
+/// wide for geometry. Worlds have more and more colours, or rooms that are furnished alike.
 fn looks(runs: u64) {
     println!(
         "| world, walls | places for each true one: without | with merges by looks | least purity: without | with |"
@@ -340,8 +340,8 @@ fn looks(runs: u64) {
     }
 }
 
-/// Whether merges by looks make the map the world in corridors of braided mazes, which are up to
-/// six cells long; of fewer and fewer colours.
+/// Measures whether merges by looks make the map match the world in corridors of braided mazes, up
+/// to six cells long. The mazes have fewer and fewer colours.
 fn braided(runs: u64) {
     println!(
         "| walls | places for each true one | most | maps with each place once | least purity |"

@@ -42,8 +42,8 @@ const WAY: &[(f64, f64)] = &[
 /// Distance between poses, in metres and radians.
 const APART: (f64, f64) = (0.3, 0.6);
 
-/// What a scan matcher errs by, m and rad; places nearer than `SEEN` m and rad that were left at
-/// least `AGO` poses ago are seen again.
+/// Error of a scan matcher, m and rad. Places nearer than `SEEN` m and rad that were left at least
+/// `AGO` poses ago are seen again.
 const MATCHED: (f64, f64) = (0.01, 0.005);
 const SEEN: (f64, f64) = (0.25, 0.8);
 const AGO: usize = 12;

@@ -16,7 +16,7 @@ pub fn steps_from(graph: &impl Graph, sources: impl IntoIterator<Item = u32>) ->
 }
 
 /// Returns, for every node, the number of arcs to it and the node before it, as far as they are
-/// known when the first goal is reached. That goal is returned as well. A source comes from itself.
+/// known at the first goal. That goal is returned as well. A source comes from itself.
 pub(crate) fn search(
     graph: &impl Graph,
     sources: impl IntoIterator<Item = u32>,

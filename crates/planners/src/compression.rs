@@ -7,8 +7,8 @@ use alloc::vec::Vec;
 ///
 /// - "If a string of actions is followed by a string of opposite actions, each of length two or
 ///   more and with lengths not differing by more than one, we remove all of them instead of just
-///   canceling out pairs": a robot whose actions cover varying distances goes down a corridor and
-///   back up it with different numbers of them.
+///   canceling out pairs". A robot whose actions cover varying distances may need different numbers
+///   of them down a corridor and back.
 /// - "Remove any pairs of consecutive opposite actions".
 ///
 /// Strings are as long as they can be, and come first: the pairs would leave none of them. For the

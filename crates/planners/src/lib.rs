@@ -4,18 +4,18 @@
 //! nothing of maps, mazes or robots:
 //!
 //! - [`steps_from`] counts arcs (breadth-first), and [`costs_from`] sums their costs (Dijkstra).
-//! - [`path_to`] lists the nodes of a shortest path, [`a_star`] those of a cheapest one by an
-//!   admissible heuristic, and [`best_first`] those of any path by the heuristic alone.
+//! - [`path_to`] lists the nodes of a shortest path, and [`a_star`] those of a cheapest one by an
+//!   admissible heuristic. [`best_first`] lists those of any path, by the heuristic alone.
 //! - [`expected_costs`] plans where actions may fail. [`compressed`] removes detours from a path's
 //!   actions.
 //!
 //! To get distances *to* a goal, search the reversed graph: [`Arcs::reversed`].
 //!
-//! Grid mazes are searched without a graph, without allocation and some hundred times faster: on
-//! [`Passages`], taken from all that is known of their [`Walls`](tolman_maze::Walls), a [`StepMap`]
-//! counts cells, [`speed_run`] finds the fastest run of a micromouse, and [`moves`] the one of
-//! fewest steps under the simpler rules of a paper. A [`PoseSet`] finds a mouse that has lost its
-//! way.
+//! Grid mazes are searched without a graph, without allocation and some hundred times faster. The
+//! search works on [`Passages`], taken from all that is known of their
+//! [`Walls`](tolman_maze::Walls). A [`StepMap`] counts cells. [`speed_run`] finds the fastest run
+//! of a micromouse, and [`moves`] the one of fewest steps under the simpler rules of a paper. A
+//! [`PoseSet`] finds a mouse that has lost its way.
 //!
 //! ```
 //! use tolman_planners::{Arcs, costs_from, steps_from};

@@ -2,8 +2,8 @@
 //!
 //! In the order data flows: a [`Sketch`] is the maze under the reader's hand. A [`Playground`]
 //! sends a system into it. A [`Session`] lets the system act a few time steps at a time, puts its
-//! robot elsewhere, sends it to the goal, and says what came of it. What it shows is a replay that
-//! grows, for the same player as every other run.
+//! robot elsewhere, and sends it to the goal. It reports the outcome. What it shows is a replay
+//! that grows, for the same player as every other run.
 //!
 //! Compiled for `wasm32-unknown-unknown`, the module `bindings` hands these to JavaScript;
 //! `cargo xtask playground` puts them into one HTML file with the page below `page`.

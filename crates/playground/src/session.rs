@@ -79,7 +79,7 @@ impl Session {
     }
 
     /// Lets the system act until its robot has made at least `steps` further time steps, or the
-    /// task is over, and returns what it has come to.
+    /// task is over. Returns the state it has reached.
     pub fn advance(&mut self, steps: usize) -> SessionState {
         let until = self.steps().saturating_add(steps);
         while self.contest.is_busy() && self.steps() < until {

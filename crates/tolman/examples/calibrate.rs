@@ -1,8 +1,8 @@
 //! How the baselines depend on the robot: the sweep behind the calibration in `docs/mslst.md`.
 //!
 //! `cargo run --release -p tolman --example calibrate -- [RUNS]` lets Avoid and Wall-follow make
-//! RUNS runs (200 if not given) in the J and the Large maze with the frozen robot, then with one of
-//! its figures changed at a time, and prints a table. Nothing reads what it prints.
+//! RUNS runs (default 200) in the J and the Large maze. It does so with the frozen robot, then with
+//! one of its figures changed at a time, and prints a table. Nothing reads what it prints.
 
 use std::io::{self, Write};
 

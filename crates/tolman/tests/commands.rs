@@ -1,6 +1,6 @@
-//! Every command that README, the pages and the help texts show is one that works: it is run as it
-//! stands, in a folder that holds nothing but `mazes` and `logs`, and ends with the exit code that
-//! a comment behind it names, else 0.
+//! Every command that README, the pages and the help texts show works. It is run as it stands, in a
+//! folder that holds only `mazes` and `logs`. It ends with the exit code that a comment behind it
+//! names, else 0.
 //!
 //! A debug build takes many minutes. `TOLMAN` may name another one:
 //! `cargo build --release -p tolman`, then

@@ -7,8 +7,8 @@ use tolman_sim::{Area, Material, WallSegment, World, Zone};
 
 use super::CourseError;
 
-/// Squares that pave a free world: cells of a maze whose walls stand where the body cannot pass
-/// from the middle of one to that of the next.
+/// Squares that pave a free world, as cells of a maze. A wall stands where the body cannot pass
+/// from the middle of one square to that of the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Paving {
     /// The south-west corner of cell (0, 0), m.
@@ -20,8 +20,8 @@ pub(super) struct Paving {
     radius: f64,
 }
 
-/// Side of a square, in radii of the body: a passage that is wider than the body by half a radius
-/// has squares in it, wherever it is.
+/// Side of a square, in radii of the body. Any passage that is wider than the body by half a radius
+/// has squares in it.
 const PITCH: f64 = 0.5;
 
 /// More would take a gigabyte and a minute.

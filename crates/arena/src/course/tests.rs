@@ -10,8 +10,8 @@ use super::{Course, CourseError, FreeWorld, Terrain};
 
 const BODY: Body = Body::Circle { radius: 0.25 };
 
-/// Returns a room of 4 × 2 m off the origin, with a wall across it that leaves a gap of width
-/// `gap`, m, in the north.
+/// Returns a room of 4 × 2 m off the origin. A wall across it leaves a gap of width `gap`, m, in
+/// the north.
 fn room(gap: f64) -> World {
     let top = 3.0 - gap;
     let text = format!(

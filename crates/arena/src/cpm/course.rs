@@ -23,8 +23,8 @@ pub fn epuck_course(name: &str, file: MazeFile) -> Result<Course, CourseError> {
     Ok(course)
 }
 
-/// Returns a maze or a free world as a course from its start for the e-puck; `name` is used if it
-/// has no name of its own.
+/// Returns a maze or a free world as a course from its start for the e-puck. `name` is used if it
+/// has no name itself.
 ///
 /// # Errors
 /// As [`epuck_course`], and as [`Course::in_free_world`].

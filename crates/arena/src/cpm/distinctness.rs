@@ -7,8 +7,9 @@ use super::survey::survey;
 use super::trial::CpmTrialError;
 use crate::course::Course;
 
-/// Whether observations tell the fragments of a maze apart: the constraints of section 4.3, "every
-/// path-fragment in the environment is *distinctive*" and *asymmetrical*, measured by f_S.
+/// Whether observations tell the fragments of a maze apart, measured by f_S. These are the
+/// constraints of section 4.3: "every path-fragment in the environment is *distinctive*" and
+/// *asymmetrical*.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distinctness {
     /// The most similar pair of walks among those that must differ: along different fragments, in

@@ -24,7 +24,7 @@ pub struct Exploration {
     /// Fragments of the maze that can be reached.
     pub fragments: u32,
     /// Number of fragments of the shortest walk from the start through all of them, with full
-    /// knowledge of the maze; `None` if it takes too long to find.
+    /// knowledge of the maze. `None` if it takes too long to find.
     pub best: Option<u32>,
     /// When the last fragment was walked, s, or `None` if one was not.
     pub seconds: Option<f64>,

@@ -59,7 +59,7 @@ fn follow(
 }
 
 /// Returns the cells of the fragment `out` of a place, the place first, and the direction of
-/// arrival at its end; `None` if a wall stands there.
+/// arrival at its end. `None` if a wall stands there.
 pub(super) fn along(maze: &Maze, from: Cell, out: Direction) -> Option<(Vec<Cell>, Direction)> {
     let (_, next) = maze.neighbours(from).find(|(way, _)| *way == out)?;
     let (mut cells, came) = follow(maze, out, next, |cell| ends_fragments(maze, cell));

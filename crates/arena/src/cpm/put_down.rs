@@ -12,8 +12,8 @@ use super::spots::{Looks, Spot, knowable};
 use super::trial::{CpmTrialError, TrialRecord};
 use crate::course::Course;
 
-/// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to
-/// find out where it is.
+/// Puts a robot that knows some mazes down in the middle of a fragment of one of them. The robot
+/// has to find its place.
 ///
 /// [`play`](Self::play) puts the robot into maze `here` by its seed. It stands in the middle of a
 /// cell inside a fragment that the map has, and looks along it.

@@ -18,9 +18,9 @@ pub struct Closures {
     /// Number of duplicates claimed that were that fragment, and of loops that were that place: on
     /// arrival, or later.
     pub right: u32,
-    /// Number of arrivals at which a duplicate or a loop was claimed that was another one, or none:
-    /// at once, or by a map that became the likeliest later. Each counts once, however much of the
-    /// map is wrong by it, and even if it is corrected later.
+    /// Number of arrivals at which a wrong or non-existent duplicate or loop was claimed, at once
+    /// or by a map that became the likeliest later. Each counts once, however much of the map is
+    /// wrong by it, and even if it is corrected later.
     pub wrong: u32,
     /// A fragment was walked again, and still is on the map at the end as another one.
     pub missed: u32,
@@ -47,8 +47,8 @@ pub(super) struct Score<'a> {
     pub(super) known: KnownMap<'a>,
 }
 
-/// Common beginning of all maps that became the likeliest since: the start, or the point where no
-/// hypothesis explained a walk and the mapper began again.
+/// Common beginning of all maps that became the likeliest since. It is the start, or the point
+/// where no hypothesis explained a walk and the mapper began again.
 struct Base {
     /// The port behind the robot.
     at: Port,
@@ -177,9 +177,9 @@ impl<'a> Score<'a> {
     }
 
     /// Retraces the walks on a new map, which has its own names of fragments and places. An arrival
-    /// has closed a loop wrongly if it is the first to show that a fragment or a place of the map
-    /// is two true ones. Walks of a robot that was lost before do not count, as their errors follow
-    /// from that.
+    /// has closed a loop wrongly if it is the first to make a fragment or a place of the map stand
+    /// for two true ones. Walks of a robot that was lost before do not count, as their errors
+    /// follow from that.
     fn retrace(&mut self, map: &CpMap) {
         let Some(base) = &self.base else {
             return;

@@ -137,8 +137,8 @@ impl Spot {
     }
 }
 
-/// Returns the probability that an ideal observer guesses maze, fragment and direction correctly,
-/// for a robot at a spot of the maze `here`, 0 to 1.
+/// Returns the probability, 0 to 1, that an ideal observer guesses maze, fragment and direction
+/// correctly, for a robot at a spot of the maze `here`.
 ///
 /// It knows the true mazes, and that each maze, and each spot of it, is equally likely. It
 /// recognizes all it looks at without error, from the cell behind on. The robot sees only a part of

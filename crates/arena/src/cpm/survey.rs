@@ -22,8 +22,8 @@ pub struct SurveyedWalk {
     pub sighting: Sighting,
 }
 
-/// Walks every fragment of a maze both ways, each from a fresh start in the middle of the place at
-/// its end, and returns the walks. All reasoning on the map rests on two differences: between walks
+/// Walks every fragment of a maze both ways and returns the walks. Each begins in the middle of the
+/// place at the fragment's end. All reasoning on the map rests on two differences: between walks
 /// along one fragment, and between walks along two.
 ///
 /// # Errors

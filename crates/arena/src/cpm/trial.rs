@@ -52,8 +52,8 @@ pub struct TrialRecord {
     /// Whether it was as short as any over the fragments that were walked as they truly lie, which
     /// nothing need tell the robot.
     pub is_shortest_as_it_lies: bool,
-    /// Whether the map from which the second episode is planned is right: each place and fragment
-    /// where the robot has been is on it once, joined as in truth.
+    /// Whether the map from which the second episode is planned is right. Then it has each place
+    /// and fragment where the robot has been once, truly joined.
     pub is_map_right: bool,
     /// Counts of loops closed correctly and wrongly.
     pub closures: Closures,

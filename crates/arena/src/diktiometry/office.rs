@@ -213,8 +213,8 @@ impl Office {
                 .any(|way| along(way) > 0.0 && along(way.left()).abs() < half)
     }
 
-    /// Returns a random pose for the start of a run: in the corridors, outside the destination and
-    /// outside doorways, where `body` stands clear of the walls; any heading.
+    /// Returns a random pose for the start of a run, with any heading. It is in the corridors,
+    /// outside the destination and doorways, where `body` stands clear of the walls.
     #[must_use]
     pub fn random_start(&self, body: &Body, rng: &mut impl Rng) -> Pose {
         let goals = self.course.maze.goals();

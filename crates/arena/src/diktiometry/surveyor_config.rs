@@ -19,7 +19,7 @@ pub struct SurveyorConfig {
     /// travelled".
     pub odometry_share: f64,
     /// Largest additional error of scale that all odometry of a run shares, as a share of the
-    /// distance, 0 to 0.5: a wrong calibration, of which the mapper knows the bound.
+    /// distance, 0 to 0.5. It is a wrong calibration of which the mapper knows the bound.
     #[serde(default, skip_serializing_if = "is_none")]
     pub shared_share: f64,
     /// Probability that odometry is wrong by four times its bound, 0 to 1, drawn as often as other

@@ -38,10 +38,10 @@ pub struct Hello {
 
 /// A brain that is a program of its own, in any language.
 ///
-/// It gets a line `{"hello": …}` with [`Hello`] and the version of the protocol, then one for each
-/// time step: `{"step": 0, "sensing": …, "landmark": null}`, the sensing as the robot has it and
-/// the landmark that it senses. It answers each but the first with one line: a command as the robot
-/// has it, such as `{"turn": 0.1, "translate": 0.5}`; `{"done": true}` when the task is done; or
+/// It gets a line `{"hello": …}` with [`Hello`] and the version of the protocol. Then it gets one
+/// line for each time step: `{"step": 0, "sensing": …, "landmark": null}`, with the robot's sensing
+/// and the landmark that it senses. It answers each but the first with one line: a command of the
+/// robot, such as `{"turn": 0.1, "translate": 0.5}`; `{"done": true}` when the task is done; or
 /// `{"give_up": "why"}`.
 ///
 /// A program that ends, or uses up its [`Budget`], has given up.

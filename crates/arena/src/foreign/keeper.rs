@@ -14,8 +14,8 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 /// Time that processes are given to die of `SIGKILL` before the keeper gives them up.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Runs `words[0]` with the other words as arguments until it ends, until the process `parent`
-/// ends, or until a signal asks for the end (TERM, INT, HUP). Then kills all that is left of it.
+/// Runs `words[0]` with the other words as arguments. It runs until it ends, the process `parent`
+/// ends, or a signal asks for the end (TERM, INT, HUP). Then kills all that is left of it.
 ///
 /// Returns the exit code by the shells' convention:
 ///

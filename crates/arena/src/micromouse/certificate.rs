@@ -70,8 +70,8 @@ pub enum CertificateError {
 /// The most cells of a step, written down again: the checker takes nothing from the planners.
 const MOST_CELLS: u32 = 3;
 
-/// Checks that the certificate holds in this maze: its statements about walls are true, its run is
-/// possible, and no run is shorter in any maze that agrees with it. Uses only the maze types.
+/// Checks that the certificate holds in this maze. Its statements about walls must be true, its run
+/// possible, and no run shorter in any maze that agrees with it. Uses only the maze types.
 /// O(cells).
 ///
 /// # Errors

@@ -142,7 +142,7 @@ impl Score {
         (f64::from(best.cost()) + 0.1 * f64::from(self.total.cost())) as f32
     }
 
-    /// Returns the reply to `getStat`: the figure of that name, −1 if it has none yet, or `None`
+    /// Returns the reply to `getStat`: the figure of that name, or −1 if there is none yet. `None`
     /// for a name that mms does not know.
     #[must_use]
     pub fn stat(&self, name: &str) -> Option<String> {

@@ -45,8 +45,8 @@ fn noisy_robot(
     Ok(Solo::new(course.world.clone(), model, somewhere, 0)?)
 }
 
-/// The ceiling: it knows the maze and its true pose and plans again at every action, with the same
-/// body and the same layers as the others. Not in the paper.
+/// The ceiling: it knows the maze and its true pose, and plans again at every action. Body and
+/// layers are those of the others. Not in the paper.
 ///
 /// Its [`Policy`] gives the expected cost of each action, in time steps, near the robot's pose. An
 /// action that has just failed there is not tried again before the robot has moved.

@@ -11,9 +11,9 @@ use crate::episode_error::EpisodeError;
 /// Expected cost of every action, in time steps to the destination, from every place of a course.
 ///
 /// Places are a lattice of positions, each with the two axes a robot can face along. The robot
-/// itself carries out every action there eight times, from about the position and about the axis,
-/// with its own layers and its own noise. The plan uses where it ended, how long it took and how
-/// often it failed.
+/// itself carries out every action there eight times, with its own layers and noise. It starts near
+/// the position and near the axis. The plan uses where it ended, how long it took and how often it
+/// failed.
 ///
 /// Value iteration then gives the costs of the best plan for a robot that errs (Bellman 1957). An
 /// action that has just failed is not tried again at once. The result is exact up to the number of

@@ -55,8 +55,8 @@ struct Standpoint {
 /// Factor on the probability of an action that ended otherwise than the noise-free robot's.
 const SURPRISE: f64 = 0.02;
 
-/// Standard deviation of a range from that at the nearest place, robot units: about half a spacing
-/// of the lattice across, and half a beam beside.
+/// Standard deviation of a range from that at the nearest place, robot units. It is about half a
+/// spacing of the lattice across, and half a beam beside.
 const RANGE_SD: f64 = 0.15;
 
 /// A beam more than this many standard deviations off has met another wall; how far off says no

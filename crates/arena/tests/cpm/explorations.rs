@@ -218,9 +218,9 @@ fn a_large_maze_needs_few_comparisons() {
     assert_eq!(explore(Candidates::Best(3)), all);
 }
 
-/// Patterns learned on the way: "the robot … is expected to be capable of deciding if the current
-/// path-fragment is best represented by the existed CP, or if a new CP is best added." What was
-/// written before stays valid.
+/// Patterns are learned on the way. "The robot … is expected to be capable of deciding if the
+/// current path-fragment is best represented by the existed CP, or if a new CP is best added." What
+/// was written before stays valid.
 #[test]
 fn patterns_are_learned_while_mapping() {
     for seed in 0..10 {

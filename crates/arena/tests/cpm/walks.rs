@@ -50,8 +50,8 @@ fn end(fragment: u32, sign: Sign) -> End {
     }
 }
 
-/// Figure 1: A → B → C → D → A closes a loop round a junction of four ports, B between two, C round
-/// the corner, D from a third; the drawing gives Δ_AB, Δ_BC, Δ_CD, Δ_DA, reasoning the rest.
+/// Figure 1: A → B → C → D → A closes a loop round a junction of four ports: B between two, C round
+/// the corner, D from a third. The drawing gives Δ_AB, Δ_BC, Δ_CD, Δ_DA; reasoning gives the rest.
 #[test]
 fn figure_1() {
     use Sign::{Minus, Plus};
@@ -121,9 +121,9 @@ fn figure_1() {
     assert!(!explorer.mapper.map().is_complete());
 }
 
-/// Returns the environment of figure 10, as far as its walk and its text tell: A1 from P to Q, A2
-/// from Q to R, A3 from R to S, A4 from S back to Q; X2 leads from R to the goal, X3 from S to a
-/// junction T, from which X4 and X5 lead to P.
+/// Returns the environment of figure 10, as far as its walk and its text tell. A1 leads from P to
+/// Q, A2 from Q to R, A3 from R to S, A4 from S back to Q. X2 leads from R to the goal, and X3 from
+/// S to a junction T, from which X4 and X5 lead to P.
 fn figure_10_world() -> PlaneMaze {
     let mut drawing = WorldBuilder::new(dictionary());
     let place = |x: f64, y: f64| Point::new(x, y);
@@ -264,9 +264,8 @@ fn figure_10() {
     );
 }
 
-/// Figure 8: an unlucky first episode goes round and round; the optimized map has each fragment
-/// once, and the second episode a short way, which leads along fragments that were walked the other
-/// way only.
+/// Figure 8: an unlucky first episode goes round and round. The optimized map has each fragment
+/// once. The second episode has a short way, along fragments that were walked only the other way.
 #[test]
 fn figure_8() {
     let world = figure_10_world();
@@ -331,8 +330,8 @@ fn to_go_on_takes_longer_than_the_shortest_known_way() {
 }
 
 /// From a dead end along A to a fork, out of which B leads round to itself. Two walks along B that
-/// differ by three observations of 25 are less similar than μ and stay two; A walked from both
-/// their ends shows that they are one.
+/// differ by three observations of 25 are less similar than μ and stay two. A, walked from both
+/// their ends, shows that they are one.
 #[test]
 fn what_is_missing_to_mu_others_make_up_for() {
     let dictionary = dictionary();

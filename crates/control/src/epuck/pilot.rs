@@ -183,7 +183,7 @@ where
     }
 
     /// Drives straight to a point of its own frame, m, as far as layer 0 lets it. It drives ahead
-    /// or backward, whichever needs the smaller turn. Then it turns back to its heading before.
+    /// or backward, whichever needs the smaller turn. Then it turns back to the heading it had.
     ///
     /// # Errors
     /// If the robot fails, or its sensors give nothing.

@@ -14,9 +14,9 @@ use rounding::{sum_down, sum_up};
 /// infinite bound means that the number is unbounded on that side.
 ///
 /// Arithmetic is *sound*: if x lies in `a` and y in `b`, then x + y lies in `a + b`, whatever was
-/// rounded on the way; bounds are rounded outwards where they are not exact. It is *monotone*:
-/// narrower operands give no wider result (sine and cosine up to their last digits). What cannot be
-/// (an intersection of intervals apart, the root of a negative number) is `None`.
+/// rounded on the way. Bounds that are not exact are rounded outwards. It is *monotone*: narrower
+/// operands give no wider result (sine and cosine up to their last digits). What cannot be (an
+/// intersection of intervals apart, the root of a negative number) is `None`.
 ///
 /// ```
 /// use tolman_geom::Interval;

@@ -1,7 +1,7 @@
 //! Sine and cosine, without trust in anybody's libm.
 //!
-//! An angle is brought near 0 by a multiple of π/2 that is itself an interval, the Taylor series is
-//! summed in interval arithmetic, and what is cut off of it is added.
+//! An angle is brought near 0 by a multiple of π/2 that is itself an interval. The Taylor series is
+//! summed in interval arithmetic, and its remainder is added.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -96,8 +96,8 @@ fn sines_of(angle: f64) -> (Interval, Interval) {
     }
 }
 
-/// Returns sine and cosine of an angle within 0.8 of 0, by their series in Horner's form: sin x = x
-/// (1 − x²/(2·3) (1 − x²/(4·5) (…))), cos x = 1 − x²/(1·2) (1 − x²/(3·4) (…)).
+/// Returns sine and cosine of an angle within 0.8 rad of 0, by their series in Horner's form. sin x
+/// = x (1 − x²/(2·3) (1 − x²/(4·5) (…))), cos x = 1 − x²/(1·2) (1 − x²/(3·4) (…)).
 fn series(x: Interval) -> (Interval, Interval) {
     const ONE: Interval = Interval::point(1.0);
     let square = x.squared();

@@ -88,9 +88,9 @@ pub(super) fn check(config: &AuditConfig) -> Result<(), AuditError> {
     }
 }
 
-/// Returns, for each refuted closure by its edge, the error (χ²) of the refuting cycle if the
-/// closure is replaced by the truth: the error of its witnesses. `poses` are the true ones. A
-/// certificate above the bound is not reliable.
+/// Returns the error (χ²) of the refuting cycle for each refuted closure, by edge. The closure
+/// itself is replaced by the truth, so this is the error of its witnesses. `poses` are the true
+/// ones. A certificate above the bound is not reliable.
 ///
 /// # Errors
 /// As [`audit`].

@@ -6,7 +6,7 @@ use super::pattern::{Dictionary, PatternId};
 /// Similarity of sequences by edit distance (Wagner, Fischer 1974) in place of position by
 /// position.
 ///
-/// Sequences are aligned with insertions, deletions and changes of speed: a pattern may last longer
+/// Sequences are aligned with insertions, deletions and changes of speed. A pattern may last longer
 /// in one of the two, as in dynamic time warping (Sakoe, Chiba 1978). Ours, not the paper's. Costs
 /// are fractions of the cost of a complete mismatch.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -169,10 +169,9 @@ impl CpMapper {
         self.knowledge.mapper().at
     }
 
-    /// Returns the probability of the map among all that explain what was met, 0 to 1, in a world
-    /// whose places are at least `apart` m apart. It follows from dead reckoning and from what
-    /// fragments look like. `None` for a mapper that keeps one hypothesis. O(width · places² ·
-    /// ports).
+    /// Returns the probability of the map, 0 to 1, among all that explain what was met. Places are
+    /// at least `apart` m apart. It follows from dead reckoning and from what fragments look like.
+    /// `None` for a mapper that keeps one hypothesis. O(width · places² · ports).
     #[must_use]
     pub fn certainty(&self, apart: f64) -> Option<f64> {
         match &self.knowledge {

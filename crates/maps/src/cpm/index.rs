@@ -44,9 +44,8 @@ impl FragmentIndex {
         self.bags.remove(id);
     }
 
-    /// Returns up to this many fragments, or all if there are fewer: those that have the most in
-    /// common with a sequence or its inverse, best first, ties by id. O(fragments · patterns of
-    /// each).
+    /// Returns up to this many fragments: those that have the most in common with a sequence or its
+    /// inverse, best first, ties by id. O(fragments · patterns of each).
     pub(super) fn candidates(
         &self,
         dictionary: &Dictionary,

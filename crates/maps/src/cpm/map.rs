@@ -164,7 +164,7 @@ impl Junction {
     }
 
     /// Returns the greatest angle between the junction's ways and those seen by a robot that came
-    /// in by `port`, rad; 0 if no robot has looked or the numbers of ways differ.
+    /// in by `port`, rad. It is 0 if no robot has looked or the numbers of ways differ.
     pub(super) fn apart(&self, port: u32, seen: Option<&Bearings>) -> f64 {
         let known = self.bearings_from(port);
         let apart = known.zip(seen).and_then(|(known, seen)| known.apart(seen));
@@ -338,8 +338,8 @@ impl CpMap {
         Some((self.junctions.rank(there.junction)?, there.number))
     }
 
-    /// Returns Λ2(X, Y) = Δ_{X→Y}, equation (6): the turn from the end at which a robot leaves one
-    /// fragment to the end at which it enters another. `None` if the two ends are at different
+    /// Returns Λ2(X, Y) = Δ_{X→Y}, equation (6): the turn from the end where a robot leaves one
+    /// fragment to the end where it enters another. `None` if the two ends are at different
     /// junctions.
     ///
     /// The map stores ports, not transitions, so all that (7) to (10) derive holds already.

@@ -1,4 +1,4 @@
-/// Returns the bound of Theorem 1: "Given that all path-fragments in the environment are
+/// Returns the bound of Theorem 1. "Given that all path-fragments in the environment are
 /// distinctive and asymmetrical, the time required for reaching the unknown goal is finite".
 ///
 /// `first` are T₁ … T_{n_p}, the times for the fragments "the robot passes before detecting

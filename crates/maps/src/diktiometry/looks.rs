@@ -27,11 +27,11 @@ impl Looks {
     /// Returns the number of kinds of looks that have to agree, such that a coincidence of all is
     /// less likely than `error`. `None` if there are not as many kinds. O(kinds²).
     ///
-    /// If the looks of a place are independent of its neighbours', the rate p at which two look
-    /// alike has a beta distribution by the pairs seen (Jeffreys' prior). The probability of k
-    /// coincidences in a row is then the mean of pᵏ. Where looks repeat, room for room, places that
-    /// deceive have neighbours that deceive. So the probability is at least the power of the rate
-    /// seen there.
+    /// Let p be the rate at which two places look alike. If the looks of a place are independent of
+    /// its neighbours', p has a beta distribution by the pairs seen (Jeffreys' prior). The
+    /// probability of k coincidences in a row is then the mean of pᵏ. Where looks repeat, room for
+    /// room, places that deceive have neighbours that deceive. So the probability is at least the
+    /// power of the rate seen there.
     ///
     /// A true place may be many places of a map that is not yet folded, whose pairs are not
     /// independent evidence. All pairs therefore count for no more than the kinds of looks allow.

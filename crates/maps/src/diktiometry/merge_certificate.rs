@@ -16,8 +16,8 @@
 //! reverse from there back. What follows from that is known without a route. A move along a way
 //! that was taken before has no certificate.
 //!
-//! [`certify_merges`] goes through a journal and has a certificate for each merge that the map
-//! made; [`verify_merges`] checks certificates against the journal, and knows nothing of the map.
+//! [`certify_merges`] goes through a journal and returns a certificate for each merge that the map
+//! made. [`verify_merges`] checks certificates against the journal, without the map.
 
 mod constraints;
 mod identities;

@@ -13,8 +13,8 @@ use super::{Action, Signature};
 pub struct ObservedMove {
     /// The control routine.
     pub action: Action,
-    /// Bounds that hold the truth: the displacement of the move along the axes of the compass (x
-    /// east, y north), m, and the heading by the compass, rad.
+    /// Bounds that contain the true motion: the displacement of the move along the axes of the
+    /// compass (x east, y north), m, and the heading, rad.
     ///
     /// A robot with odometry in its own axes turns it by its compass:
     /// `PoseBox::new(PointBox::ORIGIN, heading).transform(displacement)`.

@@ -32,8 +32,8 @@ const IN_DOUBT: f64 = 0.03;
 /// The kinds of scripts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OpportunityKind {
-    /// Exploration, "going where no robot has gone before": the way to the nearest action that was
-    /// never tried, from a place that is certainly not another.
+    /// Exploration, "going where no robot has gone before". The script leads to the nearest action
+    /// that was never tried, at a place that is certainly not another.
     GoToUnknown,
     /// Exploration, "priming the pump": "if you know your current position accurately and you are
     /// near a place with high positional uncertainty, go to that place".
@@ -205,8 +205,8 @@ impl Observer {
     }
 }
 
-/// The ways that scripts take: those a plan may follow, and the untried action back along the
-/// robot's last link, if its end will be recognized. The world may lack such a way; a script may
+/// The ways that scripts take: those that a plan may follow, and the untried action back along the
+/// robot's last link if its end will be recognized. The world may lack such a way; a script may
 /// fail.
 struct Walkable<'a>(&'a Observer);
 

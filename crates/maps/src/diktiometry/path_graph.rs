@@ -279,8 +279,8 @@ impl PathGraph {
         })
     }
 
-    /// Returns the probability that a link still leads where it led: the smaller of the constancies
-    /// of the link and of the place at its end. 0 for ids that were never given.
+    /// Returns the probability that a link still leads where it led. It is the smaller of the
+    /// constancies of the link and of the place at its end. 0 for ids that were never given.
     #[must_use]
     pub fn chance(&self, id: LinkId) -> f64 {
         let Some(link) = self.link(id) else {

@@ -99,8 +99,8 @@ pub(super) fn restructure(
     distinctions: &[Distinction],
 ) -> Vec<Restructured> {
     let mut done = Vec::new();
-    // What was just split is not merged in the same breath, so that this ends: every round but the
-    // first takes a merge, and merges use up the places that there were.
+    // What was just split is not merged in the same call, so that this ends. Every round but the
+    // first makes a merge, and merges use up the places.
     let mut born: Vec<PlaceId> = Vec::new();
     while let Some((hint, changed)) = hints.next() {
         let Some(place) = map.paths.resolve(hint) else {

@@ -21,8 +21,8 @@ const COMPARED: usize = 256;
 pub struct SelfCheck {
     /// Places of the map.
     pub places: usize,
-    /// Number of places that may be one with another: the bounds allow it, they look alike, and so
-    /// does all that follows along the same actions.
+    /// Number of places that may be one with another. The bounds allow it, the places look alike,
+    /// and so does all that follows along the same actions.
     pub doubtful: usize,
     /// Number of them from which an action of a static world leads to two places, or not back.
     pub torn: usize,

@@ -114,8 +114,9 @@ impl Signature {
         self.values.get(from..from + self.rows).unwrap_or_default()
     }
 
-    /// Returns the number of columns that differ by no more than `tolerance` in any row from those
-    /// of `other` rotated by `offset` columns: column c is compared with column c + offset there.
+    /// Returns the number of columns that differ from those of `other` by at most `tolerance` in
+    /// every row. `other` is rotated by `offset` columns: column c is compared with its column c +
+    /// offset.
     pub(super) fn agreement(&self, other: &Self, offset: usize, tolerance: f64) -> usize {
         let columns = self.columns();
         (0..columns)

@@ -43,8 +43,8 @@ impl Observer {
         self.expect(from, action, None);
     }
 
-    /// Narrows the bounds of two places by an estimate of the displacement between them: the
-    /// second's box by the first's (as in the paper) and back.
+    /// Narrows the bounds of two places by an estimate of the displacement between them. It narrows
+    /// the second's box by the first's (as in the paper) and back.
     ///
     /// # Errors
     /// [`Excluded`] if it contradicts the known relation of the two frames; the boxes then stay as
@@ -134,7 +134,7 @@ fn contract(place: &mut Place, estimate: PointBox) {
 }
 
 /// Adds an estimate of a place's position to its nominal envelope. It goes into the estims only if
-/// it is narrow enough to tell neighbouring places apart: the middle of a wide box is not an
+/// it is narrow enough to tell neighbouring places apart. The middle of a wide box is not an
 /// observation.
 fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
     place.envelope = place.envelope.hull(robot);
@@ -148,7 +148,7 @@ fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
     merge_estims(&mut place.estims, separation);
 }
 
-/// Merges estims: "All estims within δ_sep of each other are merged, with new positions gotten by
+/// Merges estims. "All estims within δ_sep of each other are merged, with new positions gotten by
 /// weighted averaging, and new weights the sum of the component's weights."
 ///
 /// Averaging lets an estim swallow a mode exactly δ_sep away. Estims therefore merge within half of

@@ -138,7 +138,7 @@ impl MslstGraph {
         Ok(Self::finished(nodes))
     }
 
-    /// Returns the finished graph, with distances: "When the graph-building is complete, we
+    /// Returns the finished graph, with distances. "When the graph-building is complete, we
     /// calculate the length of the path from each node to the nearest destination node … and store
     /// it."
     pub(super) fn finished(nodes: Vec<Node>) -> Self {

@@ -23,9 +23,9 @@ pub struct Localization {
 /// states or actions to match to, in which case it chooses the node from the list with the shortest
 /// path to a destination node."
 ///
-/// The search also runs out where the graph matches no further: a comparison that would discard
-/// every node that is left ends it and discards none. Ties go to the node that was made earlier.
-/// O(nodes + candidates · memory · degree).
+/// The search also ends where the graph matches no further. A comparison that would discard every
+/// remaining node ends it and discards none. Ties go to the node that was made earlier. O(nodes +
+/// candidates · memory · degree).
 #[must_use]
 pub fn localize(graph: &MslstGraph, memory: &Memory) -> Localization {
     let mut newest_first = memory.newest_first();

@@ -214,8 +214,8 @@ impl WallGrid {
         self.cells[slot].been
     }
 
-    /// Returns whether a body of this radius, m, can stand with its middle in the cell: a beam has
-    /// passed it, and known walls leave room.
+    /// Returns whether a body of this radius, m, fits with its middle in the cell. A beam must have
+    /// passed the cell, and known walls must leave room.
     pub(super) fn stands(&self, index: GridIndex, radius: f64) -> bool {
         self.cell(index)
             .is_some_and(|cell| cell.passes > 0 && f64::from(cell.wall) * DISTANCE_UNIT >= radius)

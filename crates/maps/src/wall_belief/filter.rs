@@ -36,8 +36,8 @@ pub struct FilterError {
     pub value: f64,
 }
 
-/// Where a mouse is, as a cloud of particles: Monte Carlo localization (Probabilistic robotics,
-/// table 8.2), with the low variance sampler of table 4.4 whenever half of the particles no longer
+/// The mouse's pose as a cloud of particles: Monte Carlo localization (Probabilistic robotics,
+/// table 8.2). The low variance sampler of table 4.4 runs whenever half of the particles no longer
 /// count.
 ///
 /// A ray is expected to end at any wall that may stand on its way ([`WallBelief::meetings`]); an
@@ -181,8 +181,8 @@ impl PoseFilter {
         mean(&self.particles, 1.0)
     }
 
-    /// Returns the mean of the particles about which most weight lies, and their weight, 0 … 1:
-    /// of those in one cell of a grid of `pitch` metres whose headings are nearest to one axis.
+    /// Returns the mean of the heaviest group of particles, and its weight, 0 … 1. A group is the
+    /// particles in one cell of a grid of `pitch` metres whose headings are nearest to one axis.
     /// O(particles · log cells).
     #[must_use]
     pub fn likeliest(&self, pitch: f64) -> (Pose, f64) {

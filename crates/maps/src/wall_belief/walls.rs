@@ -10,10 +10,10 @@ use super::RangeModel;
 
 /// Evidence for and against every wall of a maze of at most `N` × `N` cells, drawn to scale.
 ///
-/// Every wall has its log-odds to stand. A reading that meets a wall raises them, one that passes
-/// lowers them, each by as much as the sensor can be trusted at that range. Beyond
-/// [`WallBelief::CONVINCED`] a wall counts as standing or open. It is unknown before, and may
-/// become unknown again.
+/// Every wall has its log-odds to stand. A reading that meets a wall raises them, and one that
+/// passes lowers them. The change depends on how far the sensor can be trusted at that range.
+/// Beyond [`WallBelief::CONVINCED`] a wall counts as standing or open. It is unknown before, and
+/// may become unknown again.
 ///
 /// ```
 /// use tolman_geom::{Heading, Point, Pose};
@@ -121,8 +121,8 @@ impl<const N: usize> WallBelief<N> {
     /// Takes in one reading that `sensor` made at `pose`. A beam that is far from parallel to both
     /// axes is ignored. O(n²) for n cells along the ray.
     ///
-    /// By Bayes' rule, for each wall on the ray alone: the likelihood of the reading if the
-    /// wall stands, against that if it does not, with the present belief in the others.
+    /// Applies Bayes' rule to each wall on the ray alone. It compares the likelihoods of the
+    /// reading with and without the wall, with the present belief in the others.
     pub fn observe(&mut self, pose: Pose, reading: RangeReading, sensor: &RangeModel) {
         let heading = pose.heading.turned(reading.bearing);
         let unit = heading.unit();
@@ -201,8 +201,8 @@ impl<const N: usize> WallBelief<N> {
         (line.distance - self.thickness / 2.0 / line.slope).max(0.0)
     }
 
-    /// Returns where a ray from `origin` that reaches `max_range` may end: at crossed grid lines
-    /// where a wall may stand, the nearest first, up to the first wall believed in.
+    /// Returns where a ray from `origin` that reaches `max_range` may end. These are crossed grid
+    /// lines where a wall may stand, the nearest first, up to the first wall believed in.
     pub fn meetings(
         &self,
         origin: Point,

@@ -212,8 +212,8 @@ proptest! {
         }
     }
 
-    /// While the bounds hold, no place is confused with another, and every relation holds the
-    /// truth: whether the robot follows the advice, ignores it, or follows some of it.
+    /// While the bounds hold, no place is confused with another, and every relation contains the
+    /// truth. That is so whether the robot follows the advice, ignores it, or follows some of it.
     #[test]
     fn relations_hold_the_truth(seed in any::<u64>(), obedience in 0_u32..=4, stop in 0_u32..2) {
         let mut config = Config::new(Config::compass_actions(), 1.0);

@@ -269,8 +269,8 @@ pub(crate) fn exits(robot: &AbstractRobot) -> Exits {
     Exits::Seen(exits.map(|direction| Action(direction as u32)).collect())
 }
 
-/// Returns a walk of 1500 moves, with scripts, in the corridors of a braided maze of 6 × 6 cells,
-/// with walls of `colours` colours; merges by looks are on.
+/// Returns a walk of 1500 moves, with scripts and merges by looks. The world is the corridors of a
+/// braided maze of 6 × 6 cells, with walls of `colours` colours.
 pub(crate) fn braided_corridors(colours: u32, seed: u64) -> Walk {
     let shape = Braided {
         width: 6,

@@ -155,7 +155,7 @@ impl Arena {
 }
 
 /// Returns the number of worlds of each kind for a contestant: the caller's, or else the
-/// experiment's own, or `slow` for a contestant that takes seconds in each.
+/// experiment's own. It is `slow` for a contestant that takes seconds in each.
 fn runs_of(contestant: Contestant, options: &Options, slow: u32) -> u32 {
     match contestant {
         Contestant::GngSlamBetter => options.runs_else(slow, slow),

@@ -1,7 +1,7 @@
 //! The baselines of MSLST: what wandering and wall-following reach without a map.
 //!
-//! Tables 2 and 3 of "Maze Solving by Learning State Topologies" for its two simple brains, with a
-//! random one as the lower bound and an oracle as the upper bound. Competition mazes, or any
+//! Tables 2 and 3 of "Maze Solving by Learning State Topologies" for its two simple brains. A
+//! random brain is the lower bound, and an oracle the upper bound. Competition mazes, or any
 //! others, are further tables. A last table shows how often the corridor detector calls each kind
 //! of place a corridor.
 

@@ -93,8 +93,8 @@ record! {
     struct FreshRun {
         /// Whether the goal is on the map, and the map is right.
         solved: bool => higher("solved"),
-        /// Whether the map matches the true junctions, dead ends, start and goal and the ways
-        /// between them one to one, with at least 95 % of them.
+        /// Whether the map matches the truth one to one: junctions, dead ends, start and goal and
+        /// the ways between them, with at least 95 % of them.
         right: bool => higher("map right"),
         /// Whether the goal is on the map.
         goal_found: bool => higher("goal found"),

@@ -57,8 +57,8 @@ const CALIBRATION: f64 = 0.03;
 record! {
     /// A run in an arena.
     struct OnlineFields {
-        /// Mean of 0.5 / (0.5 + distance to the true cell), in cells of 8 × 8, over the looks of a
-        /// run that the map was not learned from.
+        /// Mean of 0.5 / (0.5 + distance to the true cell), in cells of 8 × 8. It is over the looks
+        /// of a run from which the map was not learned.
         score: Option<f64> => higher("score to the border").share().decimals(3),
         /// Root-mean-square distance between that run's believed and true positions.
         tried_error_m: Option<f64> => lower("error on a run not learned from").unit("m").decimals(3),

@@ -59,8 +59,8 @@ record! {
         false_supported: u32 => lower("false supported").decimals(2),
         /// Number of right closures that are called refuted.
         true_refuted: u32 => lower("right refuted").decimals(2),
-        /// Number of certificates whose bound is broken by others than the closure in question:
-        /// their cycle exceeds its bound even if all other closures are replaced by the truth.
+        /// Number of certificates whose bound is broken by others than the closure in question.
+        /// Their cycle exceeds its bound even if all other closures are replaced by the truth.
         /// These are refuted right closures, and witnesses with errors beyond their bounds.
         bounds_broken: u32 => lower("bounds broken").decimals(2),
         /// Share of false closures that are refuted.

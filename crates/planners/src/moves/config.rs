@@ -8,8 +8,8 @@ use thiserror::Error;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct MoveExplorerConfig {
-    /// Weight of a step on known ground relative to a step of the hoped-for way beyond it, while no
-    /// way to the goal is known. > 0.
+    /// Weight of a step on known ground, relative to a step on the possible way beyond it; above 0.
+    /// It applies while no way to the goal is known.
     pub known_step: f32,
     /// While no way to the goal is known: steps that each unknown wall on the hoped-for way counts
     /// as. ≥ 0.
@@ -20,8 +20,8 @@ pub struct MoveExplorerConfig {
     /// Gain per distance from which a stop comes before the way to the goal, while no way to the
     /// goal is known. ≥ 0.
     pub early_proof: f32,
-    /// Discount of a wall's weight for each step by which the best hoped-for run through it is
-    /// longer than the best of all, once a way is known. Within 0 … 1.
+    /// Discount of a wall's weight, once a way is known, for each step by which the best possible
+    /// run through it is longer than the best of all. Within 0 … 1.
     pub patience: f32,
     /// Minimum weight of a wall on a run better than the known one; walls on the best run weigh 1.
     /// ≥ 0.

@@ -16,23 +16,24 @@ use crate::TooLarge;
 ///
 /// Which wall to look at next is our own:
 ///
-/// - Walls matter that lie on a run better than the best known one. The mouse looks first at those
-///   that the best runs of all depend on (they have to be looked at whatever else turns up), and at
-///   near ones before far ones.
-/// - While no way to the goal is known, it does so only where it is as good as on its way; else it
-///   makes for the goal by the way that takes fewest steps if all unknown walls are open. Where it
-///   could stop and look on the way, unknown sides that it would see are worth a detour.
-/// - As soon as a way is known the mouse drives to the goal, where it has to be once anyway; only
+/// - Walls matter that lie on a run better than the best known one. The mouse looks first at walls
+///   that the very best runs depend on, because no proof can do without them. It looks at near
+///   walls before far ones.
+/// - While no way to the goal is known, it does so only at walls that are practically on its way.
+///   Otherwise it makes for the goal by the way that takes fewest steps if all unknown walls are
+///   open. Where it could stop and look on the way, unknown sides that it would see are worth a
+///   detour.
+/// - As soon as a way is known, the mouse drives to the goal, where it has to be once anyway. Only
 ///   then it looks at the rest.
 ///
-/// It always ends: each stop it makes for shows a wall nobody has looked at, and on the way there
-/// that stop only gets more attractive.
+/// It always ends. Each stop shows a wall that was not looked at yet, and on the way there that
+/// stop only gets more attractive.
 ///
 /// [`Rollouts`](super::Rollouts) choose better among the stops that it weighs for the proof, and
 /// take longer.
 ///
-/// The explorer remembers nothing but whether it has been at the goal; it compares everything else
-/// with `walls` at each call, so walls may be forgotten again at any time.
+/// The explorer remembers only whether it has been at the goal. It compares everything else with
+/// `walls` at each call, so walls may be forgotten again at any time.
 ///
 /// `N` is at most 32. A larger `N` does not compile:
 ///
@@ -162,8 +163,8 @@ impl<const N: usize> MoveExplorer<N> {
             return Task::Decided(MoveDecision::Stuck);
         };
         if chart.unknown_sides(at).next().is_some() {
-            // Only at the start has the mouse not seen what lies behind it: from then on it has
-            // seen, before it drives along a row of cells, how far that row goes to both sides.
+            // Only at the start has the mouse not seen what lies behind it. Later it has always
+            // seen how far a row of cells goes on both sides before it drives along it.
             return Task::Decided(MoveDecision::Turn);
         }
         let target = match (chart.closed, self.goal) {
@@ -244,8 +245,8 @@ impl<const N: usize> MoveExplorer<N> {
     /// Returns what a look around from `cell` tells about runs of less than `limit` steps.
     fn told(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> f32 {
         let mut told = 0.0;
-        // A leap over one of the sides begins or ends at the cell or drives over it, so a run with
-        // it is shorter by one step at most than a run that stops at the cell.
+        // A leap over one of the sides begins or ends at the cell or drives over it. So a run with
+        // it is at most one step shorter than a run that stops at the cell.
         let stopping = chart.from_start.moves(cell).zip(chart.to_goal.moves(cell));
         if stopping.is_none_or(|(before, after)| before + after > limit) {
             return told;

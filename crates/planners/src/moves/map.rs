@@ -7,8 +7,9 @@ use super::cell_set::CellSet;
 use super::sides::Sides;
 use crate::Passages;
 
-/// The fewest steps from every cell of a maze of up to `N` × `N`, `N` ≤ 32, to the nearest of some
-/// cells, and to come from there: a leap can be driven back. A larger `N` does not compile:
+/// The fewest steps from every cell to the nearest of some cells, in a maze of up to `N` × `N`, `N`
+/// ≤ 32. A leap can be driven back, so it is also the way from there. A larger `N` does not
+/// compile:
 ///
 /// ```compile_fail
 /// # use tolman_planners::Passages;

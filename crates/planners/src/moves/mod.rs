@@ -1,18 +1,18 @@
 //! The action model of "Plot and Navigate a Virtual Maze" (Wang), and how to explore in it with a
 //! proof.
 //!
-//! In one step the mouse turns by a quarter, or not, and then drives up to three cells, ahead or
-//! back ([`MouseStep`], section 1.1 of the paper). What counts is the number of steps, not of
+//! In one step the mouse turns by a quarter or not at all. Then it drives up to three cells, ahead
+//! or back ([`MouseStep`], section 1.1 of the paper). What counts is the number of steps, not of
 //! cells. The paper plans in cells and converts the path afterwards, and says itself what that
 //! costs: 23 steps where 22 would do (section 3.4). Here the search itself is in steps: a
 //! [`MoveMap`] counts the fewest of them to some cells.
 //!
-//! That search needs no headings. Whatever way the mouse looks, one step takes it to any of the
-//! four sides: ahead or back without a turn, left or right with one. So a step is an [arc](Leap)
-//! from cell to cell: up to three cells in a row without a wall between them.
+//! That search needs no headings. Whatever its heading, one step takes the mouse to any of the four
+//! sides: ahead or back without a turn, left or right with one. So a step is an [arc](Leap) from
+//! cell to cell: up to three cells in a row without a wall between them.
 //!
-//! A [`MoveExplorer`] decides where to stop next, until the best run that can still be hoped for
-//! takes as many steps as the best one that is certain.
+//! A [`MoveExplorer`] decides where to stop next, until the best possible run takes as many steps
+//! as the best certain one.
 //!
 //! ```
 //! use tolman_maze::{Cell, Direction, Grid, Maze};

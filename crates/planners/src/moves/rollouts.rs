@@ -69,8 +69,8 @@ impl RolloutConfig {
 ///
 /// None of this touches the proof, nor the search for a way to the goal.
 ///
-/// It keeps to a stop until there is something new to see, which it tells by the number of unknown
-/// walls, or until the stop tells nothing any more; so walls may be forgotten again at any time.
+/// It keeps to a stop until the number of unknown walls changes, or until the stop tells nothing
+/// any more. So walls may be forgotten again at any time.
 ///
 /// `N` is at most 32. A decision takes some 10 kB of the stack for 16² cells, 35 kB for 32²; a
 /// [`MoveExplorer`]'s, 3 and 9 kB.

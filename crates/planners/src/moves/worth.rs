@@ -9,12 +9,12 @@ use super::{MoveExplorerConfigError, Rollouts};
 /// more than the expected gain.
 ///
 /// Mazes are drawn that agree with all that is known, and the rest of the proof is played in each.
-/// By how much the best run of the drawn maze is shorter than the one known is the gain; the steps
-/// of the proof are the price.
+/// The gain is how much shorter the best run of the drawn maze is than the known one. The price is
+/// the steps of the proof.
 ///
-/// The stops are chosen by the score then, not by the steps of the proof. Nobody knows in advance
-/// when a proof is broken off; a play counts half as if it were brought to its end, and half as if
-/// it were broken off at its best moment.
+/// The stops are chosen by the score then, not by the steps of the proof. It is unknown in advance
+/// when a proof is broken off. So a play counts half as if it were played to its end, and half as
+/// if it were broken off at its best moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

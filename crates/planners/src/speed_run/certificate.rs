@@ -1,5 +1,6 @@
-//! The independent checker. It shares no code with the search: its own geometry on a lattice of
-//! half cells, its own times, an explicit graph and the general Dijkstra of this crate.
+//! The independent checker. It shares no code with the search. It has its own geometry on a lattice
+//! of half cells, its own times, and an explicit graph, on which it runs the general Dijkstra of
+//! this crate.
 
 use alloc::vec::Vec;
 
@@ -155,7 +156,7 @@ pub fn best_possible_ms(
         .min()
 }
 
-/// A point of the lattice, whose unit is half a cell: middles of cells are odd in both coordinates,
+/// A point of the lattice, whose unit is half a cell. Middles of cells are odd in both coordinates,
 /// middles of edges in one, posts in none.
 type Point = (i32, i32);
 

@@ -10,8 +10,8 @@ use crate::{Passages, StepMap, TooLarge, Unknown};
 /// mouse drives to the nearest cell beside one of the unknown walls. On the way out the goals count
 /// as such cells too, so that it has been there in the end.
 ///
-/// The explorer holds nothing of the maze that it does not compare with `walls` at each call, so
-/// walls may be forgotten again at any time.
+/// The explorer compares all that it holds of the maze with `walls` at each call. So walls may be
+/// forgotten again at any time.
 #[derive(Clone, Debug)]
 pub struct SpeedRunExplorer<'a, const N: usize> {
     planner: SpeedRunPlanner<'a, N>,

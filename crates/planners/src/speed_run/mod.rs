@@ -1,11 +1,11 @@
 //! The speed run of a micromouse: the fastest way to the goal with straights, diagonals, slalom
-//! turns and acceleration, and the exploration that proves it to be the fastest.
+//! turns and acceleration. Also the exploration that proves it to be the fastest.
 //!
 //! A [`SpeedRunConfig`] says how the mouse drives, [`SpeedRunTimes`] how long each move takes then.
 //! On [`Passages`](crate::Passages) a [`SpeedRunMap`] finds how long the best run takes from
-//! everywhere, and the run itself. A [`SpeedRunPlanner`] keeps that up while walls turn up, a
-//! [`SpeedRunExplorer`] decides where to look for walls, and a [`SpeedRunCertificate`] convinces a
-//! checker that shares no code with them.
+//! everywhere, and the run itself. A [`SpeedRunPlanner`] keeps the run up to date while walls are
+//! found. A [`SpeedRunExplorer`] decides where to look for walls. A [`SpeedRunCertificate`]
+//! convinces a checker that shares no code with them.
 //!
 //! ```
 //! use tolman_maze::{Cell, Direction};

@@ -27,8 +27,8 @@ pub enum RunMove {
 
 /// The slalom turns. Each contains what it needs of straight before and behind it.
 ///
-/// Said of a mouse in the middle of a cell that looks north, or on the western edge of a cell that
-/// looks north-east, and turns right or to its only possible side, respectively:
+/// The descriptions are for a mouse in the middle of a cell that looks north and turns right, or
+/// for one on the western edge of a cell that looks north-east and turns to its only possible side:
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slalom {
     /// 45°: from the middle of a cell through the cell to the north onto the eastern edge of that

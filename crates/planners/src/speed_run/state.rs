@@ -14,8 +14,8 @@ pub enum RunState {
         /// Heading.
         heading: Direction,
     },
-    /// On the edge through which one comes into `cell` by going to `into`, looking at 45° between
-    /// `into` and `out`: the mouse crosses the cell and leaves it to `out`, a direction beside
+    /// On the edge through which the mouse enters `cell` in direction `into`, looking at 45°
+    /// between `into` and `out`. It crosses the cell and leaves it to `out`, a direction beside
     /// `into`.
     Diagonal {
         /// The cell the mouse is about to cross.
@@ -27,8 +27,8 @@ pub enum RunState {
     },
 }
 
-/// The states of a cell are numbered: 0 … 3 straight to north, east, south, west; from 4 on
-/// diagonal, by twice the way in, plus one when it leaves to the right.
+/// The states of a cell are numbered. 0 … 3 are straight to north, east, south and west. From 4 on
+/// they are diagonal: twice the way in, plus one if it leaves to the right.
 pub(super) const STATES_PER_CELL: usize = 12;
 
 /// A [`RunState`] by number, in a maze whose rows are `N` cells apart.

@@ -3,8 +3,9 @@ use core::array;
 use super::RunMove;
 use super::config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigError};
 
-/// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N`
-/// cells: 16 for classic ones, 32 for half-size ones. No cells, and more, do not compile:
+/// Durations of all moves of a speed run, in whole milliseconds, for mazes of up to `N` × `N`
+/// cells. `N` is 16 for classic mazes and 32 for half-size ones. No cells, and more, do not
+/// compile:
 ///
 /// ```compile_fail
 /// # use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
@@ -33,12 +34,12 @@ impl<const N: usize> SpeedRunTimes<N> {
     /// Returns the times that follow from `config`. O(N).
     ///
     /// A straight of length `d` begins and ends at the speed `s` of the turns. With acceleration
-    /// `a` it takes 2 (√(s² + a d) − s) / a while the top speed `v` is not reached, that is as
-    /// long as a d < v² − s², and (a d + (v − s)²) / (a v) after that.
+    /// `a` it takes 2 (√(s² + a d) − s) / a if the top speed `v` is not reached, that is if a d <
+    /// v² − s². Otherwise it takes (a d + (v − s)²) / (a v).
     ///
     /// # Errors
-    /// If a value is not a positive number, a top speed is below the speed in the turns, or the
-    /// times are too far apart for the search.
+    /// If a value is not a positive number or a top speed is below the speed in the turns. Also if
+    /// the times are too far apart for the search.
     pub fn new(config: &SpeedRunConfig) -> Result<Self, SpeedRunConfigError> {
         const {
             assert!(N >= 1 && N <= 32, "a row of cells is a word of 32 bits");
@@ -81,14 +82,14 @@ impl<const N: usize> SpeedRunTimes<N> {
     }
 
     /// Returns the duration of a straight of `cells` cells, from the middle of one to the middle of
-    /// another, or `None` if no such straight fits into the maze.
+    /// another; `None` if it does not fit into the maze.
     #[must_use]
     pub fn straight_ms(&self, cells: usize) -> Option<u16> {
         self.straights().get(cells).copied()
     }
 
     /// Returns the duration of a diagonal across `cells` cells, from the middle of one edge to that
-    /// of another, or `None` if no such diagonal fits into the maze.
+    /// of another; `None` if it does not fit into the maze.
     #[must_use]
     pub fn diagonal_ms(&self, cells: usize) -> Option<u16> {
         self.diagonals().get(cells).copied()

@@ -76,8 +76,9 @@ impl Kind {
 
     /// Returns the message for a `text` that could not be read as this kind.
     ///
-    /// If the text is of another known kind, the message says which, which verb takes it, and how
-    /// to make a file of the expected kind. Otherwise it is `error` with the file's `name`.
+    /// If the text is of another known kind, the message names that kind and the verb that takes
+    /// it. It also says how to make a file of the expected kind. Otherwise it is `error` with the
+    /// file's `name`.
     pub(super) fn explain(self, text: &str, name: &str, error: impl Into<Error>) -> Error {
         match Self::of(text) {
             Some(found) if found != self => {

@@ -252,8 +252,8 @@ fn with(before: &[Point], made: &[Founding]) -> Vec<Point> {
 /// Limit of the places' error in a right map, root mean square, m.
 const MOST_ERROR: f64 = 0.5;
 
-/// Distance within which a place covers the floor: in a maze as a share of the corridors' width, in
-/// a world with free walls in m.
+/// Distance within which a place covers the floor. In a maze it is a share of the corridors' width,
+/// in a world with free walls it is in m.
 const NEAR_IN_MAZE: f64 = 0.8;
 const NEAR: f64 = 1.5;
 

@@ -1,5 +1,6 @@
-//! Every kind of page that the command writes, in dark and light, at a desk and on a phone: no
-//! complaint of the console, no label over another, nothing cut off, everything legible.
+//! Checks every kind of page that the command writes, in dark and light, at desktop and phone size.
+//! There is no error on the console, no label over another and nothing cut off, and everything is
+//! legible.
 //!
 //! `TOLMAN_PAGES=FOLDER cargo test -p tolman --test browser -- --ignored pages_of_folders` looks at
 //! all pages below a folder, such as those of `experiment --all`, or below several, as in `PATH`.

@@ -222,8 +222,8 @@ impl Tab {
         }
     }
 
-    /// Asks that something is to be seen, in the light that is preferred, and nothing beyond the
-    /// edge of the window; leaves a picture of it in `folder`.
+    /// Checks that something is visible in the preferred colour scheme, and nothing beyond the edge
+    /// of the window. Saves a picture of it in `folder`.
     #[track_caller]
     pub(crate) fn assert_seen(&mut self, folder: &Path, scheme: Scheme, width: u32) {
         let picture = folder.join(format!("{scheme:?}-{width}.png").to_lowercase());

@@ -93,8 +93,8 @@ impl Run {
         (told.code, told.out, files)
     }
 
-    /// Ends it in one way after the other, goes on each time, and lets it come to its end; returns
-    /// how often it was truly ended.
+    /// Interrupts it in each way in turn, continues each time, and lets it finish. Returns how
+    /// often it was truly interrupted.
     #[track_caller]
     fn survives(&self, ends: &[End]) -> usize {
         let name = self.unfinished.file_name().unwrap().to_str().unwrap();

@@ -10,8 +10,8 @@ use super::{CORRIDOR, folder, tolman_in};
 /// What stands beside the picture of a run.
 const SHOWN: &[u8] = b"heading";
 
-/// Returns the exit code of the command, and what it drew on a terminal until a key made it stop;
-/// `None`, told, where there is no `script`.
+/// Returns the exit code of the command, and what it drew on a terminal until a key stopped it.
+/// `None`, with a note, where there is no `script`.
 #[expect(clippy::print_stderr, reason = "a test that is left out says so")]
 fn drawn(folder: &Path, arguments: &str) -> Option<(Option<i32>, String)> {
     let tolman = env!("CARGO_BIN_EXE_tolman");

@@ -38,9 +38,9 @@ impl PlaneMaze {
         }
     }
 
-    /// Returns, for each junction that the map has ways to, the port of this world that is its port
-    /// 0, given the robot's place on both. `None` if the map is wrong somewhere. O(fragments · log
-    /// fragments).
+    /// Returns, for each junction to which the map has ways, the port of this world that is its
+    /// port 0. The robot's place on both is given. `None` if the map is wrong somewhere.
+    /// O(fragments · log fragments).
     #[must_use]
     pub fn correspondence(
         &self,

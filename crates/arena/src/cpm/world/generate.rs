@@ -19,8 +19,8 @@ pub struct MazeConfig {
     pub rows: u32,
     /// Share of the openings beyond a tree of corridors that exist, 0 to 1.
     pub loops: f64,
-    /// Share of cells with a usable opening across their corner: 0 for ports in four directions
-    /// only, up to 1 for junctions of up to eight ports.
+    /// Share of cells with a usable opening across their corner, 0 to 1. With 0, ports have only
+    /// four directions; with 1, junctions have up to eight ports.
     pub diagonals: f64,
     /// Common patterns of the dictionary, at least 2; the paper has 31.
     pub patterns: u32,
@@ -152,9 +152,9 @@ impl MazeConfig {
 }
 
 impl PlaneMaze {
-    /// Returns a random maze on a grid of cells: a random tree of corridors, some loops, a start
-    /// and a goal, in dead ends if there are any. Cells with two ways out are not places but bends
-    /// of a corridor.
+    /// Returns a random maze on a grid of cells. It has a random tree of corridors, some loops, and
+    /// a start and a goal, in dead ends if there are any. Cells with two ways out are not places
+    /// but bends of a corridor.
     ///
     /// # Errors
     /// [`MazeConfigError`] if a field is outside its range or the corridors cannot all be

@@ -7,8 +7,8 @@ use super::{PlaneMaze, WorldPort};
 
 impl PlaneMaze {
     /// Returns the number of corridors of the shortest walk from the start through all that can be
-    /// reached, ending anywhere: the baseline of an exploration, with perfect knowledge. `None` if
-    /// more than 16 places have an odd number of ports, as that would take too long.
+    /// reached, ending anywhere. It is the baseline of an exploration, with perfect knowledge.
+    /// `None` if more than 16 places have an odd number of ports, as that would take too long.
     #[must_use]
     pub fn shortest_covering_walk(&self) -> Option<u32> {
         shortest_covering_walk(self, self.start.place)
@@ -16,8 +16,8 @@ impl PlaneMaze {
 }
 
 /// Returns the number of arcs of the shortest walk from `start` through all that can be reached,
-/// ending anywhere: the baseline of an exploration, with perfect knowledge. `None` if more than 16
-/// places have an odd number of ports, as that would take too long.
+/// ending anywhere. It is the baseline of an exploration, with perfect knowledge. `None` if more
+/// than 16 places have an odd number of ports, as that would take too long.
 ///
 /// The open Chinese postman's walk: odd places are joined in pairs by shortest ways, walked twice,
 /// except for one, where the walk ends. O(2ⁿ · n) in the number n of odd places.

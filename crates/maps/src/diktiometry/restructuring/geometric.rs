@@ -126,7 +126,7 @@ fn least_distance(map: &Diktiometry, pair: &Pair, config: &Config) -> f64 {
     }
 }
 
-/// Returns whether the estims of two places merge into one mode: "When two places have estim sets
+/// Returns whether the estims of two places merge into one mode. "When two places have estim sets
 /// that can be merged such that the resultant set has one estim with weight greater than a
 /// threshold and no other estim's weight is greater than a threshold fraction of the first, a merge
 /// is indicated."

@@ -9,7 +9,7 @@ use super::geometric::Pair;
 use super::{Diagnosis, Verdict};
 use crate::diktiometry::{Action, Config, Diktiometry, Link, LinkId, PlaceId, Use};
 
-/// Returns the opinion on merging by links: "If two places have nearly identical incoming and
+/// Returns the opinion on merging by links. "If two places have nearly identical incoming and
 /// outgoing action link sets (greater than a large fraction go to the same place via equivalent
 /// actions), then the places should be merged. The places also should have been visited often
 /// enough."
@@ -61,7 +61,7 @@ fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bo
             .is_none_or(|(a, b)| (a - b).contains(Point::origin()))
 }
 
-/// Returns the diagnosis by which links show that a place is two: "If the incoming links can be
+/// Returns the diagnosis by which links show that a place is two. "If the incoming links can be
 /// partitioned into two sets such that the sets' 'images' (the sets of outgoing links taken after
 /// coming in on each link in a set) are (nearly) disjoint, then a split is indicated."
 ///

@@ -5,8 +5,8 @@ use tolman_robot::TurnTranslate;
 use tolman_sim::robots::LaserPioneer;
 use tolman_sim::trace::{Detail, Recording};
 
-/// Returns the trace of a trial that these commands drove, as JSON lines: the world, the robot, and
-/// the command, true pose, bump and readings of every step.
+/// Returns the trace of a trial that these commands drove, as JSON lines. They hold the world, the
+/// robot, and the command, true pose, bump and readings of every step.
 ///
 /// The run is simulated once more for it; the same commands give the same run.
 ///
