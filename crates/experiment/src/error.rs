@@ -66,7 +66,7 @@ pub enum Error {
     Tables {
         /// The experiment.
         name: String,
-        /// What is wrong.
+        /// The fault, in words.
         what: String,
     },
     /// The folder of results holds something else.
@@ -78,7 +78,7 @@ pub enum Error {
     ForeignFolder {
         /// The folder.
         folder: PathBuf,
-        /// What was found there.
+        /// Value found there.
         what: String,
     },
     /// Another process is using the folder of results.
@@ -93,11 +93,11 @@ pub enum Error {
     /// A file or folder cannot be read or written.
     #[error("cannot {action} {}; {repair}", path.display())]
     File {
-        /// What was tried.
+        /// Action that failed, as a verb phrase.
         action: &'static str,
         /// Path of the file or folder.
         path: PathBuf,
-        /// What to do about it.
+        /// Advice on the repair.
         repair: &'static str,
         /// The system's error.
         source: io::Error,
@@ -153,7 +153,7 @@ pub enum Error {
         path: PathBuf,
         /// Number of the line, from 1.
         line: u64,
-        /// What is wrong with it.
+        /// The fault, in words.
         what: String,
     },
     /// A folder holds no chunks.
@@ -175,7 +175,7 @@ pub enum Error {
     OtherChunk {
         /// The folder.
         folder: PathBuf,
-        /// What differs.
+        /// The difference, in words.
         reason: String,
     },
     /// A folder cannot be verified with this command or program.
@@ -187,7 +187,7 @@ pub enum Error {
     NotVerifiable {
         /// The folder.
         folder: PathBuf,
-        /// What differs.
+        /// The difference, in words.
         reason: String,
     },
     /// Chunks are unfinished or missing.

@@ -13,7 +13,7 @@ pub enum ProgressEvent<'a> {
         folder: &'a Path,
         /// Folder that its contents were moved to.
         moved_to: &'a Path,
-        /// What differs.
+        /// The difference, in words.
         reason: &'a str,
     },
     /// A line of a file of runs cannot be used.
@@ -22,9 +22,9 @@ pub enum ProgressEvent<'a> {
         file: &'a Path,
         /// Number of the line, from 1.
         line: u64,
-        /// What is wrong with it.
+        /// The fault, in words.
         what: &'a str,
-        /// What happens to its run.
+        /// Consequence for its run.
         remedy: Remedy,
     },
     /// The experiment leaves something out.
@@ -52,7 +52,7 @@ pub enum ProgressEvent<'a> {
     Recording,
 }
 
-/// What happens to the run of a line that cannot be used.
+/// Consequence for the run of a line that cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy {
     /// The run is played again.

@@ -39,7 +39,7 @@ pub struct UtiasRobot {
 pub struct BarcodeSighting {
     /// Time, s.
     pub time: f64,
-    /// Who wears it.
+    /// Number of the robot or landmark that wears it.
     pub subject: u32,
     /// Its distance, m.
     pub range: f64,

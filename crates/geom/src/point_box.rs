@@ -114,7 +114,7 @@ impl PointBox {
         Self::new(self.x.hull(other.x), self.y.hull(other.y))
     }
 
-    /// Returns all distances from the origin: how long the displacement may be, m.
+    /// Returns the bounds of the distance from the origin, m: how long the displacement may be.
     #[must_use]
     pub fn norm(self) -> Interval {
         let square = self.x.squared() + self.y.squared();

@@ -53,7 +53,7 @@ pub struct SessionState {
     pub guesses: usize,
     /// What is happening, or what came of the task; one or two sentences.
     pub told: String,
-    /// How that sounds.
+    /// Tone of these words.
     pub tone: Tone,
 }
 

@@ -13,7 +13,7 @@ pub struct Sketch {
     pub(crate) maze: Maze,
 }
 
-/// What is drawn of a [`Sketch`]. Cells are counted from the south-west.
+/// The parts of a [`Sketch`] to draw. Cells are counted from the south-west.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SketchPlan {
     /// Columns.
@@ -26,7 +26,7 @@ pub struct SketchPlan {
     pub start: Option<[u16; 2]>,
     /// The goal's cells.
     pub goals: Vec<[u16; 2]>,
-    /// Why no robot can be sent into it; `None` if one can.
+    /// Reason why no robot can be sent into it; `None` if one can.
     pub fault: Option<String>,
 }
 

@@ -11,11 +11,11 @@ use crate::session::count;
 pub struct TaskVerdict {
     /// One or two sentences.
     pub told: String,
-    /// How they sound.
+    /// Tone of these words.
     pub tone: Tone,
 }
 
-/// How a sentence sounds, for its colour.
+/// Tone of a sentence, which chooses its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Tone {

@@ -41,7 +41,7 @@ pub struct AssociativeMemory<S: Scalar> {
     key_dimension: usize,
 }
 
-/// What came to mind.
+/// One recalled answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recall<S> {
     /// The unit that holds the association, and how far its part is from what was asked for.

@@ -1,4 +1,4 @@
-//! What can be wrong with what a caller passes.
+//! Faults of the arguments that a caller passes.
 
 use alloc::string::String;
 
@@ -83,7 +83,7 @@ pub enum QuantizerConfigError {
         field: &'static str,
         /// The value given.
         value: f64,
-        /// What it may be, in words.
+        /// Allowed range, in words.
         range: &'static str,
     },
     /// A weight is negative, NaN or infinite.
@@ -91,7 +91,7 @@ pub enum QuantizerConfigError {
     BadWeight {
         /// The number of the feature, from 0.
         feature: usize,
-        /// What the weight is.
+        /// Value of the weight.
         value: f64,
     },
     /// With no weight above zero all units are equally near.
@@ -102,13 +102,13 @@ pub enum QuantizerConfigError {
     BadUnit {
         /// Its number, from 0.
         unit: usize,
-        /// What is wrong with it.
+        /// The fault.
         source: InputError,
     },
     /// A network begins with two units or finds its own.
     #[error("a network begins with none or at least two units, not {found}")]
     TooFewUnits {
-        /// How many were given.
+        /// Number given.
         found: usize,
     },
 }
@@ -158,9 +158,9 @@ pub enum SnapshotError {
     /// It is something else.
     #[error("this is {found:?} where {expected:?} was expected")]
     WrongFormat {
-        /// What is read here.
+        /// Format that is read here.
         expected: &'static str,
-        /// What the text says it is.
+        /// Format that the text names.
         found: String,
     },
     /// It was saved in a version that is not known, most likely by a later program.
@@ -182,7 +182,7 @@ pub enum SnapshotError {
     BadPrototype {
         /// The unit.
         id: UnitId,
-        /// What is wrong.
+        /// The fault.
         source: InputError,
     },
     /// A remembered input is not valid.
@@ -190,7 +190,7 @@ pub enum SnapshotError {
     BadMemory {
         /// Its number, from 0.
         input: usize,
-        /// What is wrong.
+        /// The fault.
         source: InputError,
     },
     /// Ids have to ascend and to lie below the next id.
@@ -210,11 +210,11 @@ pub enum SnapshotError {
     /// A list has another length than what it belongs to.
     #[error("{found} {what} where {expected} were expected")]
     WrongCount {
-        /// What is listed.
+        /// Kind of thing that is listed.
         what: &'static str,
-        /// How many there have to be.
+        /// Number that there must be.
         expected: usize,
-        /// How many there are.
+        /// Number that there is.
         found: usize,
     },
 }

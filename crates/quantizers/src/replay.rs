@@ -55,26 +55,26 @@ pub struct ReplayQuantizer<S, Q> {
     memory: Vec<S>,
     /// An input on its way from the memory to the quantizer; kept so as not to allocate.
     drawn: Vec<S>,
-    /// How many inputs there were.
+    /// Number of inputs so far.
     seen: u64,
     chance: ChaCha8Rng,
 }
 
-/// What is remembered, and how often it is learnt.
+/// Which inputs are remembered, and how often they are learnt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ReplayConfig {
-    /// How many inputs are remembered; at least 1.
+    /// Number of remembered inputs, at least 1.
     pub capacity: u32,
-    /// How many remembered inputs are learnt for each new one; at least 1.
+    /// Number of remembered inputs learnt for each new one, at least 1.
     pub per_input: u32,
     /// Which inputs are remembered.
     pub memory: ReplayMemory,
-    /// Where chance begins.
+    /// Seed of the draws.
     pub seed: u64,
 }
 
-/// Which inputs are remembered once there are more than can be.
+/// Which inputs are kept once there are more than fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -172,7 +172,7 @@ impl<S: Scalar, Q: Quantizer<S>> ReplayQuantizer<S, Q> {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SavedReplay<S, Q> {
-    /// What this is.
+    /// Name of the format.
     pub format: String,
     /// The version of the format.
     pub version: u32,
@@ -182,9 +182,9 @@ pub struct SavedReplay<S, Q> {
     pub quantizer: Q,
     /// Remembered inputs, one by one.
     pub memory: Vec<S>,
-    /// How many inputs there were.
+    /// Number of inputs so far.
     pub seen: u64,
-    /// How many words of chance were used.
+    /// Number of random words used so far.
     pub words: u64,
 }
 

@@ -491,7 +491,7 @@ pub enum StepError {
     Command {
         /// Whose command.
         robot: RobotId,
-        /// What is wrong with it.
+        /// The fault.
         source: CommandError,
     },
 }

@@ -156,7 +156,7 @@ pub struct Setup<'a> {
 }
 
 impl Setup<'_> {
-    /// Returns the origin of a map that is learned now.
+    /// Returns the origin of a map that is learned on this course by this robot.
     #[must_use]
     pub fn origin(&self, course: &Course, robot: &str) -> Origin {
         Origin {

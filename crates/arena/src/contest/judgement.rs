@@ -137,7 +137,7 @@ pub(super) fn stands_for(
     (stands_for, (all > 0).then(|| share(pure, all)))
 }
 
-/// What a chain of links is.
+/// What a chain of links on the map matches in truth.
 enum Matched {
     /// The true way with this index.
     Way(usize),

@@ -254,7 +254,7 @@ pub enum CpmTrialError {
     /// The maze is not a course for an e-puck.
     #[error(transparent)]
     Course(#[from] CourseError),
-    /// Who watched a robot learn broke off.
+    /// The watcher of a robot broke its learning off.
     #[error("broken off after {walks} fragments")]
     BrokenOff {
         /// Number of walks.

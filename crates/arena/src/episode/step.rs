@@ -11,7 +11,7 @@ use crate::run::Limited;
 pub struct Step<'a> {
     /// The action it belongs to.
     pub action: Direction,
-    /// Who chose it.
+    /// The brain that chose it.
     pub brain: Chooser<'a>,
     /// Command of the motors.
     pub command: TurnTranslate,
@@ -21,7 +21,7 @@ pub struct Step<'a> {
     pub robot: &'a CoursePioneer,
 }
 
-/// Who chose an action.
+/// The brain that chose an action.
 #[derive(Clone, Copy, Debug)]
 pub enum Chooser<'a> {
     /// A brain that perceives.

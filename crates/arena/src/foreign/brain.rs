@@ -28,9 +28,9 @@ pub struct Hello {
     pub robot: String,
     /// Radius of its body, m.
     pub radius: f64,
-    /// How long a time step takes, µs.
+    /// Duration of a time step, µs.
     pub step_us: u64,
-    /// The most time steps that it may make.
+    /// Maximum number of time steps.
     pub step_limit: u32,
     /// The distance between the faces of a corridor's walls, m.
     pub corridor_width: f64,

@@ -125,7 +125,7 @@ pub enum DataTextError {
     Record {
         /// Number of the line, from 1.
         line: usize,
-        /// What is wrong with it.
+        /// The fault, in words.
         what: &'static str,
     },
 }

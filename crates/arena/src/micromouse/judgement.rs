@@ -15,7 +15,8 @@ pub struct Judgement {
     pub run_1: Option<u32>,
     /// Steps of the second run, or `None` if it did not end.
     pub run_2: Option<u32>,
-    /// A thirtieth of the first and the whole second run, or `None` if the mouse did not finish.
+    /// A thirtieth of the steps of the first run plus those of the second; `None` if the mouse did
+    /// not finish.
     pub score: Option<f64>,
     /// The fewest steps from the start to a goal.
     pub optimum: u32,

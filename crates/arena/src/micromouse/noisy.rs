@@ -111,7 +111,7 @@ const SIZE: CorridorSize = CorridorSize {
 /// Result of a noisy mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoisyTrial {
-    /// How it ended.
+    /// Outcome of the runs.
     pub end: NoisyEnd,
     /// Steps of the paper's rules.
     pub steps: u32,

@@ -28,9 +28,9 @@ pub struct Hosted {
     pub score: f32,
     /// The score as the README of mms has it; 2000 if unsolved.
     pub score_in_cells: f32,
-    /// How it ended.
+    /// Way in which the mouse ended.
     pub ended: MouseExit,
-    /// Moves and turns.
+    /// Number of moves and turns.
     pub movements: u64,
     /// Number of collisions with walls.
     pub crashes: u64,

@@ -28,7 +28,7 @@ pub struct UntilNearConfig {
         serde(deserialize_with = "crate::read::at_least_one")
     )]
     pub longest_leg: u32,
-    /// Time steps that a turn takes at most.
+    /// Maximum number of time steps of a turn.
     #[cfg_attr(
         feature = "serde",
         serde(deserialize_with = "crate::read::at_least_one")

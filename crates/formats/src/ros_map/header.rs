@@ -57,7 +57,7 @@ pub enum RosMapHeaderError {
     Turned {
         /// Number of the line.
         line: usize,
-        /// By how much, counter-clockwise, rad.
+        /// Rotation of the map, counter-clockwise, rad.
         yaw: f64,
     },
     /// A key is missing.

@@ -45,7 +45,7 @@ impl Interval {
     /// Nothing but 0.
     pub const ZERO: Self = Self::from_bounds(0.0, 0.0);
 
-    /// Nothing is known.
+    /// All numbers: nothing is known.
     pub const UNBOUNDED: Self = Self::from_bounds(f64::NEG_INFINITY, f64::INFINITY);
 
     /// Returns the interval from `low` to `high`.

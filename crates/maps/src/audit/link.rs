@@ -14,8 +14,8 @@ pub(super) struct Link {
     pub(super) edge: u32,
     pub(super) first: u32,
     pub(super) second: u32,
-    /// By how much it disagrees with odometry: the identity where it agrees. Seen from the piece of
-    /// the first pose.
+    /// Disagreement with odometry, seen from the piece of the first pose; the identity if it
+    /// agrees.
     pub(super) off: Motion,
     pub(super) off_inverse: Motion,
     /// The covariance of its measurement, seen from the first pose of the second pose's piece.

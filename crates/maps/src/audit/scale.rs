@@ -17,17 +17,17 @@ const TAIL: f64 = 11.345;
 /// Ratio of the tail to a Gaussian's from which the scale is not shrunk.
 const HEAVY: f64 = 2.0;
 
-/// The fewest cycles that tell a scale.
+/// Minimum number of cycles for a scale.
 const FEWEST: usize = 20;
 
-/// By how much the stated standard deviations differ from those of the graph's short cycles.
+/// Factor between the stated standard deviations and those of the graph's short cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SigmaScale {
     /// Scale at which the median of χ² is that of a Gaussian.
     pub estimate: f64,
     /// The 99th percentile of χ² over its median; a Gaussian's is 4.8.
     pub tail: f64,
-    /// The number of cycles it is of.
+    /// Number of cycles that it is computed from.
     pub cycles: usize,
 }
 

@@ -23,7 +23,7 @@ pub struct ObservedMove {
     pub percept: Option<Signature>,
     /// Actions that could be tried there.
     pub exits: Exits,
-    /// How it ended.
+    /// Outcome of the move.
     pub outcome: MoveOutcome,
 }
 

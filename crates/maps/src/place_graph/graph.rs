@@ -20,7 +20,7 @@ use crate::tangent::difference;
 pub struct SeenThere {
     /// Odometry of its wheels since its last look, step by step.
     pub rolled: Vec<Odometry>,
-    /// What it perceives.
+    /// Snapshot taken there.
     pub snapshot: Snapshot,
     /// Whether it was lifted and put down anywhere since it looked before, so that its wheels say
     /// nothing.

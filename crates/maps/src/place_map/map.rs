@@ -126,7 +126,7 @@ impl PlaceMap {
         self.gng.network()
     }
 
-    /// Returns how many bytes nodes with their features and links take. O(links).
+    /// Returns the memory of nodes, features and links, bytes. O(links).
     #[must_use]
     pub fn bytes(&self) -> usize {
         let network = self.network();

@@ -35,8 +35,7 @@ pub struct ChartParts {
     pub links: Vec<[u32; 2]>,
     /// Positions where the landmark of the goal was sensed, m.
     pub goal: Vec<Point>,
-    /// By how much its walls contradicted one another, 0 … 1: [`ScanMap::surprise`]. Files from
-    /// before it was kept have none.
+    /// Contradiction between its walls, 0 … 1: [`ScanMap::surprise`]. Older files lack it.
     #[cfg_attr(feature = "serde", serde(default))]
     pub surprise: f64,
     /// Side of a cell of the ground, m: [`WallGrid::CELL`].

@@ -41,7 +41,7 @@ pub struct StandpointViews {
 
 /// Cells of the grid from one standpoint to the next.
 const EVERY: i32 = 2;
-/// By how much the goal reaches beyond where its landmark was sensed, m.
+/// Distance by which the goal reaches beyond the points where its landmark was sensed, m.
 const GOAL_MARGIN: f64 = 0.05;
 /// Nearer than that to where the goal was sensed it is sensed, too, m.
 const SENSES_GOAL: f64 = 0.12;

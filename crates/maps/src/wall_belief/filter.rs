@@ -13,7 +13,7 @@ use super::{RangeModel, RangeReading, WallBelief};
 /// How a [`PoseFilter`] models wheels and sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseFilterConfig {
-    /// How many particles. > 0.
+    /// Number of particles, at least 1.
     pub particles: u32,
     /// Standard deviation of a distance or a turn, as a share of it. ≥ 0.
     pub slip: f64,

@@ -9,7 +9,7 @@ pub struct CellRay {
     pub direction: Direction,
     /// Number of absent walls in a row, counted from the cell it looks from.
     pub open: u16,
-    /// What comes after them.
+    /// End of the ray after these cells.
     pub end: RayEnd,
 }
 

@@ -15,7 +15,7 @@ pub struct MazeError {
     pub line: usize,
     /// The character in the line, counted from 1.
     pub column: usize,
-    /// What is wrong there.
+    /// The fault found there.
     pub fault: MazeFault,
 }
 
@@ -48,7 +48,7 @@ pub enum MazeFault {
     Character {
         /// The character, a line feed at the end of a line.
         found: char,
-        /// What may stand there.
+        /// What is allowed there, in words.
         expected: &'static str,
     },
     /// A tab, whose width is unknown.
@@ -98,7 +98,7 @@ pub enum MazeFault {
     Number {
         /// The text that stands there.
         found: String,
-        /// What may stand there.
+        /// What is allowed there, in words.
         expected: &'static str,
     },
     /// Too few or too many lines or items.
@@ -108,9 +108,9 @@ pub enum MazeFault {
         found: usize,
         /// Number expected.
         expected: usize,
-        /// What was counted.
+        /// Kind of thing that was counted.
         what: &'static str,
-        /// What to do about it.
+        /// Advice on the repair.
         repair: &'static str,
     },
     /// A maze beyond [`Grid::MAX_SIDE`].

@@ -36,7 +36,7 @@ pub enum GraphFileError {
     G2o {
         /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         source: G2oError,
     },
     /// One of its edges is refused.
@@ -46,7 +46,7 @@ pub enum GraphFileError {
         path: PathBuf,
         /// Number of the line.
         line: usize,
-        /// What is wrong with it.
+        /// The fault.
         source: PoseGraphError,
     },
 }

@@ -21,8 +21,8 @@ pub struct RolloutConfig {
     /// Number of mazes after which a stop is given up that is on average no better than the
     /// explorer's own. ≥ 1.
     pub trial: u16,
-    /// By how many standard errors a stop must save steps to be preferred to the explorer's own. ≥
-    /// 0.
+    /// Number of standard errors by which a stop must save steps to be preferred to the explorer's
+    /// own, at least 0.
     pub confidence: f32,
     /// Seed of all random numbers: the same seed gives the same decisions.
     pub seed: u64,

@@ -179,7 +179,7 @@ struct Template {
     slalom: Slalom,
     passed: &'static [Point],
     end: Point,
-    /// By how many eighths it turns.
+    /// Turn in eighths of a circle.
     turned: i32,
 }
 

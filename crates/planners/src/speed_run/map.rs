@@ -27,7 +27,7 @@ const NEVER: u16 = u16::MAX;
 /// *Shortest-route methods: 1. Reaching, pruning, and buckets*, 1979).
 #[derive(Clone, Debug)]
 pub struct SpeedRunMap<const N: usize> {
-    /// Times of the states turned round.
+    /// Times to the reversed states, ms: the search drives backwards from the goals.
     times: [[[u16; STATES_PER_CELL]; N]; N],
     /// One bit a state: its time is that of a straight, which no other straight has to continue.
     by_straight: [[u16; N]; N],

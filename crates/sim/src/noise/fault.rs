@@ -75,7 +75,7 @@ pub enum Fault {
     },
     /// Readings that come late; no reading comes before the first has arrived.
     Delay {
-        /// By how many time steps.
+        /// Delay, time steps.
         steps: u32,
     },
 }
@@ -292,6 +292,6 @@ pub struct FaultsError {
     pub field: &'static str,
     /// Number of the fault, from 0.
     pub index: usize,
-    /// What is wrong with it.
+    /// The fault of its configuration.
     pub source: FaultError,
 }

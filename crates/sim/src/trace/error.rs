@@ -60,7 +60,7 @@ pub enum ReplayError {
         line: usize,
         /// Position in the line, from 1; 0 if it has none.
         column: usize,
-        /// What is wrong with it.
+        /// The fault, in words.
         what: String,
     },
     /// The world cannot be built again.

@@ -27,19 +27,19 @@ pub enum WorldError {
         wall.start.x, wall.start.y, wall.end.x, wall.end.y
     )]
     Wall {
-        /// Which wall, from 0.
+        /// Number of the wall, from 0.
         index: usize,
         /// The wall.
         wall: WallSegment,
-        /// What is wrong with it.
+        /// The fault, in words.
         what: &'static str,
     },
     /// A door cannot be one.
     #[error("door `{name}` {what}; correct or remove it")]
     Door {
-        /// Which door.
+        /// Name of the door.
         name: String,
-        /// What is wrong with it.
+        /// The fault, in words.
         what: &'static str,
     },
     /// Two doors have one name.
@@ -51,7 +51,7 @@ pub enum WorldError {
     /// A door's schedule goes back in time.
     #[error("the schedule of door `{name}` does not move on at {time_us} µs; sort it by time")]
     DoorSchedule {
-        /// Which door.
+        /// Name of the door.
         name: String,
         /// The first event that is not later than the one before it.
         time_us: u64,
@@ -59,9 +59,9 @@ pub enum WorldError {
     /// A zone has an area without extent.
     #[error("area {index} of zone `{name}` has no extent; give it a positive size in metres")]
     Zone {
-        /// Which zone.
+        /// Name of the zone.
         name: String,
-        /// Which of its areas, from 0.
+        /// Number of its area, from 0.
         index: usize,
     },
     /// Two zones have one name.
@@ -82,7 +82,7 @@ pub enum WorldError {
         height: usize,
         /// Size of a cell, m.
         resolution: f64,
-        /// How many values it holds.
+        /// Number of values it holds.
         bits: usize,
     },
     /// No cell of an occupancy grid is free.

@@ -30,7 +30,7 @@ pub struct Polyline {
     /// Whether a last wall leads back to the first point.
     #[serde(default)]
     pub closed: bool,
-    /// What all of them are made of.
+    /// Material of all these walls.
     #[serde(default)]
     pub material: Material,
 }
@@ -165,13 +165,13 @@ pub enum WorldFileError {
     /// It is of another format.
     #[error("the format is `{found}`; expected `{FORMAT}`")]
     Format {
-        /// What it says.
+        /// Format that it names.
         found: String,
     },
     /// It is of a version this program does not know.
     #[error("the version is {found}; this program reads version {VERSION}")]
     Version {
-        /// What it says.
+        /// Version that it names.
         found: u32,
     },
     /// The parts of its grid do not fit each other.

@@ -6,11 +6,12 @@ pub struct Material {
     pub reflectance: f64,
     /// Red, green and blue.
     pub colour: [u8; 3],
-    /// How high above the floor it begins, m: the sill of a window. Files leave out the 0 of most
-    /// walls.
+    /// Height above the floor at which it begins, m: the sill of a window. Files leave out the 0 of
+    /// most walls.
     #[serde(skip_serializing_if = "is_nothing")]
     pub base: f64,
-    /// How high above the floor it ends, m. Files leave out [`ROOM_HEIGHT`](Self::ROOM_HEIGHT).
+    /// Height above the floor at which it ends, m. Files leave out
+    /// [`ROOM_HEIGHT`](Self::ROOM_HEIGHT).
     #[serde(skip_serializing_if = "is_as_high_as_a_room")]
     pub height: f64,
     /// Share of its colour that is light of its own, 0 … 1: a window. Files leave out the 0 of most
@@ -20,7 +21,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// How high a wall is where nothing else is said, m.
+    /// Default height of a wall, m.
     pub const ROOM_HEIGHT: f64 = 2.5;
 
     /// Returns walls of this colour, as high as a room.

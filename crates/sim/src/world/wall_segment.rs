@@ -11,7 +11,7 @@ pub struct WallSegment {
     pub start: Point,
     /// The other end, m.
     pub end: Point,
-    /// What it is made of.
+    /// Material of the wall.
     #[serde(default)]
     pub material: Material,
 }

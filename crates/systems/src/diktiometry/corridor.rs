@@ -36,7 +36,7 @@ impl RoutineConfig {
         [left, right, self.is_narrow(view)]
     }
 
-    /// Returns a length that no opening and no doorway falls short of.
+    /// Returns a lower bound of the length of any opening or doorway, m.
     pub(super) const fn shortest(&self) -> f64 {
         0.25 * self.corridor_width
     }

@@ -25,7 +25,7 @@ pub struct Order {
     pub movement: Movement,
 }
 
-/// By how much to turn.
+/// Turn before the move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Rotation {

@@ -102,7 +102,7 @@ pub(super) struct Unfinished {
     format: Format,
     version: u32,
     call: Call,
-    /// How far the run came.
+    /// Progress of the run.
     done: Done,
     /// Checksum of its results until then.
     checksum: String,
@@ -120,7 +120,7 @@ pub(super) struct FormerMap {
     pub(super) text: String,
 }
 
-/// How far a run came.
+/// Progress of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Done {

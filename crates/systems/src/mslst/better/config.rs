@@ -130,11 +130,11 @@ impl BetterConfig {
 pub struct Motors {
     /// Turn in a time step of the command 1, rad.
     pub turn_per_command: f64,
-    /// By how much it misses, as a share (standard deviation).
+    /// Error of that turn, as a share (standard deviation).
     pub turn_sd: f64,
     /// Way in a time step of the command 1, m.
     pub way_per_command: f64,
-    /// By how much it misses, as a share (standard deviation).
+    /// Error of that way, as a share (standard deviation).
     pub way_sd: f64,
 }
 

@@ -31,11 +31,11 @@ pub struct BetterNavigator {
     next: Option<Direction>,
 }
 
-/// A standpoint less probable than that has no say.
+/// Least probability at which a standpoint counts.
 const NO_SAY: f64 = 1e-4;
-/// It says where it is when it is as sure as that.
+/// Probability of its place at which it says where it is.
 const SURE_TO_SAY: f64 = 0.99;
-/// Who knows less surely where it is cannot tell what is new there.
+/// Least probability of its place at which the robot judges what is new there.
 const SURE: f64 = 0.9;
 
 impl BetterNavigator {

@@ -17,7 +17,7 @@ use crate::stream;
 const AXES: [Direction; 2] = [Direction::East, Direction::North];
 /// Number of trials of each action from each standpoint and axis.
 const TRIES: u32 = 4;
-/// By how much a robot looks past its axis, rad.
+/// Angle by which a robot looks past its axis, rad.
 const ASKEW: f64 = 5.0 * core::f64::consts::PI / 180.0;
 /// An action that has not ended by then counts as one that leads nowhere, time steps.
 const LONGEST_ACTION: u32 = 40;
