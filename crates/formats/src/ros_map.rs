@@ -18,9 +18,9 @@ pub use header::{RosMapHeader, RosMapHeaderError};
 /// An occupancy grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RosMap {
-    /// Columns.
+    /// Number of columns.
     pub width: usize,
-    /// Rows.
+    /// Number of rows.
     pub height: usize,
     /// Size of a cell, m.
     pub resolution: f64,

@@ -28,7 +28,7 @@ pub struct StepMap<const N: usize> {
     steps: [[u16; N]; N],
 }
 
-/// No way leads there.
+/// Distance of a cell to which no way leads.
 const NEVER: u16 = u16::MAX;
 
 impl<const N: usize> StepMap<N> {

@@ -53,7 +53,7 @@ pub enum InputError {
     #[error("the network has no units yet: let it observe an input first")]
     NoUnits,
     /// A measure over a set of inputs was asked of an empty set.
-    #[error("there are no inputs to measure the error of")]
+    #[error("there are no inputs to measure the error of; give at least one")]
     NoInputs,
 }
 

@@ -75,7 +75,10 @@ pub enum EncodeError {
         id: u32,
     },
     /// The grid of a field is empty.
-    #[error("the field `{field}` has {columns} columns of cells {pitch} m wide")]
+    #[error(
+        "the field `{field}` has {columns} columns of cells {pitch} m wide; give at least one \
+         column and a width above 0"
+    )]
     Grid {
         /// The field's name.
         field: String,

@@ -268,7 +268,8 @@ pub enum SerialError {
     },
     /// There are not as many numbers as there should be.
     #[error(
-        "the e-puck answers {answer:?}, which has not {expected} numbers: a part of the line was lost"
+        "the e-puck answers {answer:?}, which does not have {expected} numbers: a part of the \
+         line was lost; open its port again"
     )]
     Numbers {
         /// Number of numbers expected.

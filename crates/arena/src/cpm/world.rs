@@ -163,7 +163,7 @@ pub enum PlaneMazeError {
         place: u32,
     },
     /// A point of a corridor or place is NaN or infinite.
-    #[error("corridor {corridor} has a point that is not finite")]
+    #[error("corridor {corridor} has a point that is not finite; give finite numbers")]
     NotFinite {
         /// The corridor's number.
         corridor: u32,

@@ -70,8 +70,8 @@ pub enum DrivenMapError {
     /// No map was learned.
     #[error(transparent)]
     Map(#[from] PlaceMapError),
-    /// The robot does not get on.
-    #[error("the robot does not get on")]
+    /// The robot makes no progress.
+    #[error("the robot makes no progress")]
     Pilot(#[from] PlacePilotError<StepError>),
 }
 

@@ -23,7 +23,7 @@ pub enum CertificateError {
     /// It lacks a number for some cell, or names a wall that the maze does not have.
     #[error("the certificate has {found} numbers where the maze has {cells} cells")]
     Size {
-        /// Numbers.
+        /// Number of numbers in the certificate.
         found: usize,
         /// Cells.
         cells: usize,

@@ -249,7 +249,7 @@ impl<'a> Simulator<'a> {
         self.invalid
     }
 
-    /// Returns where the mouse is.
+    /// Returns the position of the mouse, in half-steps.
     #[must_use]
     pub const fn place(&self) -> LatticePoint {
         self.place

@@ -1,4 +1,4 @@
-//! Whether the stated covariances are those of the graph.
+//! Compares the stated covariances with the errors of the graph.
 
 use alloc::vec::Vec;
 

@@ -72,7 +72,7 @@ pub struct Recollection {
 #[non_exhaustive]
 pub enum RecallError {
     /// Nothing was learned yet.
-    #[error("no path was learned yet")]
+    #[error("no path was learned yet; learn one first")]
     NothingLearned,
     /// A sequence without patterns, or a path of fewer than two fragments, has nothing to
     /// associate.

@@ -23,7 +23,7 @@ pub enum PoseGraphError {
         pose: u32,
     },
     /// A number of the measurement or of the information is not finite.
-    #[error("the edge from {from} to {to} has a number that is not finite")]
+    #[error("the edge from {from} to {to} has a number that is not finite; give finite numbers")]
     NotFinite {
         /// The pose it leaves.
         from: u32,

@@ -125,7 +125,7 @@ pub enum ChartError {
     },
 }
 
-/// Nothing lies farther from the origin, m.
+/// Maximum distance of anything from the origin, m.
 const FARTHEST: f64 = 5e4;
 
 /// Surprise above which a map is doubtful: the share of beams of two scans in a row that

@@ -237,7 +237,7 @@ impl ScanMatching {
     }
 }
 
-/// Points of a scan with which poses are searched.
+/// Number of points of a scan with which poses are searched.
 const SEARCHED_POINTS: usize = 180;
 
 /// Returns what the wheels alone say of a pose: ahead, left, heading.

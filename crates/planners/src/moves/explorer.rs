@@ -230,7 +230,7 @@ impl<const N: usize> MoveExplorer<N> {
         stops
     }
 
-    /// Returns how a stop `moves` steps away counts.
+    /// Returns the weighted distance of a stop that is `moves` steps away.
     fn distance(&self, moves: u16) -> f32 {
         let near = self.distances.get(usize::from(moves)).copied();
         near.unwrap_or_else(|| libm::powf(f32::from(moves), self.config.nearness))

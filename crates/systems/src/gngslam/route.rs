@@ -28,7 +28,7 @@ pub(super) struct Route {
 pub(super) struct Obstacles(BTreeMap<(u32, u32), u32>);
 
 impl Obstacles {
-    /// A link is this much longer each time that something was in the way.
+    /// Increase of the factor of a link's length each time that something was in the way.
     const DETOUR: f64 = 4.0;
 
     /// Notes that something was in the way.
