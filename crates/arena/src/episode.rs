@@ -30,7 +30,7 @@ pub struct Trial<'a> {
     pub robot: LaserPioneerConfig,
     /// Pose at the beginning.
     pub start: Pose,
-    /// Time steps after which it has failed.
+    /// Number of time steps after which it has failed.
     pub step_limit: u32,
     /// The seed of the run: world, layers and mind draw from streams of their own.
     pub seed: u64,
@@ -39,7 +39,7 @@ pub struct Trial<'a> {
 /// A robot that is lifted in the middle of a run and put down elsewhere. Its brain is not told.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lifted {
-    /// Time steps after which it is lifted, at the end of the action under way.
+    /// Number of time steps after which it is lifted, at the end of the action under way.
     pub after: u32,
     /// Pose where it is put down.
     pub to: Pose,
@@ -58,7 +58,7 @@ pub struct Episode {
     pub failed_at_once: u32,
     /// Time steps made; the limit where time ran out.
     pub steps: u32,
-    /// Steps in which the body touched a wall.
+    /// Number of steps in which the body touched a wall.
     pub bumps: u32,
     /// The true pose at the start and after every step.
     pub path: Vec<Pose>,

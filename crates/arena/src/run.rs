@@ -136,7 +136,7 @@ impl<R: Robot> InRun for Limited<R> {
 pub struct Ended {
     /// Result of the task.
     pub end: TaskEnd,
-    /// Actions that were begun.
+    /// Number of actions that were begun.
     pub actions: u32,
     /// Number of time steps made in all runs of this robot so far.
     pub steps: u32,

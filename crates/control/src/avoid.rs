@@ -30,7 +30,8 @@ pub struct Avoid {
     /// Center's.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub turn: f64,
-    /// Beams from the middle one that are "directly in front" on either side. Paper: 1 of 72.
+    /// Number of beams from the middle one that are "directly in front" on either side. Paper: 1
+    /// of 72.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::beams"))]
     pub ahead: usize,
     /// Beams beyond those, on either side, that are watched. Paper: 4 of 72.

@@ -65,8 +65,8 @@ pub struct Driven<'a, R> {
 }
 
 impl<G: Rng> Drive<G> {
-    /// Time steps after which an action that no layer has ended [times out](Outcome::TimedOut),
-    /// such as that of a robot without a compass. Not in the paper.
+    /// Number of time steps after which an action that no layer has ended [times
+    /// out](Outcome::TimedOut), such as that of a robot without a compass. Not in the paper.
     pub const LONGEST_ACTION: u32 = 100;
 
     /// Returns a drive by the layers of `stack`, which draw from `rng`. An action takes at most

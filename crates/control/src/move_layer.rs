@@ -44,7 +44,7 @@ pub struct Move {
     /// Translation command. Paper: 0.25.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub translate: f64,
-    /// Steps of translation that make an action. Paper: 2.
+    /// Number of steps of translation that make an action. Paper: 2.
     pub translate_steps: u32,
     #[cfg_attr(feature = "serde", serde(skip, default = "north"))]
     target: Heading,

@@ -2,7 +2,7 @@
 
 use serde::de::{Deserialize, Deserializer, Error, Unexpected};
 
-/// The most beams that a layer may watch, as many as a ring may have.
+/// Maximum number of beams that a layer may watch, as many as a ring may have.
 const MOST_BEAMS: u64 = 1_000_000;
 
 fn number<'de, D: Deserializer<'de>>(

@@ -296,7 +296,7 @@ mod tests {
         struct Throw {
             /// Whether it hit.
             hit: bool => higher("hits"),
-            /// Steps to the line.
+            /// Number of steps to the line.
             steps: u32 => lower("steps"),
         }
     }

@@ -22,7 +22,7 @@ use tolman_geom::nalgebra::Matrix3;
 pub use fault::{G2oFault, G2oFaultKind};
 use line::Entry;
 
-/// The most text that a compressed file may hold, bytes.
+/// Maximum length of the text in a compressed file, bytes.
 const MOST_TEXT: u64 = 1 << 30;
 
 /// A pose graph in the plane, and what of its file could not be used.

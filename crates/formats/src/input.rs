@@ -24,7 +24,7 @@ pub enum SourceError {
     /// It goes on for too long.
     #[error("it has more than {most} bytes; give a file that ends before")]
     TooLong {
-        /// The most bytes that are read.
+        /// Maximum number of bytes that are read.
         most: u64,
     },
     /// It has a byte order mark.

@@ -27,7 +27,7 @@ use mounts::Mounts;
 /// Longest record of a bag of scans that is accepted, bytes.
 const LONGEST: usize = 1 << 26;
 
-/// Bytes of a message before its data: the channel, a number and two times.
+/// Number of bytes of a message before its data: the channel, a number and two times.
 const MESSAGE_HEADER: usize = 22;
 
 const SCAN: &str = "sensor_msgs/msg/LaserScan";

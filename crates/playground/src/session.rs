@@ -47,7 +47,7 @@ pub struct SessionState {
     pub steps: usize,
     /// Duration of a time step, s.
     pub step_s: f64,
-    /// Places of the map when it was recorded last.
+    /// Number of places of the map when it was recorded last.
     pub places: usize,
     /// Number of places or poses that the system takes for possible.
     pub guesses: usize,

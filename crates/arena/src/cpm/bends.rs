@@ -30,7 +30,7 @@ use super::fragments::{Quarters, TrueFragments, along, bends, headings};
 pub struct BendLikeness {
     /// Pairs of fragments that bend alike, walked from one end or the other.
     pub alike_pairs: u32,
-    /// Fragments that bend the same from both ends.
+    /// Number of fragments that bend the same from both ends.
     pub symmetrical: u32,
 }
 

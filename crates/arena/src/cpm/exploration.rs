@@ -21,7 +21,7 @@ pub struct Exploration {
     pub is_map_right: bool,
     /// Fragments walked, each as often as it was, until the robot knew that it had walked all.
     pub traversals: u32,
-    /// Fragments of the maze that can be reached.
+    /// Number of fragments of the maze that can be reached.
     pub fragments: u32,
     /// Number of fragments of the shortest walk from the start through all of them, with full
     /// knowledge of the maze. `None` if it takes too long to find.
@@ -30,7 +30,7 @@ pub struct Exploration {
     pub seconds: Option<f64>,
     /// Theorem 1's bound of that time, with the times that the robot took, s.
     pub bound: f64,
-    /// Time steps in which its body touched a wall.
+    /// Number of time steps in which its body touched a wall.
     pub bumps: u32,
     /// Reason why it broke off.
     pub trouble: Option<String>,

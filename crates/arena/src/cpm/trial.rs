@@ -59,15 +59,15 @@ pub struct TrialRecord {
     pub closures: Closures,
     /// Fragments walked in the first episode, each as often as it was.
     pub traversals: u32,
-    /// Fragments of the map at the end of it.
+    /// Number of fragments of the map at the end of it.
     pub fragments: u32,
     /// Common patterns that it knows at the end.
     pub patterns: u32,
-    /// Fragments that were truly walked.
+    /// Number of fragments that were truly walked.
     pub true_fragments: u32,
     /// Number of times that the map differed from what the robot found.
     pub contradictions: u32,
-    /// Time steps in which the body touched a wall.
+    /// Number of time steps in which the body touched a wall.
     pub bumps: u32,
     /// Path of the robot, step by step.
     pub path: Vec<Pose>,

@@ -72,7 +72,7 @@ impl EpuckSurveyConfig {
     }
 }
 
-/// Columns of what a place looks like.
+/// Number of columns of a place's look.
 const COLUMNS: usize = 20;
 
 /// Raw value above which a sensor sees a wall, in any corridor: only a wall and no wall are told
@@ -84,7 +84,7 @@ const WALL: f64 = 60.0;
 pub struct EpuckSurvey {
     /// Quality of the map.
     pub score: MapScore,
-    /// Moves that were made.
+    /// Number of moves that were made.
     pub moves: u32,
     /// Moves whose true displacement lies within odometry's bounds.
     pub bounded: u32,

@@ -63,7 +63,7 @@ pub struct ErrorSummary {
     pub coverage: f64,
 }
 
-/// Moves in a window.
+/// Number of moves in a window.
 pub const WINDOW: usize = 25;
 /// Moves are at their asymptote in this last share of a run.
 pub const TAIL: f64 = 0.25;

@@ -20,7 +20,7 @@ pub struct Visit {
 /// Quality of a map. Every share is from 0 to 1, and 1 if there is nothing to share in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapScore {
-    /// Places on the map.
+    /// Number of places on the map.
     pub places: usize,
     /// True places that were visited.
     pub visited: usize,

@@ -40,11 +40,11 @@ pub enum Log {
 pub struct Budget {
     /// Time from its start.
     pub time: Duration,
-    /// Bytes that it may write.
+    /// Number of bytes that it may write.
     pub bytes: u64,
-    /// Lines that it may write.
+    /// Number of lines that it may write.
     pub lines: u64,
-    /// Bytes of its longest line, with the end of the line.
+    /// Number of bytes of its longest line, with the end of the line.
     pub line_bytes: u64,
 }
 
@@ -129,7 +129,7 @@ pub struct ForeignProgram {
     heard_lines: u64,
 }
 
-/// Lines that may wait to be read, in either direction.
+/// Number of lines that may wait to be read, in either direction.
 const LINES_AHEAD: usize = 256;
 
 /// Time after which the flag and the clock are looked at again.

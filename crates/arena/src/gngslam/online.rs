@@ -38,7 +38,7 @@ pub struct OnlineRun {
     pub map: PlaceGraph,
     /// True pose of the map's origin.
     pub world_from_map: Pose,
-    /// Time steps in which the robot touched something.
+    /// Number of time steps in which the robot touched something.
     pub bumps: u32,
 }
 

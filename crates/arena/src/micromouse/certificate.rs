@@ -46,7 +46,7 @@ pub enum CertificateError {
         "the costs disagree: the run takes {run} steps, the certificate claims {closed}, and its lower bound is {open}"
     )]
     Costs {
-        /// Steps of the run.
+        /// Number of steps of the run.
         run: usize,
         /// Length claimed for the run.
         closed: u32,
@@ -67,7 +67,8 @@ pub enum CertificateError {
     },
 }
 
-/// The most cells of a step, written down again: the checker takes nothing from the planners.
+/// Maximum number of cells of a step, written down again: the checker takes nothing from the
+/// planners.
 const MOST_CELLS: u32 = 3;
 
 /// Checks that the certificate holds in this maze. Its statements about walls must be true, its run

@@ -11,9 +11,9 @@ use super::{MouseTrial, MouseTrialError, RefereedStep, brief, check};
 /// Quality of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Judgement {
-    /// Steps of the first run, the reset included, or `None` if it did not end.
+    /// Number of steps of the first run, the reset included, or `None` if it did not end.
     pub run_1: Option<u32>,
-    /// Steps of the second run, or `None` if it did not end.
+    /// Number of steps of the second run, or `None` if it did not end.
     pub run_2: Option<u32>,
     /// A thirtieth of the steps of the first run plus those of the second; `None` if the mouse did
     /// not finish.

@@ -113,9 +113,9 @@ const SIZE: CorridorSize = CorridorSize {
 pub struct NoisyTrial {
     /// Outcome of the runs.
     pub end: NoisyEnd,
-    /// Steps of the paper's rules.
+    /// Number of steps of the paper's rules.
     pub steps: u32,
-    /// Time steps in which it touched a wall.
+    /// Number of time steps in which it touched a wall.
     pub bumps: u32,
     /// Mean distance between true and believed position at the mouse's stops, m.
     pub mean_error: f64,
@@ -126,9 +126,9 @@ pub struct NoisyTrial {
 pub enum NoisyEnd {
     /// It was at the goal in both runs.
     Arrived {
-        /// Steps of the first run, the reset included.
+        /// Number of steps of the first run, the reset included.
         run_1: u32,
-        /// Steps of the second.
+        /// Number of steps of the second.
         run_2: u32,
     },
     /// It said that it was at the goal and was not.

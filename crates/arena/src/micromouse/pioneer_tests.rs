@@ -33,7 +33,7 @@ const GOAL: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
 /// Result of one mouse: the cells it really crossed, by task, and how each task ended.
 struct Outing {
     cells: Vec<(Vec<Cell>, TaskEnd)>,
-    /// Time steps in which the robot touched a wall.
+    /// Number of time steps in which the robot touched a wall.
     bumps: u32,
 }
 

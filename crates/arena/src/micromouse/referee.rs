@@ -3,10 +3,10 @@
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_systems::micromouse::{Brief, Movement, Order, OrderError, Rotation, Sight};
 
-/// Steps that both runs may take together.
+/// Number of steps that both runs may take together.
 pub const MAX_STEPS: u32 = 1000;
 
-/// The most cells of one movement.
+/// Maximum number of cells of one movement.
 const MOST_CELLS: i32 = 3;
 
 /// Moves one mouse through one maze and keeps the time.
@@ -71,9 +71,9 @@ pub enum Ruling {
 /// Records of the referee.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ScoreSheet {
-    /// Steps of the first run, the reset included, or `None` before it ends.
+    /// Number of steps of the first run, the reset included, or `None` before it ends.
     pub run_1: Option<u32>,
-    /// Steps of the second run, or `None` before it ends.
+    /// Number of steps of the second run, or `None` before it ends.
     pub run_2: Option<u32>,
 }
 

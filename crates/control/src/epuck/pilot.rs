@@ -19,8 +19,8 @@ pub struct Pilot<R> {
 /// other.
 pub const TURN_STEP: f64 = 2.0 * ENCODER_STEP * WHEEL_RADIUS / TRACK;
 
-/// Time steps for which encoders that count whole steps may report no motion: in a slow turn, or
-/// before the motors start.
+/// Number of time steps for which encoders that count whole steps may report no motion: in a slow
+/// turn, or before the motors start.
 const PATIENCE: u32 = 10;
 
 /// Parameters of a pilot.
@@ -34,7 +34,7 @@ pub struct PilotConfig {
         serde(deserialize_with = "crate::read::at_least_one_long")
     )]
     pub step_us: u64,
-    /// Samples of a sweep; the paper takes 100.
+    /// Number of samples of a sweep; the paper takes 100.
     #[cfg_attr(
         feature = "serde",
         serde(deserialize_with = "crate::read::at_least_one")

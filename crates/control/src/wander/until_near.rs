@@ -22,7 +22,7 @@ pub struct UntilNearConfig {
     /// Fraction of the full turn rate turned at, 0 … 1.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub turn: f64,
-    /// Time steps that a leg takes at most.
+    /// Maximum number of time steps of a leg.
     #[cfg_attr(
         feature = "serde",
         serde(deserialize_with = "crate::read::at_least_one")

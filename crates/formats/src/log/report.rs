@@ -9,7 +9,7 @@ use super::LogError;
 pub struct LogReport {
     /// Lines, empty ones and comments among them.
     pub lines: u64,
-    /// Lines of odometry that were used.
+    /// Number of lines of odometry that were used.
     pub odometry: u64,
     /// Scans that were used.
     pub scans: u64,
@@ -72,7 +72,7 @@ pub enum LogTrouble {
 
 /// Kinds of lines that are told apart.
 const MOST_KINDS: usize = 50;
-/// Lines that are named of each trouble.
+/// Number of lines that are named of each trouble.
 const NAMED: usize = 5;
 /// Longer words are cut, characters.
 const LONGEST_WORD: usize = 24;

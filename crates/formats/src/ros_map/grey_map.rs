@@ -55,7 +55,7 @@ pub enum GreyMapError {
     TooShort {
         /// End of the file, in bytes.
         byte: usize,
-        /// Values that are there.
+        /// Number of values that are there.
         found: usize,
         /// Values there should be.
         wanted: usize,

@@ -9,7 +9,7 @@ use super::link::{Gap, Link};
 use super::search::Search;
 use super::way::Way;
 
-/// The most rounds in which closures are believed or dropped again.
+/// Maximum number of rounds in which closures are believed or dropped again.
 const MOST_ROUNDS: u32 = 6;
 
 /// Maximum number of a group's members that are compared with what is believed before it.

@@ -23,7 +23,8 @@ pub struct AuditConfig {
     pub pair_gap: u32,
     /// Weight of a radian in the search for the surest way, m (default 3).
     pub lever: f64,
-    /// The most witnesses of a supported closure that are looked for, at least 1 (default 5).
+    /// Maximum number of witnesses of a supported closure that are looked for, at least 1 (default
+    /// 5).
     pub most_witnesses: usize,
 }
 

@@ -10,7 +10,7 @@ use super::chain::{cost_of, spread_of};
 use super::{Audit, AuditConfig};
 use crate::pose_graph::{OptimizerConfig, PoseEdgeKind, PoseGraph};
 
-/// Steps of the optimizer: enough for a picture.
+/// Number of steps of the optimizer: enough for a picture.
 const STEPS: u32 = 10;
 const ITERATIONS: usize = 200;
 

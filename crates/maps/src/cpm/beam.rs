@@ -68,7 +68,7 @@ const HOPELESS: f64 = 25.0;
 /// Maximum factor by which a beam that has lost the truth is widened.
 const WIDEST: usize = 16;
 
-/// Walks in a row that must be understood before a widened beam is halved.
+/// Number of walks in a row that must be understood before a widened beam is halved.
 const CALM: u32 = 32;
 
 impl Beam {

@@ -11,7 +11,7 @@ pub enum MapDoubt {
         "{places} of its places are not joined to the rest: the robot lost its way and began again there"
     )]
     Apart {
-        /// Places that no known way joins to the robot's.
+        /// Number of places that no known way joins to the robot's.
         places: u32,
     },
     /// Two places lie where there is room for one.

@@ -146,7 +146,7 @@ pub enum Percepts {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SignatureKind {
-    /// Values in a column, ≥ 1.
+    /// Number of values in a column, ≥ 1.
     pub rows: usize,
     /// Columns, ≥ 1.
     pub columns: usize,
@@ -253,7 +253,7 @@ pub struct Matching {
     /// β-MATCH snaps to places nearer than this share of the distance since the last CONTINUE, ≥ 0,
     /// and never farther than `separation`.
     pub beta_reach: f64,
-    /// Cells of the grid that were traversed this often are well traversed.
+    /// Number of traversals from which a cell of the grid is well traversed.
     pub well_traversed: u32,
 }
 
@@ -332,7 +332,7 @@ pub struct Restructuring {
     pub minority: f64,
     /// Share of common links that proposes a merge; below the second, it is rejected.
     pub links: [f64; 2],
-    /// Visits that links have to rest on.
+    /// Number of visits that links have to rest on.
     pub visits: u32,
     /// h: consistent histories that propose a merge.
     pub histories: usize,

@@ -36,11 +36,11 @@ pub enum ObservedMoveError {
         "the percept has {rows} rows and {columns} columns, the configuration {expected_rows} and {expected_columns}"
     )]
     PerceptSize {
-        /// Rows of the percept.
+        /// Number of rows of the percept.
         rows: usize,
         /// Its columns.
         columns: usize,
-        /// Rows of the configuration, 0 if it has no percepts.
+        /// Number of rows of the configuration, 0 if it has no percepts.
         expected_rows: usize,
         /// Its columns, 0 if it has no percepts.
         expected_columns: usize,

@@ -38,7 +38,7 @@ pub use verifier::{MergeCertificateError, verify_merges};
 use constraints::Constraints;
 use identities::Identities;
 
-/// Moves that a span has at most.
+/// Maximum number of moves of a span.
 const LONGEST: usize = 5;
 
 /// A claim that the robot was at one place at two visits, and why.

@@ -19,7 +19,7 @@ const COMPARED: usize = 256;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SelfCheck {
-    /// Places of the map.
+    /// Number of places of the map.
     pub places: usize,
     /// Number of places that may be one with another. The bounds allow it, the places look alike,
     /// and so does all that follows along the same actions.

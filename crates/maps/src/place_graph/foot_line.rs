@@ -18,7 +18,7 @@ pub fn foot_line(picture: &Picture) -> Vec<OutlinePoint> {
 /// More columns than this are thinned out.
 const MOST_COLUMNS: u32 = 40;
 
-/// Rows at the bottom that have to be floor.
+/// Number of rows at the bottom that have to be floor.
 const FLOOR_ROWS: u32 = 3;
 
 /// Rows above the foot whose mean is the colour of what stands there.

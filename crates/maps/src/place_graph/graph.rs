@@ -47,7 +47,7 @@ pub struct PlaceGraph {
     surfaces: Surfaces,
     wheels: WheelError,
     whereabouts: Whereabouts,
-    /// Places that are new since the graph was optimized.
+    /// Number of places that are new since the graph was optimized.
     unsettled: u32,
     /// Whether new places are still added.
     grows: bool,

@@ -38,7 +38,7 @@ pub enum FeatureError {
         width: u32,
         /// Pixels down.
         height: u32,
-        /// Pixels that are there.
+        /// Number of pixels that are there.
         found: usize,
     },
     /// A record with another number of soundings than the first.
@@ -108,7 +108,7 @@ pub enum PlaceMapError {
         "the saved network has {found} features where its groups have {expected}: it was changed or cut off"
     )]
     WrongDimension {
-        /// Values of all groups.
+        /// Number of values of all groups.
         expected: usize,
         /// Features of the network.
         found: usize,

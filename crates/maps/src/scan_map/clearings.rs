@@ -25,7 +25,7 @@ pub struct WayToGap<'a> {
 
 const UNREACHED: u32 = u32::MAX;
 
-/// Cells on either side of a point that a robot can stand at.
+/// Number of cells on either side of a point that a robot can stand at.
 const BY: i32 = 5;
 /// Number of cells beyond the robot for which the way is computed: as far as an action may go
 /// wrong.

@@ -39,7 +39,7 @@ pub struct StandpointViews {
     ranges: Vec<u8>,
 }
 
-/// Cells of the grid from one standpoint to the next.
+/// Number of cells of the grid from one standpoint to the next.
 const EVERY: i32 = 2;
 /// Distance by which the goal reaches beyond the points where its landmark was sensed, m.
 const GOAL_MARGIN: f64 = 0.05;

@@ -41,10 +41,11 @@ struct Reach {
 const STRETCHES: usize = 3;
 /// Margin beyond the window within which old keyframes are considered, m.
 const SIGHT: f64 = 2.5;
-/// Points of the last keyframes with which poses are searched, and with which the best is refined.
+/// Number of points of the last keyframes with which poses are searched, and with which the best is
+/// refined.
 const SEARCHED_POINTS: usize = 200;
 const REFINED_POINTS: usize = 600;
-/// Steps of the optimizer while the robot drives.
+/// Number of steps of the optimizer while the robot drives.
 const STEPS_ON_THE_WAY: u32 = 3;
 /// Iterations of each.
 const ITERATIONS_ON_THE_WAY: usize = 150;

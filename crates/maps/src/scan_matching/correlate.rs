@@ -25,7 +25,7 @@ pub(super) struct Window {
     pub(super) prior_turn: f64,
 }
 
-/// Cells that the first candidates are apart.
+/// Distance between the first candidates, cells.
 const WIDE: i32 = 16;
 /// Number of cells of a level, along each axis, that make one of the next.
 const BRANCH: i32 = 4;

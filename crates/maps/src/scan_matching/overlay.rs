@@ -28,7 +28,7 @@ pub struct MapOverlay {
 const STRETCHES: usize = 8;
 /// Keyframes to either side of a stretch's middle.
 const HALF: usize = 15;
-/// Numbers of points of a stretch that is placed, and of the whole map that is compared with this
+/// Number of points of a stretch that is placed, and of the whole map that is compared with this
 /// one.
 const SEARCHED_POINTS: usize = 150;
 const REFINED_POINTS: usize = 1500;

@@ -24,7 +24,7 @@ pub(super) struct Prior {
     pub(super) information: Matrix3<f64>,
 }
 
-/// Steps at most.
+/// Maximum number of steps.
 const STEPS: u32 = 12;
 /// Steps as small as that are the last: m and rad.
 const SMALL: f64 = 1e-5;

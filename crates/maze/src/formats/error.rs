@@ -63,7 +63,7 @@ pub enum MazeFault {
     TooShort {
         /// Characters of the line.
         found: usize,
-        /// Columns of the first line.
+        /// Number of columns of the first line.
         width: usize,
     },
     /// A line that goes on beyond the east border.
@@ -72,7 +72,7 @@ pub enum MazeFault {
          (one every 4 characters); make all lines {} characters long", width * 4 + 1
     )]
     BeyondBorder {
-        /// Columns of the first line.
+        /// Number of columns of the first line.
         width: u16,
     },
     /// A drawing without its last line.
@@ -81,7 +81,7 @@ pub enum MazeFault {
          lines, the last of them the south border"
     )]
     Unfinished {
-        /// Lines of the drawing.
+        /// Number of lines of the drawing.
         lines: usize,
     },
     /// A second `S`.

@@ -32,9 +32,9 @@ pub enum GenerateError {
         smallest: u16,
         /// The longest side asked for.
         largest: u16,
-        /// Columns of the maze.
+        /// Number of columns of the maze.
         width: u16,
-        /// Rows of the maze.
+        /// Number of rows of the maze.
         height: u16,
     },
     /// No drawing had what was asked for.

@@ -41,7 +41,7 @@ record! {
         brier: Option<f64> => lower("Brier"),
         /// Driven distance over the length of all corridors.
         driven: Option<f64> => lower("metres / corridors"),
-        /// Time steps in which it touched something.
+        /// Number of time steps in which it touched something.
         bumps: Option<u32> => lower("bumps"),
         /// Bytes of its map per place, without the data it was learned from.
         bytes_per_place: Option<f64> => lower("bytes / place").decimals(0),
@@ -59,7 +59,7 @@ record! {
         success: bool => higher("success"),
         /// For runs that arrived: driven distance over that of the shortest way from cell to cell.
         metres_over_shortest: Option<f64> => lower("metres / shortest").decimals(2),
-        /// Time steps in which it touched something.
+        /// Number of time steps in which it touched something.
         bumps: Option<u32> => lower("bumps"),
         /// Reason why it gave up.
         why: String => neither("reason"),

@@ -22,7 +22,7 @@ record! {
     /// A maze explored until its map has no unknown port.
     #[check(ExploredRun::relations)]
     struct ExploredRun {
-        /// Time steps in which the robot touched a wall.
+        /// Number of time steps in which the robot touched a wall.
         bumps: u32 => lower("steps at a wall"),
         /// Whether the exploration was completed.
         finished: bool => higher("finished"),

@@ -118,7 +118,7 @@ record! {
         link_recall: f64 => higher("link recall").share().decimals(3),
         /// Driven distance over the length of all corridors.
         driven: Option<f64> => lower("metres / corridors").at_least(0).decimals(2),
-        /// Time steps in which it touched something.
+        /// Number of time steps in which it touched something.
         bumps: Option<u32> => lower("steps at a wall"),
         /// How it ended, with the reason.
         why: String => neither("end"),

@@ -26,7 +26,7 @@ record! {
         link_recall: f64 => higher("links: recall").share(),
         /// Share of the moves after which odometry was within its bounds.
         bounded: f64 => higher("odometry within its bounds").share(),
-        /// Places on the map.
+        /// Number of places on the map.
         places: usize => neither("places on the map").decimals(1),
         /// Number of true places where the robot was.
         visited: usize => neither("true places visited").decimals(1),

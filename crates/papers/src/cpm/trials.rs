@@ -304,7 +304,7 @@ record! {
         true_fragments: u32 => neither("different fragments walked"),
         /// Number of fragments that contradicted the map.
         contradictions: u32 => lower("contradictions"),
-        /// Time steps in which the robot touched a wall.
+        /// Number of time steps in which the robot touched a wall.
         bumps: u32 => lower("steps at a wall"),
         /// Reason why the trial ended early.
         trouble: Option<String> => neither("trouble"),

@@ -40,7 +40,7 @@ record! {
         done_percent: f64 => higher("arrived, by its wheels").percent(),
         /// Number of pieces of a drive, each a turn and a leg of at most 0.4 m.
         pieces: f64 => lower("pieces of the way").decimals(1),
-        /// Nodes of the map.
+        /// Number of nodes of the map.
         nodes: usize => neither("nodes"),
     }
 }

@@ -72,9 +72,9 @@ record! {
         errors_m: Vec<f64> => neither("errors").unit("m"),
         /// Distance rolled at the end of each tenth, m.
         rolled_m: Vec<f64> => neither("way").unit("m"),
-        /// Places of the map.
+        /// Number of places of the map.
         places: Option<usize> => neither("places"),
-        /// Time steps in which the robot touched something.
+        /// Number of time steps in which the robot touched something.
         bumps: Option<u32> => lower("bumps"),
     }
 }

@@ -37,7 +37,7 @@ record! {
     /// A mouse's runs in a maze with thick walls.
     #[check(NoiseRun::relations)]
     struct NoiseRun {
-        /// Time steps in which the mouse touched a wall.
+        /// Number of time steps in which the mouse touched a wall.
         bumps: u32 => lower("bumps"),
         /// Whether the mouse arrived in both runs.
         arrived: bool => higher("arrived"),

@@ -27,7 +27,7 @@ record! {
         mean_squared_error: f64 => lower("MSE").unit("robot units²").at_least(0),
         /// Root of the mean squared distance of a scan from the nearest unit.
         rms_error: f64 => lower("RMS error").unit("robot units").at_least(0),
-        /// Units of the network.
+        /// Number of units of the network.
         units: usize => neither("units").decimals(0),
     }
 }

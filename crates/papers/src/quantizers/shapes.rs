@@ -38,7 +38,7 @@ record! {
         rms_10000: f64 => lower("RMS error after 10,000").at_least(0),
         /// Root of the mean squared distance of a point from the nearest unit, at the end.
         rms_30000: f64 => lower("RMS error after 30,000").at_least(0).decimals(4),
-        /// Units of the network.
+        /// Number of units of the network.
         units: usize => neither("units").decimals(0),
         /// Clusters of the network.
         clusters: usize => neither("clusters").decimals(1),

@@ -104,7 +104,7 @@ record! {
     struct SonarRun {
         /// Root of the mean squared distance of an asked scan from the nearest unit.
         rms_error: f64 => lower("RMS error").unit("m").at_least(0),
-        /// Units of the network.
+        /// Number of units of the network.
         units: usize => neither("units").decimals(0),
         /// Share of asked scans whose nearest unit tells the robot's action.
         right_percent: f64 => higher("action predicted").percent().decimals(1),

@@ -22,7 +22,7 @@ record! {
         steps: u32 => lower("steps"),
         /// Number of time steps of a run that reached the destination.
         steps_arrived: Option<u32> => lower("steps, arrived"),
-        /// Time steps in which the robot touched a wall.
+        /// Number of time steps in which the robot touched a wall.
         bumps: u32 => lower("bumps"),
     }
 }

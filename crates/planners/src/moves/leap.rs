@@ -14,7 +14,7 @@ pub struct Leap {
 }
 
 impl Leap {
-    /// The most cells of one step (the paper, section 1.1).
+    /// Maximum number of cells of one step (the paper, section 1.1).
     pub const MOST_CELLS: u8 = 3;
 
     /// Returns all leaps from a cell: north, east, south, west; of each the short ones first.

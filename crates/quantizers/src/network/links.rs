@@ -16,7 +16,7 @@ struct Half {
 /// its ends have won since it was renewed. To age edges it is enough to count the wins of units.
 #[derive(Clone, Debug)]
 pub(crate) struct Links {
-    /// Places for neighbours a slot has in `halves`; grows with the largest degree.
+    /// Number of places for neighbours a slot has in `halves`; grows with the largest degree.
     stride: usize,
     halves: Vec<Half>,
     degrees: Vec<u32>,

@@ -27,7 +27,7 @@ pub struct LatticeWalk {
     kernels: Kernels,
 }
 
-/// The most lines of one axis that are crossed all at once.
+/// Maximum number of lines of one axis that are crossed all at once.
 const MOST: usize = 3;
 
 /// For every edge of the grid, the walls on its line. The low four bits are here and the next three

@@ -25,11 +25,11 @@ pub(super) struct Reckoned<B> {
 pub(super) struct Calibrated {
     pub(super) wheels: WheelCalibration,
     sensing: EpuckSensing,
-    /// Steps in a row in which a reading did not come.
+    /// Number of steps in a row in which a reading did not come.
     missed: u32,
 }
 
-/// Steps in a row for which a reading that does not come is made up.
+/// Number of steps in a row for which a reading that does not come is made up.
 const MOST_MISSED: u32 = 20;
 
 impl Calibrated {

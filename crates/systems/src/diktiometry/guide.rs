@@ -32,7 +32,7 @@ pub(super) struct Guide {
     is_own_map: bool,
 }
 
-/// Moves between two checks of what speaks against the map.
+/// Number of moves between two checks of what speaks against the map.
 const CHECKED: u32 = 10;
 
 /// Moves per place, and moves at most, without folding after which a map is given up: nearly all
@@ -40,7 +40,8 @@ const CHECKED: u32 = 10;
 const PATIENCE: u32 = 5;
 const MOST_PATIENCE: u32 = 300;
 
-/// Moves for which a map may contradict itself before it is given up: bounds that hold repair none.
+/// Number of moves for which a map may contradict itself before it is given up: bounds that hold
+/// repair none.
 const MOST_CONTRADICTED: u32 = 20;
 
 /// What is known of the rover's place.

@@ -33,9 +33,9 @@ pub struct Surveyor<R, E> {
 const ALIGNED: f64 = 0.02;
 /// Maximum offset from the middle of a place that is not corrected, m.
 const SETTLED: f64 = 0.01;
-/// Time steps after which a routine is lost: the longest corridor of 60 cells.
+/// Number of time steps after which a routine is lost: the longest corridor of 60 cells.
 const PATIENCE: u32 = 2000;
-/// Time steps in a row in which a sensor may tell nothing before it is taken for broken.
+/// Number of time steps in a row in which a sensor may tell nothing before it is taken for broken.
 const MOST_SILENT: u32 = 20;
 
 impl<R, E> Surveyor<R, E> {

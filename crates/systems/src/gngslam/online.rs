@@ -38,7 +38,7 @@ pub struct OnlineSlamConfig {
     /// The floor goes on where nothing stands in a lane of half this width, m. It is narrower than
     /// the robot, since places are seldom in the middle of a corridor.
     pub lane: f64,
-    /// Time steps that it stands still for a snapshot at most, at least 1.
+    /// Maximum number of time steps to stand still for a snapshot, at least 1.
     pub patience: u32,
     /// It has come to a place when it is this near, m.
     pub arrival: f64,

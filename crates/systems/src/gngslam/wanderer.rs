@@ -25,7 +25,7 @@ pub struct WandererConfig {
     pub most_tries: u32,
     /// Factor of all thresholds each time that no direction is free, 0 to 1. Ours: 0.7.
     pub give_way: f64,
-    /// Time steps that it stands still for a snapshot at most, at least 1. Ours: 10.
+    /// Maximum number of time steps to stand still for a snapshot, at least 1. Ours: 10.
     pub patience: u32,
 }
 

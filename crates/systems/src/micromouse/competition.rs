@@ -41,8 +41,8 @@ use super::Brief;
 /// Result of an exploration.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpeedRunExploration {
-    /// Moves from a cell to the next, from the start to the goal, wherever else, and back to the
-    /// start.
+    /// Number of moves from a cell to the next, from the start to the goal, wherever else, and back
+    /// to the start.
     pub cells: u32,
     /// Number of these cells until the mouse was first at a goal.
     pub search_cells: u32,

@@ -19,7 +19,7 @@ pub struct PlacesConfig {
     pub least_absence: f64,
     /// Maximum distance of places that may be one, m, in addition to the uncertainty of the way.
     pub apart: f64,
-    /// Places that one is compared with at most, the nearest first.
+    /// Maximum number of places that one is compared with, the nearest first.
     pub most_compared: usize,
 }
 

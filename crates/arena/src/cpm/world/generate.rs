@@ -13,9 +13,9 @@ use tolman_robot::Landmark;
 /// Parameters of a random world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MazeConfig {
-    /// Cells from west to east, at least 2.
+    /// Number of cells from west to east, at least 2.
     pub columns: u32,
-    /// Cells from south to north, at least 2.
+    /// Number of cells from south to north, at least 2.
     pub rows: u32,
     /// Share of the openings beyond a tree of corridors that exist, 0 to 1.
     pub loops: f64,

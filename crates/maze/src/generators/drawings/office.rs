@@ -7,7 +7,7 @@ use super::super::{GenerateError, chance};
 use super::pen::Pen;
 use crate::{Cell, Direction, Maze};
 
-/// Rows of one corridor with the rooms on both its sides.
+/// Number of rows of one corridor with the rooms on both its sides.
 const DEPTH: u16 = 3;
 
 /// Draws an office floor: corridors from west to east with rooms on both sides. Rooms are one or

@@ -6,7 +6,7 @@ use tolman_maze::{Cell, Direction};
 
 use super::PlayError;
 
-/// Bytes of a reply that are read: no sound one is longer.
+/// Number of bytes of a reply that are read: no sound one is longer.
 const MOST_BYTES: u64 = 256;
 
 /// Speaks to whatever hosts the mouse.

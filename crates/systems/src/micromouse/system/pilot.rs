@@ -7,10 +7,10 @@ use tolman_robot::{Compass, Ranges, Robot, Rolls, TurnTranslate};
 use super::whereabouts::next_pose;
 use super::{MazeMouseConfig, sight};
 
-/// Time steps that a way from cell to cell, or a turn, may take.
+/// Number of time steps that a way from cell to cell, or a turn, may take.
 pub(super) const PATIENCE: u32 = 100;
 
-/// Time steps in which it waits for ranges that dropped out.
+/// Number of time steps in which it waits for ranges that dropped out.
 const LOOKS: u32 = 10;
 /// This near, as a share of the pitch, a place is reached.
 const CLOSE: f64 = 0.06;

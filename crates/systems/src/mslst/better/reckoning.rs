@@ -20,7 +20,7 @@ pub(super) struct Reckoning {
     unheard: u32,
 }
 
-/// Time steps in which a whole action leads on.
+/// Number of time steps in which a whole action leads on.
 const STEPS_OF_ACTION: u32 = 2;
 /// Minimum distance of a step that leads on, as a share of an action's.
 const LEADS_ON: f64 = 0.1;

@@ -75,7 +75,7 @@ impl ColumnIndex {
 /// Neighbouring columns that are indexed together.
 struct Groups {
     count: usize,
-    /// Columns in each.
+    /// Number of columns in each.
     size: usize,
 }
 
