@@ -138,7 +138,7 @@ struct FreeFloor {
 /// start from, each [`CORRIDOR_WIDTH`] wide.
 const STEPS_PER_METRE: f64 = 500.0 / (63.0 * CORRIDOR_WIDTH);
 
-/// No course is so short that a robot need not turn round in it, time steps.
+/// Minimum limit of a course, time steps: even on a short one a robot has to turn round.
 const LEAST_STEPS: u32 = 100;
 
 impl Course {

@@ -178,7 +178,7 @@ impl RobotFacts {
 pub struct Founding {
     /// True position of the robot, m.
     pub position: Point,
-    /// After how many actions since the first place.
+    /// Number of actions since the first place.
     pub action: u32,
 }
 

@@ -48,7 +48,7 @@ pub struct Corridor {
     /// Angle by which the robot would have to turn to face along the corridor, in beams; positive
     /// is counter-clockwise. Between −beams/4 and beams/4: a corridor has no front.
     pub misaligned_beams: i32,
-    /// The least sum of two opposite beams, m: the distance from wall to wall.
+    /// Least sum of two opposite beams, m: the distance from wall to wall.
     pub narrowest: f64,
 }
 

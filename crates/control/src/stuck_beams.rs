@@ -41,7 +41,7 @@ const CONTRADICTS: f64 = 1.25;
 const DOUBT: u8 = 2;
 /// Doubts at which a beam counts as stuck: eight contradictions in a row at the soonest.
 const ENOUGH: u8 = 16;
-/// No beam has more doubts.
+/// Maximum number of doubts of a beam.
 const MOST: u8 = 48;
 
 impl StuckBeams {

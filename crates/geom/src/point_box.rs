@@ -139,7 +139,8 @@ impl PointBox {
     pub fn rotated(self, angles: Interval) -> Self {
         /// Nearly a full circle, on which all extremes lie.
         const WHOLE: f64 = 6.25;
-        /// Less than half a circle, on which a corner's shadow has at most one extreme.
+        /// Angle of a part, rad: less than half a circle, on which a corner's shadow has at most
+        /// one extreme.
         const PART: f64 = 2.0;
         if angles.width() >= WHOLE || !self.is_bounded() {
             let longest = self.norm();

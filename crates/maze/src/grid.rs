@@ -34,7 +34,7 @@ pub struct Grid {
     height: u16,
 }
 
-/// The most columns or rows whose walls 32 bits can number.
+/// Maximum number of columns or rows whose walls 32 bits can number.
 const MOST_NUMBERED: u16 = 46_340;
 
 /// Reads the columns or rows of a grid.

@@ -132,7 +132,7 @@ impl<const N: usize> PoseSet<N> {
         *self = Self::of(grid, self.iter().filter_map(driven), guess);
     }
 
-    /// Returns where the mouse is, as far as that is clear.
+    /// Returns what is known of the pose of the mouse.
     #[must_use]
     pub fn location(&self) -> PoseKnowledge {
         let mut poses = self.iter();

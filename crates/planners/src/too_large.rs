@@ -9,7 +9,7 @@ use tolman_maze::Grid;
 pub struct TooLarge {
     /// The size of the maze.
     pub grid: Grid,
-    /// The most columns and rows.
+    /// Maximum number of columns and rows.
     pub side: usize,
 }
 

@@ -123,7 +123,7 @@ pub(crate) const NOT_NEGATIVE: Range = (
     "finite and not negative",
 );
 
-/// No sum of errors or utilities can have become larger.
+/// Range of sums of errors or utilities.
 pub(crate) const SUM: Range = (
     |value| (0.0..1e280).contains(&value),
     "not negative and less than 1e280",

@@ -269,7 +269,7 @@ impl<S: Scalar> Network<S> {
         slots.find(|other| *other != slot && *other < self.ids.len())
     }
 
-    /// Both candidates by name, if there were two.
+    /// Returns both candidates by name, if there were two.
     pub(crate) fn found_two(&self, best: Best<S>) -> Option<NearestTwo<S>> {
         let second = Some(self.found(best.second)?);
         let first = self.found(best.first)?;

@@ -36,7 +36,7 @@ pub trait Scalar:
         self.to_f64().is_finite()
     }
 
-    /// The largest squared distance that shall ever occur. It leaves room for sums of errors.
+    /// Maximum squared distance allowed. It leaves room for sums of errors.
     #[doc(hidden)]
     const MAX_SQUARED_DISTANCE: f64;
 }

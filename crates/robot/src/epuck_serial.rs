@@ -55,7 +55,7 @@ use crate::epuck::{
     ENCODER_STEP, EpuckSensing, MOST_WHEEL_SPEED, PROXIMITY_SENSORS, WheelSpeeds, WheelTurns,
 };
 
-/// No answer is longer, with the empty lines before it, bytes.
+/// Maximum length of an answer with the empty lines before it, bytes.
 const LONGEST: usize = 256;
 
 /// Maximum number of lines that are not an answer while a connection is opened: the firmware's
@@ -99,7 +99,7 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
         Ok(robot)
     }
 
-    /// Gives the port back.
+    /// Returns the port.
     pub fn into_port(self) -> P {
         self.port
     }
@@ -128,7 +128,7 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
         }
     }
 
-    /// Sends a command and gives the answer, which begins as it should.
+    /// Sends a command and returns the answer, which begins with the `expected` text.
     fn ask(&mut self, command: &str, expected: &'static str) -> Result<String, SerialError> {
         let line = format!("{command}\n");
         let sent = self.port.write_all(line.as_bytes());

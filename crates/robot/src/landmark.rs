@@ -70,7 +70,7 @@ impl<R: Robot, F: Fn(&R) -> Option<Landmark>> Landmarked<R, F> {
         &mut self.robot
     }
 
-    /// Gives the robot back.
+    /// Returns the robot.
     pub fn into_robot(self) -> R {
         self.robot
     }

@@ -13,7 +13,7 @@ pub struct Sounding {
     pub half_width: f64,
     /// Distance of the nearest thing within its cone, m; `max_range` if it met nothing.
     pub range: f64,
-    /// The most it reads, m.
+    /// Maximum reading, m.
     pub max_range: f64,
 }
 

@@ -26,7 +26,7 @@ const SKIN: f64 = 1e-6;
 /// A motion cut by less than this, m, met nothing: it is the rounding of a slide.
 const CUT: f64 = 1e-12;
 
-/// The longest turn along one chord, rad.
+/// Maximum turn along one chord, rad.
 const CHORD_TURN: f64 = 0.1;
 /// Chords of one motion at most, so that a step ends whatever turn a disturbance makes.
 const MOST_CHORDS: f64 = 10_000.0;

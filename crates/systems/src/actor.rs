@@ -89,7 +89,7 @@ impl<B: Brain> Actor<B> {
         &self.brain
     }
 
-    /// Gives the brain back.
+    /// Returns the brain.
     #[must_use]
     pub fn into_brain(self) -> B {
         self.brain

@@ -460,9 +460,10 @@ pub(super) struct Bout {
 /// A task under way.
 pub(super) struct Pursuit {
     task: Task,
-    /// Metres after which it ends.
+    /// Distance driven after which it ends, m.
     most: f64,
-    /// After how many metres the robot is put elsewhere without being told, and where.
+    /// Distance driven, m, after which the robot is put elsewhere without being told, and the pose
+    /// there.
     kidnapping: Option<(f64, Pose)>,
     /// The first time step of it.
     from: usize,

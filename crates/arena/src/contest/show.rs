@@ -93,7 +93,7 @@ impl Contest<'_> {
 pub struct WayHome {
     /// Metres driven until it was at the goal; `None` if it did not arrive.
     pub metres: Option<f64>,
-    /// Metres of the shortest way to the goal from the cell where it was.
+    /// Length of the shortest way to the goal from the cell where it was, m.
     pub shortest: f64,
     /// Reason why it gave up; empty if it did not.
     pub gave_up: String,

@@ -24,7 +24,7 @@ pub(super) struct Paving {
 /// has squares in it.
 const PITCH: f64 = 0.5;
 
-/// More would take a gigabyte and a minute.
+/// Maximum number of squares; more would take a gigabyte and a minute.
 const MOST_SQUARES: f64 = 4e6;
 
 impl Paving {

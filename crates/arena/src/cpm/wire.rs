@@ -30,9 +30,9 @@ const WIDTH: f64 = 0.25;
 /// motors.
 struct Firmware {
     body: SimulatedEpuck,
-    /// Steps a second.
+    /// Speeds of the wheels, steps per second.
     speeds: [i32; 2],
-    /// Since it was switched on, rad.
+    /// Angles that the wheels turned since it was switched on, rad.
     turned: [f64; 2],
     heard: Vec<u8>,
     answers: VecDeque<u8>,

@@ -21,7 +21,7 @@ const DOORWAY_DEPTH: f64 = 0.5;
 /// From jamb to jamb of a doorway, as a share of the corridor's width.
 const DOORWAY_WIDTH: f64 = 2.0 / 3.0;
 
-/// More colours than a camera tells apart, and few enough for a palette of them.
+/// Maximum number of colours: more than a camera tells apart, and few enough for a palette.
 const MOST_COLOURS: u32 = 1 << 16;
 
 /// Furnishing of an office.

@@ -18,7 +18,7 @@ const PROTOCOL: u32 = 1;
 /// Time in which a program that has closed its stdout is to end.
 const GRACE: Duration = Duration::from_secs(5);
 
-/// The longest line that is quoted in an error, characters.
+/// Maximum length of a line quoted in an error, characters.
 const QUOTED: usize = 80;
 
 /// What a foreign brain is told before anything else.

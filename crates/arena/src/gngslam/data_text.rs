@@ -24,7 +24,7 @@ use super::{CellGrid, DataSet, GoalRecords, LabelledRecord};
 const FORMAT: &str = "tolman-place-records";
 const VERSION: u32 = 1;
 
-/// No picture of ours is larger, pixels.
+/// Maximum size of a picture, pixels; none of ours is larger.
 const MOST_PIXELS: usize = 1 << 24;
 
 /// Contents common to all records.

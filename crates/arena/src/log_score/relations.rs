@@ -19,7 +19,8 @@ pub struct RelationScore {
 }
 
 impl RelationScore {
-    /// Times that lie farther apart than that are far, s: the robot has come back in between.
+    /// Time between two poses above which they count as far apart, s: the robot has come back in
+    /// between.
     pub const FAR: f64 = 30.0;
 
     /// Returns the score of a trajectory; `None` if no relation lies on it. O(relations · log

@@ -18,7 +18,7 @@ pub struct Judgement {
     /// A thirtieth of the steps of the first run plus those of the second; `None` if the mouse did
     /// not finish.
     pub score: Option<f64>,
-    /// The fewest steps from the start to a goal.
+    /// Minimum number of steps from the start to a goal.
     pub optimum: u32,
     /// The score of a mouse that knows the maze: there, a reset, and there again.
     pub floor: f64,

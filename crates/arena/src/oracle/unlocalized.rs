@@ -176,7 +176,7 @@ const ACTION_WAY: f64 = ROBOT_UNIT;
 const SPREAD_STEP: f64 = 0.06;
 const SPREAD_STEPS: i32 = 6;
 
-/// Places less probable than that are not followed.
+/// Probability below which places are not followed.
 const NEGLIGIBLE: f64 = 1e-9;
 
 impl UnlocalizedOracle {

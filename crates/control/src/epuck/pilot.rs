@@ -15,7 +15,7 @@ pub struct Pilot<R> {
     forward: Forward,
 }
 
-/// The least turn that the real robot's encoders tell, rad: each wheel by a step, against the
+/// Smallest turn that the real robot's encoders can tell, rad: each wheel by a step, against the
 /// other.
 pub const TURN_STEP: f64 = 2.0 * ENCODER_STEP * WHEEL_RADIUS / TRACK;
 
@@ -210,7 +210,7 @@ where
         self.turn(-turn)
     }
 
-    /// Turns by `radians` and gives how far it turned by its wheels.
+    /// Turns by `radians` and returns the turn by its wheels, rad.
     fn turn_on(&mut self, radians: f64, speed: f64) -> Result<f64, PilotError<R::Error>> {
         let step = speed * self.step_seconds();
         let mut turned = 0.0;

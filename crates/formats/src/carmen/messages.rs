@@ -7,7 +7,7 @@ use super::parameters::{NOTHING_HIT, Parameters};
 use crate::fields::{Fields, Wrong};
 use crate::log::{LogOdometry, LogScan, LogTrouble, ReadScan};
 
-/// More beams are those of no laser.
+/// Maximum number of beams; no laser has more.
 const MOST_BEAMS: u32 = 100_000;
 
 pub(crate) fn odometry(line: u64, fields: &mut Fields<'_>) -> Result<LogOdometry, Wrong> {

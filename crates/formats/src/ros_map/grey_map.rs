@@ -55,14 +55,14 @@ pub enum GreyMapError {
     TooShort {
         /// End of the file, in bytes.
         byte: usize,
-        /// Number of values that are there.
+        /// Number of values found.
         found: usize,
         /// Values there should be.
         wanted: usize,
     },
 }
 
-/// The longest side that is read: more is a torn header, not a map.
+/// Maximum side of a picture, pixels; a longer one is a damaged header, not a map.
 const MOST_SIDE: u32 = 100_000;
 
 impl GreyMap {

@@ -18,7 +18,7 @@ const HALF_PI: [Interval; 3] = [
 /// Angles beyond this many quarter turns are not told apart.
 const MOST_QUARTERS: f64 = 1_048_576.0;
 
-/// The most that the series up to x¹⁷ (x¹⁸ for the cosine) can lack for |x| ≤ 0.8: 0.8¹⁹ / 19!.
+/// Bounds of the remainder of the series after x¹⁷ (x¹⁸ for the cosine) for |x| ≤ 0.8: 0.8¹⁹ / 19!.
 const REMAINDER: Interval = Interval::from_bounds(-1.2e-19, 1.2e-19);
 
 impl Interval {

@@ -60,8 +60,8 @@ pub enum RefutedBy {
 pub enum UndecidedBecause {
     /// The way between its poses is too uncertain to tell.
     Wide {
-        /// The greatest half-axis of the region in which the pose may lie, m; infinite if nothing
-        /// leads there.
+        /// Greatest half-axis of the region in which the pose may lie, m; infinite if nothing leads
+        /// there.
         position: f64,
         /// The half-width of the headings it may have, rad.
         heading: f64,

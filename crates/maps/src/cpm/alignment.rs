@@ -20,7 +20,7 @@ pub struct Alignment {
     /// Distance of prototypes from which two patterns have nothing in common, as a fraction of the
     /// dictionary's greatest distance; above 0, at most 1.
     pub unlike: f64,
-    /// Above it two fragments are the same; 0 to 1.
+    /// Similarity above which two fragments are the same, 0 to 1.
     pub threshold: f64,
 }
 

@@ -115,5 +115,5 @@ impl CpMap {
 /// Standard deviation of the spacing of ports, rad.
 const SPREAD: f64 = 0.6;
 
-/// No two ports of a junction are nearer to each other, rad.
+/// Minimum angle between two ports of a junction, rad.
 const LEAST_ANGLE: f64 = 0.35;

@@ -301,8 +301,7 @@ fn coincidence(apart: PointBox, area: f64) -> f64 {
     libm::log(area / (side(apart.x) * side(apart.y))).clamp(-MOST_EVIDENCE, MOST_EVIDENCE)
 }
 
-/// No two places are nearer to each other, m: it is less than the width of any robot that could
-/// tell them apart.
+/// Minimum distance of two places, m: less than the width of any robot that could tell them apart.
 const LEAST_APART: f64 = 0.05;
 
 /// Cost of a new place: a map with fewer places is simpler.
@@ -311,5 +310,6 @@ const NEW_PLACE: f64 = 1.0;
 /// The logarithm of odds that a whole observation brings.
 const EVIDENCE: f64 = 5.0;
 
-/// No single fragment says more: observations and bounds may err in ways that no model knows.
+/// Maximum evidence of a single fragment, because observations and bounds may err in ways that no
+/// model has.
 const MOST_EVIDENCE: f64 = 10.0;

@@ -326,7 +326,7 @@ impl Dictionary {
     }
 }
 
-/// Beyond it squares could overflow.
+/// Largest magnitude of a feature; beyond it squares could overflow.
 const LARGEST: f64 = 1e100;
 
 /// FNV-1a: its start and its step, a word at a time.

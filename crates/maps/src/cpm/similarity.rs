@@ -185,8 +185,8 @@ pub struct Similarity {
     pub sum: Sum,
     /// μ: above it two fragments are the same; 0 to 1. "We simply set μ = 0.9."
     pub mu: f64,
-    /// Above it two fragments are the same that would lead out of one port, because others are
-    /// similar; 0 to `mu`. Ours.
+    /// Similarity above which two fragments are the same if similar fragments would make them lead
+    /// out of one port; 0 to `mu`. Ours.
     pub mu_at_port: f64,
 }
 

@@ -37,7 +37,7 @@ pub struct Relation {
     pub to: FrameId,
     /// Its origin in this frame, m: what all estimates allow.
     pub position: PointBox,
-    /// The least box that holds all estimates, m.
+    /// Smallest box that holds all estimates, m.
     pub envelope: PointBox,
     /// Number of estimates.
     pub estimates: u32,

@@ -15,7 +15,7 @@ pub fn foot_line(picture: &Picture) -> Vec<OutlinePoint> {
     columns.filter_map(|column| foot(picture, column)).collect()
 }
 
-/// More columns than this are thinned out.
+/// Maximum number of columns used; more are thinned out.
 const MOST_COLUMNS: u32 = 40;
 
 /// Number of rows at the bottom that have to be floor.

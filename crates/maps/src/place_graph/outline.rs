@@ -32,10 +32,10 @@ pub struct OutlinePoint {
     pub colour: Option<[f64; 2]>,
 }
 
-/// More points of a laser than this are thinned out.
+/// Maximum number of points of a laser; more are thinned out.
 const MOST_BEAMS: usize = 90;
 
-/// Nearer readings are left out, m.
+/// Range below which readings are left out, m.
 const LEAST_RANGE: f64 = 0.01;
 
 /// Standard deviation of a beam, m.

@@ -55,7 +55,7 @@ impl Surface {
 /// Width of a cell, m.
 pub(super) const CELL: f64 = 0.1;
 
-/// No surface is known better, m.
+/// Minimum standard deviation of a surface, m.
 const LEAST_DEVIATION: f64 = 0.01;
 
 impl Surfaces {

@@ -16,7 +16,7 @@ pub struct StandpointBelief {
     surprises: u32,
 }
 
-/// Standpoints less probable than that are not followed.
+/// Probability below which standpoints are not followed.
 const NEGLIGIBLE: f32 = 1e-9;
 /// Factor on the probability of a move through a wall.
 const THROUGH_A_WALL: f64 = 0.01;

@@ -28,7 +28,7 @@ pub(super) struct Branch {
     pub(super) ends: [usize; 2],
     /// From the first end to the second, both included.
     pub(super) cells: Vec<GridIndex>,
-    /// The least clearance on it, m.
+    /// Least clearance on it, m.
     pub(super) narrowest: f64,
 }
 

@@ -39,8 +39,8 @@ const OUTLIER: f64 = 3.0;
 /// Weight of all beams together, in independent beams: beams that see the same walls are
 /// correlated.
 const INDEPENDENT_BEAMS: f64 = 8.0;
-/// A better fit than that tells no more: the map's own errors are as large, and are met at every
-/// look.
+/// Misfit below which a better fit tells nothing more: the map's own errors are as large, and occur
+/// in every look.
 const GOOD: f64 = 0.6;
 /// Misfit of a view that the map does not have: that of a wrong place which looks similar.
 const UNSHOWN: f64 = 2.0;

@@ -32,7 +32,7 @@ pub enum GroundKind {
     Wall,
 }
 
-/// Cells lie no farther than that from the origin, in cells: 50 km.
+/// Maximum distance of a cell from the origin, cells: 50 km.
 const FARTHEST: i32 = 1_000_000;
 
 impl GroundKind {

@@ -30,7 +30,7 @@ pub struct ScanMap {
     agreement: f64,
     /// Share of the beams of the last scan that contradicted the walls.
     contradiction: f64,
-    /// The largest such share that two scans in a row had.
+    /// Largest such share of two scans in a row.
     surprise: f64,
 }
 

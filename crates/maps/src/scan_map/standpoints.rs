@@ -43,7 +43,7 @@ pub struct StandpointViews {
 const EVERY: i32 = 2;
 /// Distance by which the goal reaches beyond the points where its landmark was sensed, m.
 const GOAL_MARGIN: f64 = 0.05;
-/// Nearer than that to where the goal was sensed it is sensed, too, m.
+/// Distance from a point where the goal was sensed within which it is sensed, too, m.
 const SENSES_GOAL: f64 = 0.12;
 
 impl Standpoints {

@@ -36,11 +36,11 @@ struct GridCell {
 
 /// Steps in which distances to walls are kept, m.
 const DISTANCE_UNIT: f64 = 0.005;
-/// Farther from any wall than distances are kept.
+/// Value of cells that are farther from any wall than distances are kept.
 const FAR: u8 = u8::MAX;
 /// Cells added at once on a side that the grid outgrows.
 const MARGIN: i32 = 48;
-/// A beam whose end is off by more than that ended elsewhere than on the wall that is known, m.
+/// Error of a beam's end above which it did not end on the known wall, m.
 const ELSEWHERE: f64 = 0.2;
 /// A wall stands while at least one of this many beams that reached its cell ended there.
 const PASSES_A_HIT: u32 = 3;

@@ -29,7 +29,7 @@ pub(super) struct Stamp {
 const PLACES: usize = 5;
 /// Standard deviations at which a bell is cut off.
 const BELL: f64 = 3.0;
-/// No grid has more cells than that along an axis.
+/// Maximum number of cells of a grid along an axis.
 const MOST_CELLS: i32 = 6000;
 
 /// Distance, in cells, up to which points of one surface are joined.

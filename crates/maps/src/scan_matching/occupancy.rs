@@ -20,7 +20,7 @@ pub struct OccupancyGrid {
     counts: Vec<(u16, u16)>,
 }
 
-/// No grid has more cells than that along an axis.
+/// Maximum number of cells of a grid along an axis.
 const MOST_CELLS: f64 = 20_000.0;
 
 impl OccupancyGrid {

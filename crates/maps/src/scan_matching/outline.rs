@@ -22,7 +22,7 @@ pub(super) struct SurfacePoint {
 /// Ends of neighbouring beams that are this many times farther apart than beams that meet a surface
 /// at right angles belong to two surfaces.
 const SLANT: f64 = 6.0;
-/// Nearer than that no beam ends but on the robot itself, m.
+/// Range below which a beam ends on the robot itself, m.
 const NEAREST: f64 = 0.1;
 
 /// Interval, in points, at which the axis is estimated.

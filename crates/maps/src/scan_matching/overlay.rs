@@ -34,7 +34,7 @@ const SEARCHED_POINTS: usize = 150;
 const REFINED_POINTS: usize = 1500;
 /// Standard deviation of the axes of buildings, rad.
 const AXIS_TURN: f64 = 0.07;
-/// Overlays nearer to each other than that are one, m and rad.
+/// Distance below which two overlays are one, m and rad.
 const SAME: (f64, f64) = (1.0, 0.1);
 
 impl ScanMatching {

@@ -26,7 +26,7 @@ pub(super) struct Prior {
 
 /// Maximum number of steps.
 const STEPS: u32 = 12;
-/// Steps as small as that are the last: m and rad.
+/// Size of a step at which the search ends, m and rad.
 const SMALL: f64 = 1e-5;
 /// Points of one scan err together: each says this share of what it would alone.
 const INDEPENDENT: f64 = 0.1;

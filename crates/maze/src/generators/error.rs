@@ -28,9 +28,9 @@ pub enum GenerateError {
          the shortest is at least 1, the longest no shorter, and no longer than the maze either way"
     )]
     RoomSide {
-        /// The shortest side asked for.
+        /// Shortest side asked for, cells.
         smallest: u16,
-        /// The longest side asked for.
+        /// Longest side asked for, cells.
         largest: u16,
         /// Number of columns of the maze.
         width: u16,
@@ -57,7 +57,7 @@ pub enum GenerateError {
         width: u16,
         /// Rows asked for.
         height: u16,
-        /// The fewest columns and rows.
+        /// Minimum number of columns and rows.
         least: (u16, u16),
     },
 }

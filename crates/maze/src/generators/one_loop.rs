@@ -18,7 +18,7 @@ pub struct OneLoop {
     pub width: u16,
     /// Rows, at least 3.
     pub height: u16,
-    /// The fewest dead ends.
+    /// Minimum number of dead ends.
     pub dead_ends: usize,
     /// Maximum length of a short corridor, cells from one bend, junction or dead end to the next.
     /// Three quarters of all corridors are short.

@@ -26,7 +26,7 @@ pub struct MoveMap<const N: usize> {
     stale: Option<(u16, u16)>,
 }
 
-/// No way leads there.
+/// Distance of a cell to which no way leads.
 const NEVER: u16 = u16::MAX;
 
 impl<const N: usize> MoveMap<N> {

@@ -67,7 +67,7 @@ struct Payoff {
     steps: f32,
     /// Number of steps by which the run gets shorter.
     gain: f32,
-    /// The least cost at any moment: steps until then, less the worth of what was gained.
+    /// Least cost at any moment: the steps until then, minus the worth of the gain.
     at_best: f32,
 }
 

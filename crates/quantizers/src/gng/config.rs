@@ -11,7 +11,8 @@ pub struct GngConfig {
     pub winner_rate: f64,
     /// ε_n: the part of the way that its neighbours move; 0 to 1.
     pub neighbour_rate: f64,
-    /// a_max: edges older than that go; in inputs won by one of the edge's ends, at least 1.
+    /// a_max: age above which edges are removed, in inputs won by one of the edge's ends, at
+    /// least 1.
     pub max_age: u32,
     /// λ: the network may grow at every λ-th input; at least 1.
     pub growth_period: u32,

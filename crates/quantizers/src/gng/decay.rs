@@ -10,8 +10,8 @@ pub(super) struct Decay {
     factor: f64,
 }
 
-/// Below it the factor is made 1 again: long before numbers lose precision, and so seldom that it
-/// costs nothing.
+/// Value below which the factor is made 1 again: long before numbers lose precision, and so seldom
+/// that it costs nothing.
 const SMALLEST: f64 = 1.0 / (1_u64 << 63) as f64;
 
 impl Decay {

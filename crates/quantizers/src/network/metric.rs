@@ -10,7 +10,7 @@ pub(crate) struct Metric<S> {
     dimension: usize,
     /// One weight a feature, or none if all are 1.
     weights: Option<Box<[S]>>,
-    /// No feature may be larger, so that no squared distance overflows.
+    /// Maximum magnitude of a feature, so that no squared distance overflows.
     limit: S,
 }
 

@@ -13,7 +13,7 @@ use super::prototypes::{LANES, Prototypes};
 use super::search::{Best, Candidate, Terms};
 use crate::Scalar;
 
-/// With more features than that, a search visits nearly all leaves.
+/// Maximum number of features; with more, a search visits nearly all leaves.
 pub(crate) const MOST_FEATURES: usize = 4;
 
 /// Returns the maximum number of inner nodes on a path to a leaf in a tree of `units` units: twice

@@ -7,7 +7,8 @@ use crate::error::{AT_LEAST_1, NOT_NEGATIVE, SHARE, within};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SoinnConfig {
-    /// age_dead: edges older than that go; in inputs won by one of the edge's ends, at least 1.
+    /// age_dead: age above which edges are removed, in inputs won by one of the edge's ends, at
+    /// least 1.
     pub max_age: u32,
     /// λ: at every λ-th input a unit may be put where the error is large, then noise is removed; at
     /// least 1. A unit has to find a neighbour within less than λ inputs.

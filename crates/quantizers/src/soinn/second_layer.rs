@@ -40,8 +40,8 @@ pub enum SecondThreshold {
     /// measure of how far apart units of one cluster lie. It does not depend on whether clusters
     /// are already separated.
     WithinClusters {
-        /// Above 1: the second layer has to be coarser than the first. 4 works where clusters are 5
-        /// or more edges apart.
+        /// Multiple, above 1 because the second layer has to be coarser than the first. 4 works
+        /// where clusters are 5 or more edges apart.
         factor: f64,
     },
 }

@@ -27,7 +27,7 @@ pub enum Fault {
     Bounded {
         /// The largest share gained or lost.
         share: f64,
-        /// The largest amount gained or lost, in the value's own unit.
+        /// Largest amount gained or lost, in the value's own unit.
         offset: f64,
         /// For how many readings one draw holds, at least 1.
         steps: u32,
@@ -61,7 +61,7 @@ pub enum Fault {
     Outliers {
         /// Probability that a number is one, 0 to 1.
         probability: f64,
-        /// The least of them, in the value's own unit.
+        /// Least of them, in the value's own unit.
         low: f64,
         /// The greatest, in the value's own unit.
         high: f64,
@@ -261,7 +261,7 @@ impl<V: Values> Past<V> {
         }
     }
 
-    /// Gives the reading of `steps` steps before in place of this one.
+    /// Replaces this reading by the one `steps` steps before.
     fn delay(&mut self, value: &mut Option<V>, steps: u32) {
         self.values.push_back(value.take());
         if self.values.len() > steps as usize {
@@ -278,7 +278,7 @@ pub struct FaultError {
     pub part: &'static str,
     /// The value given.
     pub value: f64,
-    /// The least that has a sense.
+    /// Least valid value.
     pub least: f64,
     /// The most.
     pub most: f64,

@@ -237,7 +237,7 @@ pub struct PictureCameraError {
     pub field: &'static str,
     /// The value given.
     pub value: f64,
-    /// The least that has a sense.
+    /// Least valid value.
     pub least: f64,
     /// The most.
     pub most: f64,

@@ -21,7 +21,7 @@ pub(super) struct Lane {
     pub(super) half_width: f64,
     /// Distance that it goes from a place, m.
     pub(super) reach: f64,
-    /// No other place is this near to where it goes, m.
+    /// Minimum distance of its target from any other place, m.
     pub(super) apart: f64,
 }
 

@@ -3,7 +3,7 @@
 use tolman_maps::wall_map::{ObserveError, TooLarge};
 use tolman_planners::moves::MoveExplorerConfigError;
 
-/// The largest maze our mice hold, columns or rows.
+/// Maximum size of a maze that our mice hold, columns or rows.
 pub const SIDE: usize = 32;
 
 /// Reading of the three sensors of a mouse: the number of open cells up to the next wall.

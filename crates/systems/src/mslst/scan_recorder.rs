@@ -39,7 +39,7 @@ impl ScanRecorder {
         &self.scans
     }
 
-    /// Gives the scans.
+    /// Returns the scans.
     #[must_use]
     pub fn into_scans(self) -> Vec<Vec<f64>> {
         self.scans

@@ -74,7 +74,7 @@ pub enum MergeCertificateError {
         number: usize,
         /// Maximum distance between the two, m.
         most: f64,
-        /// The least that two places are, m.
+        /// Minimum distance of two places, m.
         least: f64,
     },
     /// Two visits do not look alike.

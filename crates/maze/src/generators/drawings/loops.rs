@@ -4,7 +4,7 @@ use super::super::{GenerateError, chance};
 use super::pen::Pen;
 use crate::{Cell, Maze};
 
-/// The longest corridor of a ladder, cells.
+/// Maximum length of a corridor of a ladder, cells.
 const LONGEST: u16 = 15;
 
 /// Draws a ring: one loop of four equal sides, as large as fits. Start and goal lie opposite each

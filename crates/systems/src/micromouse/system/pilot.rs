@@ -7,7 +7,7 @@ use tolman_robot::{Compass, Ranges, Robot, Rolls, TurnTranslate};
 use super::whereabouts::next_pose;
 use super::{MazeMouseConfig, sight};
 
-/// Number of time steps that a way from cell to cell, or a turn, may take.
+/// Maximum number of time steps of a way from cell to cell, or of a turn.
 pub(super) const PATIENCE: u32 = 100;
 
 /// Number of time steps in which it waits for ranges that dropped out.
@@ -18,7 +18,7 @@ const CLOSE: f64 = 0.06;
 const AIMED: f64 = 0.05;
 /// A robot that looks farther past its target than this turns before it drives, rad.
 const ASIDE: f64 = 0.15;
-/// The longest way of a time step, as a share of the pitch: the walls are to be seen meanwhile.
+/// Maximum way of a time step, as a share of the pitch, so that the walls are seen meanwhile.
 const STRIDE: f64 = 0.25;
 
 /// A robot that a [`Pilot`] can drive.

@@ -37,9 +37,9 @@ pub struct BetterConfigError {
     pub field: &'static str,
     /// Its value.
     pub value: f64,
-    /// The least it may hold.
+    /// Least value allowed.
     pub least: f64,
-    /// The most it may hold.
+    /// Greatest value allowed.
     pub most: f64,
 }
 
