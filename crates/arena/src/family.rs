@@ -228,7 +228,8 @@ const PAPERS: [&str; 5] = [
     include_str!("../mazes/cpm-3.maze"),
 ];
 
-/// Returns one of them; where it marks no start, that is the cell farthest from its goal.
+/// Returns one of the papers' mazes at random. If it marks no start, that is the cell farthest from
+/// its goal.
 fn papers(rng: &mut impl Rng) -> Result<Maze, BoxError> {
     let text = PAPERS[rng.random_range(0..PAPERS.len() as u32) as usize];
     let mut maze = tolman_maze::read(text)?.maze;

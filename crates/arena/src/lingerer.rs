@@ -22,7 +22,7 @@ pub(crate) struct Lingerer {
 }
 
 impl Lingerer {
-    /// Returns one that makes `times` as many actions as it takes `explorer` to have been
+    /// Returns a brain that makes `times` as many actions as it takes `explorer` to have been
     /// everywhere.
     pub(crate) fn new(explorer: BetterExplorer, times: u32) -> Self {
         Self {
@@ -35,7 +35,7 @@ impl Lingerer {
         }
     }
 
-    /// Returns one that wanders until `explorer` finds that it has been everywhere.
+    /// Returns a brain that wanders until `explorer` finds that it has been everywhere.
     pub(crate) fn wandering(explorer: BetterExplorer) -> Self {
         Self {
             wanders: true,

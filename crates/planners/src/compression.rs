@@ -67,7 +67,7 @@ fn run<A: PartialEq>(path: &[A], start: usize, action: &A) -> usize {
         .count()
 }
 
-/// Returns one pass over the pairs that stand side by side now.
+/// Removes the pairs of opposite actions that are adjacent now, in one pass.
 fn remove_pairs<A: Copy + PartialEq>(path: &mut Vec<A>, opposite: &impl Fn(&A) -> A) {
     let mut kept = Vec::with_capacity(path.len());
     let mut rest = path.as_slice();

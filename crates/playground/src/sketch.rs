@@ -16,9 +16,9 @@ pub struct Sketch {
 /// The parts of a [`Sketch`] to draw. Cells are counted from the south-west.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SketchPlan {
-    /// Columns.
+    /// Number of columns.
     pub width: u16,
-    /// Rows.
+    /// Number of rows.
     pub height: u16,
     /// All edges between cells and of the border, each once.
     pub walls: Vec<SketchWall>,

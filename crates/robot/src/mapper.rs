@@ -53,9 +53,9 @@ pub trait Mapper {
         None
     }
 
-    /// Returns how many bytes its map takes: places, links and all that they hold, by their number
-    /// and size. What it was learned from (journals, records), what follows from it, and memory
-    /// kept free do not count. `None` if it does not say. O(map).
+    /// Returns the memory of its map, bytes: places, links and all that they hold, by their number
+    /// and size. The data it was learned from (journals, records), derived data and spare memory do
+    /// not count. `None` if it is not known. O(map).
     fn map_bytes(&self) -> Option<usize> {
         None
     }

@@ -63,10 +63,10 @@ pub trait Recordable:
     /// Returns its configuration.
     fn config(&self) -> &Self::Config;
 
-    /// Builds one.
+    /// Builds the model.
     ///
     /// # Errors
-    /// If the configuration has no sense.
+    /// If the configuration is invalid.
     fn from_config(config: Self::Config) -> Result<Self, Self::ConfigError>
     where
         Self: Sized;

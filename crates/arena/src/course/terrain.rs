@@ -37,8 +37,8 @@ impl Terrain {
         }
     }
 
-    /// Returns it as a course to its destination for a robot of this `body`. Corridors have its
-    /// width, or else MSLST's 1.9 robot units. See [`Course::for_body`] and
+    /// Returns the terrain as a course to its destination for a robot of this `body`. Corridors
+    /// have its width, or else MSLST's 1.9 robot units. See [`Course::for_body`] and
     /// [`Course::in_free_world`].
     ///
     /// # Errors

@@ -302,7 +302,7 @@ pub enum CpmTrialError {
 }
 
 impl CpmTrialError {
-    /// Returns whether maze or map did not serve; else what the robot did came to nothing.
+    /// Returns whether the maze or the map is at fault. Otherwise the robot failed.
     #[must_use]
     pub const fn is_bad_input(&self) -> bool {
         matches!(

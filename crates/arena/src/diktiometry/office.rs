@@ -118,7 +118,7 @@ impl Office {
     /// Raises the walls of a maze.
     ///
     /// # Errors
-    /// [`OfficeError`] if the configuration has no sense.
+    /// [`OfficeError`] if the configuration is invalid.
     pub fn new(maze: &Maze, config: &OfficeConfig) -> Result<Self, OfficeError> {
         let share = config.doorway_share;
         if !(0.0..=1.0).contains(&share) {

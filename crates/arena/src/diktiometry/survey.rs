@@ -46,7 +46,7 @@ impl SurveyConfig {
         Self::of(office, SurveyorConfig::paper(), moves)
     }
 
-    /// Returns the same with another robot.
+    /// Returns the same run with another robot.
     #[must_use]
     pub fn of(office: &Office, robot: SurveyorConfig, moves: u32) -> Self {
         Self {

@@ -104,7 +104,7 @@ fn decoration(windows: usize, sill: f64, rng: &mut ChaCha8Rng) -> Vec<(Span, Mat
     all
 }
 
-/// Returns a part of a side somewhere on it, its width a share of it.
+/// Returns a random part of a side. `width` is its share of the side's length.
 fn part_of(side: usize, width: f64, rng: &mut ChaCha8Rng) -> Span {
     let from = rng.random_range(0.05..0.95 - width);
     Span {

@@ -25,7 +25,7 @@ pub enum CertificateError {
     Size {
         /// Number of numbers in the certificate.
         found: usize,
-        /// Cells.
+        /// Number of cells.
         cells: usize,
     },
     /// The run does not lead from the start to a goal.

@@ -82,7 +82,7 @@ pub fn try_on(
     watch(maze, searcher, seed, |_| {})
 }
 
-/// Returns the same, and calls `see` with every step as soon as it is made.
+/// Does the same, and calls `see` with every step as soon as it is made.
 ///
 /// # Errors
 /// If no mouse can run in the maze.

@@ -89,7 +89,8 @@ impl MouseTrial {
         Self::watch(maze, mouse, |_| {})
     }
 
-    /// Returns the same, and calls `see` with every step as soon as it is made.
+    /// Does the same as [`play`](Self::play), and calls `see` with every step as soon as it is
+    /// made.
     ///
     /// # Errors
     /// If the referee refuses the maze or an order.

@@ -180,7 +180,7 @@ const SPREAD_STEPS: i32 = 6;
 const NEGLIGIBLE: f64 = 1e-9;
 
 impl UnlocalizedOracle {
-    /// Returns one that has no idea yet where it is.
+    /// Returns an oracle that does not know its place yet.
     #[must_use]
     pub fn new(chart: Arc<PlaceViews>) -> Self {
         let count = chart.places.len();

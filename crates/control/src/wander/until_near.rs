@@ -51,7 +51,7 @@ impl UntilNearConfig {
         }
     }
 
-    /// Returns it with other fractions of the robot's full rates.
+    /// Returns this configuration with other fractions of the robot's full rates.
     #[must_use]
     pub const fn with_rates(mut self, translate: f64, turn: f64) -> Self {
         self.translate = translate;

@@ -59,7 +59,7 @@ impl<R: BufRead> LogReader<R> {
         &self.report
     }
 
-    /// Returns one line: what it says, if it says something.
+    /// Returns the entry of one line, if it has one.
     fn entry(
         parameters: &mut Parameters,
         report: &mut LogReport,

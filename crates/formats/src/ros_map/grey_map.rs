@@ -3,9 +3,9 @@ use thiserror::Error;
 /// A grey picture in the portable grey map format (PGM), binary (`P5`) or plain (`P2`).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GreyMap {
-    /// Columns.
+    /// Number of columns.
     pub width: usize,
-    /// Rows.
+    /// Number of rows.
     pub height: usize,
     /// The value of white, 1 … 65535.
     pub most: u16,

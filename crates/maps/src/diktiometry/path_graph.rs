@@ -100,7 +100,7 @@ pub struct Estim {
 }
 
 impl Estim {
-    /// Returns the same in a frame whose origin lies at `-shift`, m.
+    /// Returns the same estimate in a frame whose origin lies at `-shift`, m.
     pub(super) fn shifted(self, shift: Point) -> Self {
         Self {
             position: self.position + shift.coords,

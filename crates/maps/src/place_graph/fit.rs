@@ -107,7 +107,7 @@ const fn arc_gate(gate: f64) -> f64 {
     gate.max(0.15)
 }
 
-/// Returns those of `surfaces` that lie within `radius` of where the robot is, in their order.
+/// Returns the `surfaces` that lie within `radius` of where the robot is, in their order.
 fn near<'a>(surfaces: &[&'a Surface], pose: Pose, radius: f64) -> Vec<&'a Surface> {
     let within = (radius + SLACK) * (radius + SLACK);
     let x = pose.position.x;

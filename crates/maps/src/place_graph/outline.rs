@@ -23,8 +23,8 @@ pub struct Outline {
 pub struct OutlinePoint {
     /// Position, m.
     pub position: Point,
-    /// The direction in which its surface looks, a unit vector towards the robot; `None` where its
-    /// neighbours tell none.
+    /// Normal of its surface, a unit vector towards the robot; `None` if its neighbours do not
+    /// tell.
     pub normal: Option<Vector>,
     /// Standard deviation of its distance from the robot, m.
     pub deviation: f64,

@@ -47,7 +47,7 @@ pub enum SavedPlaceGraphError {
         /// Version that it names.
         version: u32,
     },
-    /// A number of the configuration has no sense.
+    /// A number of the configuration is invalid.
     #[error("`{field}` is {value}; give a positive number")]
     Config {
         /// Name of the field.

@@ -74,8 +74,8 @@ impl StandpointBelief {
         near.map(|(_, mass)| f64::from(*mass)).sum()
     }
 
-    /// Returns the same belief on other standpoints, which lie about where those lie that it was
-    /// made `on`. O(standpoints · log standpoints).
+    /// Returns the same belief on other standpoints, near those that it was made `on`.
+    /// O(standpoints · log standpoints).
     #[must_use]
     pub fn carried_over(&self, on: &Standpoints, to: &Standpoints) -> Self {
         let mut carried = Self {

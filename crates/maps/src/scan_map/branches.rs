@@ -60,7 +60,7 @@ impl Branch {
 }
 
 impl Branches {
-    /// Returns those of a skeleton of ground that is `radius` m off the walls. O(cells · log
+    /// Returns the branches of a skeleton of ground that is `radius` m off the walls. O(cells · log
     /// cells).
     pub(super) fn of(skeleton: &Skeleton, radius: f64) -> Self {
         let beside: BTreeMap<GridIndex, Vec<GridIndex>> = skeleton

@@ -55,8 +55,8 @@ const PASSED: f64 = 1.8;
 const BORDER: f64 = 0.2;
 
 impl CorridorMap {
-    /// Returns that of a chart whose corridors are about `width` m wide. O(cells · log cells +
-    /// knots³).
+    /// Returns the corridor map of a chart whose corridors are about `width` m wide. O(cells · log
+    /// cells + knots³).
     #[must_use]
     pub fn of(chart: &ScanChart, width: f64) -> Self {
         let grid = chart.ground().grid();

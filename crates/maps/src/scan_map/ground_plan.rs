@@ -120,7 +120,7 @@ impl GroundPlan {
         Ok(plan)
     }
 
-    /// Returns the same with walls at these points, too, as far as they lie within its bounds.
+    /// Returns the same plan with walls at these points, too, as far as they lie within its bounds.
     pub(super) fn with_walls(&self, at: &[Point]) -> Self {
         let mut plan = self.clone();
         for slot in at.iter().filter_map(|at| self.slot(index_of(*at))) {

@@ -36,7 +36,7 @@ const LONGEST: f64 = 254.0;
 const STRIDE: f64 = 0.5;
 
 impl Rays {
-    /// Returns those of a ring over the full circle. O(beams · range).
+    /// Returns the rays of a ring over the full circle. O(beams · range).
     pub(super) fn of(ring: Ring) -> Self {
         let longest = (ring.max_range / RANGE_UNIT).min(LONGEST);
         let steps = (longest * RANGE_UNIT / (STRIDE * WallGrid::CELL)) as u32;

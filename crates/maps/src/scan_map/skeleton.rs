@@ -37,7 +37,8 @@ const AROUND: [GridIndex; 8] = [
 ];
 
 impl Skeleton {
-    /// Returns that of the cells of `grid` that are in `ground`, by slot. O(cells · log cells).
+    /// Returns the skeleton of the cells of `grid` that are in `ground`, by slot. O(cells · log
+    /// cells).
     pub(super) fn of(grid: &WallGrid, ground: Vec<bool>) -> Self {
         let [first, end] = grid.bounds();
         let mut skeleton = Self {

@@ -50,7 +50,8 @@ impl Standpoints {
     /// From one to the next, m.
     pub const SPACING: f64 = EVERY as f64 * WallGrid::CELL;
 
-    /// Returns those of a map that lead to where its robot has been, for scans by `ring`. O(cells).
+    /// Returns the standpoints of a map that lead to where its robot has been, for scans by `ring`.
+    /// O(cells).
     #[must_use]
     pub fn of(chart: ScanChart, ring: Ring) -> Self {
         let grid = chart.ground().grid();
@@ -155,7 +156,7 @@ impl Standpoints {
         .collect()
     }
 
-    /// Returns those that lie round a point, with the share that each has of it.
+    /// Returns the standpoints round a point, with the share that each has of it.
     pub(super) fn around(&self, point: Point) -> [(Option<u32>, f64); 4] {
         let scaled = (point - middle([0, 0])) / Self::SPACING;
         let corner = [libm::floor(scaled.x), libm::floor(scaled.y)];

@@ -130,7 +130,7 @@ impl ScanMatchingConfig {
         }
     }
 
-    /// Returns it without closures.
+    /// Returns this configuration without closures.
     #[must_use]
     pub fn without_closures(self) -> Self {
         Self {

@@ -12,9 +12,9 @@ pub struct OccupancyGrid {
     pub cell: f64,
     /// The south-west corner, m.
     pub origin: Point,
-    /// Columns.
+    /// Number of columns.
     pub columns: usize,
-    /// Rows.
+    /// Number of rows.
     pub rows: usize,
     /// Beams that ended in each cell and beams that passed it, row by row from the south-west.
     counts: Vec<(u16, u16)>,

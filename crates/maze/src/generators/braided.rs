@@ -12,9 +12,9 @@ use crate::{Cell, Direction, Maze};
 /// only other dead ends are those that have only the border and the start beside them. O(cells).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Braided {
-    /// Columns.
+    /// Number of columns.
     pub width: u16,
-    /// Rows.
+    /// Number of rows.
     pub height: u16,
     /// The share of dead ends to open, 0 … 1.
     pub share: f64,

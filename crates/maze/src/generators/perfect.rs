@@ -14,9 +14,9 @@ use crate::{Cell, Direction, Maze};
 /// one farthest from the start. O(cells).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Perfect {
-    /// Columns.
+    /// Number of columns.
     pub width: u16,
-    /// Rows.
+    /// Number of rows.
     pub height: u16,
 }
 

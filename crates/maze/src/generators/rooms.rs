@@ -16,9 +16,9 @@ use crate::{Cell, Direction, Grid, Maze};
 /// middle. O(cells + attempts · largest²).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rooms {
-    /// Columns.
+    /// Number of columns.
     pub width: u16,
-    /// Rows.
+    /// Number of rows.
     pub height: u16,
     /// Number of tries to place a room.
     pub attempts: u32,

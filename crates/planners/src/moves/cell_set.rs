@@ -24,7 +24,7 @@ impl<const N: usize> CellSet<N> {
         Self { rows: [0; N] }
     };
 
-    /// Returns those of `cells` that lie within `N` × `N`.
+    /// Returns the `cells` that lie within `N` × `N`.
     pub(super) fn of(cells: impl IntoIterator<Item = Cell>) -> Self {
         let mut set = Self::EMPTY;
         for cell in cells {

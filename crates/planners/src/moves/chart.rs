@@ -57,7 +57,7 @@ impl<const N: usize> Chart<N> {
         self.hoped.minus(&self.certain)
     }
 
-    /// Returns those of one cell.
+    /// Returns the unknown sides of one cell.
     pub(super) fn unknown_sides(&self, cell: Cell) -> impl Iterator<Item = Direction> {
         Direction::ALL
             .into_iter()

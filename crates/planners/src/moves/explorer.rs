@@ -67,13 +67,13 @@ pub enum MoveDecision {
     /// The mouse was at a goal, and no run from the start takes fewer steps than the best known
     /// one, whatever the unknown walls are. Its length:
     Finished {
-        /// Steps.
+        /// Number of steps.
         moves: u16,
     },
     /// The mouse was at a goal, and to look on is expected to cost more than it gains
     /// ([`WorthConfig`](super::WorthConfig)). The length of the best known run:
     Enough {
-        /// Steps.
+        /// Number of steps.
         moves: u16,
     },
     /// No way leads to a goal.
@@ -89,7 +89,7 @@ pub(super) enum Task {
     /// The mouse was at the goal and knows a run of this length: to look at what might make a
     /// better one.
     Prove {
-        /// Steps.
+        /// Number of steps.
         closed: u16,
     },
 }

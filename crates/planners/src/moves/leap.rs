@@ -35,7 +35,7 @@ impl Leap {
         })
     }
 
-    /// Returns the same, as long as the cells before are open to that direction.
+    /// Returns the leaps from a cell in one direction, as far as the cells before are open to it.
     pub(super) fn row(
         from: Cell,
         direction: Direction,

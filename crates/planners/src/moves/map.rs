@@ -46,7 +46,8 @@ impl<const N: usize> MoveMap<N> {
         Self::over(&Sides::from(passages), &CellSet::of(targets))
     }
 
-    /// Returns the same, all cells that are equally far away at once.
+    /// Returns the map of steps to `targets`. All cells that are equally far away are computed at
+    /// once.
     pub(super) fn over(sides: &Sides<N>, targets: &CellSet<N>) -> Self {
         let mut map = Self::BLANK;
         map.spread(sides, Wave::new(*targets), |_| false);

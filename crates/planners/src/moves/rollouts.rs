@@ -111,8 +111,8 @@ impl<const N: usize> Rollouts<N> {
         })
     }
 
-    /// Returns the same, but it stops as soon as the rest of the proof is expected to cost more
-    /// than it gains: see [`WorthConfig`].
+    /// Returns the same rollouts, but they stop as soon as the rest of the proof is expected to
+    /// cost more than it gains: see [`WorthConfig`].
     ///
     /// # Errors
     /// If a value is out of its range.

@@ -8,7 +8,7 @@ use crate::{InputError, QuantizerConfigError, Scalar};
 #[derive(Clone, Debug)]
 pub(crate) struct Metric<S> {
     dimension: usize,
-    /// One weight a feature, or none if all are 1.
+    /// One weight per feature; `None` if all are 1.
     weights: Option<Box<[S]>>,
     /// Maximum magnitude of a feature, so that no squared distance overflows.
     limit: S,

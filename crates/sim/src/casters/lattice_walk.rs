@@ -182,7 +182,7 @@ impl LatticeWalk {
         }
     }
 
-    /// Returns one ray, line by line.
+    /// Returns the range of one ray, line by line.
     fn walk(&self, cell: (usize, usize), origin: Point, direction: Vector, max_range: f64) -> f64 {
         let lattice = &self.lattice;
         let (west, south) = (direction.x < 0.0, direction.y < 0.0);

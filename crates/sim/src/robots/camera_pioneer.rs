@@ -41,10 +41,10 @@ pub struct CameraPioneer {
 }
 
 impl CameraPioneer {
-    /// Builds one.
+    /// Builds the robot.
     ///
     /// # Errors
-    /// If a field of the configuration has no sense.
+    /// If a field of the configuration is invalid.
     pub fn new(config: CameraPioneerConfig) -> Result<Self, CameraPioneerError> {
         Fault::check_all("image", &config.image)?;
         Ok(Self {
@@ -125,7 +125,7 @@ impl Recordable for CameraPioneer {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CameraPioneerError {
-    /// A fault has no sense.
+    /// A fault is invalid.
     #[error(transparent)]
     Fault(#[from] FaultsError),
     /// The camera cannot be built.

@@ -92,10 +92,10 @@ pub struct Epuck {
 }
 
 impl Epuck {
-    /// Builds one.
+    /// Builds the robot.
     ///
     /// # Errors
-    /// If a field of the configuration has no sense.
+    /// If a field of the configuration is invalid.
     pub fn new(config: EpuckConfig) -> Result<Self, EpuckError> {
         if config.step_us == 0 {
             return Err(EpuckError::Step);
@@ -222,7 +222,7 @@ pub enum EpuckError {
         /// The value given, rad/s.
         most: f64,
     },
-    /// A fault has no sense.
+    /// A fault is invalid.
     #[error(transparent)]
     Fault(#[from] FaultsError),
     /// The response curve is invalid.

@@ -196,10 +196,10 @@ pub struct LaserPioneer {
 }
 
 impl LaserPioneer {
-    /// Builds one.
+    /// Builds the robot.
     ///
     /// # Errors
-    /// If a field of the configuration has no sense.
+    /// If a field of the configuration is invalid.
     pub fn new(config: LaserPioneerConfig) -> Result<Self, RobotConfigError> {
         config.check()?;
         let body = Body::Circle {
@@ -357,7 +357,7 @@ impl Recordable for LaserPioneer {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RobotConfigError {
-    /// A number of the configuration has no sense.
+    /// A number of the configuration is invalid.
     #[error("`{field}` is {value}; give a number from 0 to 1000 (a time step must be positive)")]
     Field {
         /// Name of the field.
@@ -375,7 +375,7 @@ pub enum RobotConfigError {
         /// The range given, m.
         range: f64,
     },
-    /// A fault has no sense.
+    /// A fault is invalid.
     #[error(transparent)]
     Fault(#[from] FaultsError),
     /// The laser cannot be built.

@@ -225,10 +225,10 @@ pub struct Pioneer2dx {
 }
 
 impl Pioneer2dx {
-    /// Builds one.
+    /// Builds the robot.
     ///
     /// # Errors
-    /// If a field of the configuration has no sense.
+    /// If a field of the configuration is invalid.
     pub fn new(config: Pioneer2dxConfig) -> Result<Self, Pioneer2dxError> {
         config.check()?;
         let (motors, faults) = (&config.motor_noise, &config.faults);
@@ -375,7 +375,7 @@ impl Recordable for Pioneer2dx {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Pioneer2dxError {
-    /// A number of the configuration has no sense.
+    /// A number of the configuration is invalid.
     #[error("`{field}` is {value}; give a number from 0 to 1000")]
     Field {
         /// Name of the field.
@@ -386,7 +386,7 @@ pub enum Pioneer2dxError {
     /// A time step has no length.
     #[error("`step_us` is 0; give at least 1 µs")]
     NoTime,
-    /// A fault has no sense.
+    /// A fault is invalid.
     #[error(transparent)]
     Fault(#[from] FaultsError),
     /// The sonars cannot be built.

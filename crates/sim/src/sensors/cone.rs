@@ -15,7 +15,7 @@ pub(super) struct Cone {
 pub(super) struct ConeEcho {
     /// Distance, m.
     pub(super) range: f64,
-    /// Between the way there and the wall's normal, rad, 0 … π/2.
+    /// Angle between the way there and the wall's normal, rad, 0 … π/2.
     pub(super) incidence: f64,
 }
 

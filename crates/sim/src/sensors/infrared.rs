@@ -55,7 +55,7 @@ impl ResponseCurve {
     /// Returns a curve through these points.
     ///
     /// # Errors
-    /// If there are none, their ranges do not grow, or a number has no sense.
+    /// If there are none, their ranges do not grow, or a number is invalid.
     pub fn new(points: Vec<ResponsePoint>) -> Result<Self, ResponseError> {
         let curve = Self { points };
         curve.check()?;
@@ -86,7 +86,7 @@ impl ResponseCurve {
     /// Checks that it is a curve.
     ///
     /// # Errors
-    /// If it has no points, their ranges do not grow, or a number has no sense.
+    /// If it has no points, their ranges do not grow, or a number is invalid.
     pub fn check(&self) -> Result<(), ResponseError> {
         if self.points.is_empty() {
             return Err(ResponseError::NoPoints);
@@ -144,7 +144,7 @@ pub enum ResponseError {
     /// There are none.
     #[error("the curve has no points; give at least one")]
     NoPoints,
-    /// A number has no sense.
+    /// A number is invalid.
     #[error("point {index} of the curve: `{part}` is {value}; give a number from 0 to 10⁹")]
     Number {
         /// Number of the point, from 0.

@@ -71,9 +71,9 @@ impl PictureCameraConfig {
         }
     }
 
-    /// Returns the same in daylight from the west, with stains, noise, and 32 levels per colour,
-    /// like a frame grabber of 16 bits per pixel. The paper names the noise of the camera but gives
-    /// no values.
+    /// Returns the same camera in daylight from the west, with stains, noise, and 32 levels per
+    /// colour, like a frame grabber of 16 bits per pixel. The paper names the noise of the camera
+    /// but gives no values.
     #[must_use]
     pub const fn noisy() -> Self {
         let perfect = Self::noiseless();
@@ -144,7 +144,7 @@ impl PictureCamera {
     /// Returns a camera for such pictures.
     ///
     /// # Errors
-    /// If a number of the configuration has no sense.
+    /// If a number of the configuration is invalid.
     pub fn new(config: PictureCameraConfig) -> Result<Self, PictureCameraError> {
         config.check()?;
         Ok(Self {
@@ -229,7 +229,7 @@ impl Sensor for PictureCamera {
     }
 }
 
-/// A number of a camera's configuration that has no sense.
+/// A number of a camera's configuration that is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("`{field}` is {value}; give a number from {least} to {most}")]
 pub struct PictureCameraError {

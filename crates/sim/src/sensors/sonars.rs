@@ -74,8 +74,8 @@ impl SonarConfig {
         }
     }
 
-    /// Returns the same with noise: 1 % and 5 mm. From 25° on echoes are missed, at 65° two in
-    /// five. One reading in 200 is that of the sonar that fires at the same time at the robot's
+    /// Returns the same sonars with noise: 1 % and 5 mm. From 25° on echoes are missed, at 65° two
+    /// in five. One reading in 200 is that of the sonar that fires at the same time at the robot's
     /// other end. The paper calls them noisy but gives no values (section 3.2).
     #[must_use]
     pub const fn noisy() -> Self {
@@ -149,7 +149,7 @@ impl<const N: usize> Sonars<N> {
     /// Sonars that sit and look as `mounts` say, in the robot's frame.
     ///
     /// # Errors
-    /// If a number of the configuration has no sense.
+    /// If a number of the configuration is invalid.
     pub fn new(mounts: [Pose; N], config: SonarConfig) -> Result<Self, SonarError> {
         config.check()?;
         Ok(Self {
@@ -232,7 +232,7 @@ impl CrossTalk {
     }
 }
 
-/// A number of a sonar's configuration that has no sense.
+/// A number of a sonar's configuration that is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("`{field}` is {value}; give a number from {least} to {most}")]
 pub struct SonarError {

@@ -76,9 +76,9 @@ pub enum WorldError {
          positive size and resolution and one value per cell"
     )]
     Occupancy {
-        /// Columns.
+        /// Number of columns.
         width: usize,
-        /// Rows.
+        /// Number of rows.
         height: usize,
         /// Size of a cell, m.
         resolution: f64,

@@ -6,9 +6,9 @@ use super::{BitRows, Bounds, Material, WallSegment, WorldError};
 /// An occupancy grid as plain data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Occupancy {
-    /// Columns.
+    /// Number of columns.
     pub width: usize,
-    /// Rows.
+    /// Number of rows.
     pub height: usize,
     /// Size of a cell, m.
     pub resolution: f64,

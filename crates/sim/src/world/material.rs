@@ -33,7 +33,7 @@ impl Material {
         }
     }
 
-    /// Returns the same from `base` to `height` above the floor, m.
+    /// Returns the same material from `base` to `height` above the floor, m.
     #[must_use]
     pub const fn standing(self, base: f64, height: f64) -> Self {
         Self {
@@ -43,7 +43,7 @@ impl Material {
         }
     }
 
-    /// Returns the same with light of its own, 0 … 1.
+    /// Returns the same material with light of its own, 0 … 1.
     #[must_use]
     pub const fn glowing(self, glow: f64) -> Self {
         Self { glow, ..self }

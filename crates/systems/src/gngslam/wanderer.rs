@@ -44,9 +44,9 @@ impl WandererConfig {
         }
     }
 
-    /// Returns the same, except that for every record it goes up to things by a random distance:
-    /// 0.22 to 1.1 m. So it gets to the edge of the floor, which the paper's limits only let it
-    /// follow. Ours.
+    /// Returns the same configuration, except that for every record the robot goes up to things by
+    /// a random distance: 0.22 to 1.1 m. So it gets to the edge of the floor, which the paper's
+    /// limits only let it follow. Ours.
     #[must_use]
     pub const fn near_and_far() -> Self {
         Self {
@@ -55,8 +55,8 @@ impl WandererConfig {
         }
     }
 
-    /// Returns the same on a robot of other rates: fractions of the full speed and of the full turn
-    /// rate, 0 … 1.
+    /// Returns the same configuration for a robot of other rates: fractions of the full speed and
+    /// of the full turn rate, 0 … 1.
     #[must_use]
     pub const fn with_rates(mut self, translate: f64, turn: f64) -> Self {
         self.drive = self.drive.with_rates(translate, turn);

@@ -47,8 +47,8 @@ impl Certify {
 }
 
 impl Certify {
-    /// Returns the same with rollouts, but it stops as soon as the rest of the proof is expected to
-    /// cost more than it gains.
+    /// Returns the same search with rollouts, but it stops as soon as the rest of the proof is
+    /// expected to cost more than it gains.
     ///
     /// # Errors
     /// If a weight is out of its range.

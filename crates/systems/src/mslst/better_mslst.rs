@@ -29,7 +29,7 @@ enum Phase {
 }
 
 impl BetterMslst {
-    /// Returns one that knows nothing yet. `ring` is that of its robot's scans.
+    /// Returns a system that knows nothing yet. `ring` is that of its robot's scans.
     #[must_use]
     pub fn new(config: BetterConfig, ring: Ring) -> Self {
         Self {

@@ -28,7 +28,7 @@ enum Phase {
 }
 
 impl Mslst {
-    /// Returns one that knows nothing yet.
+    /// Returns a brain that knows nothing yet.
     #[must_use]
     pub fn new(config: MslstConfig) -> Self {
         Self {
@@ -37,7 +37,7 @@ impl Mslst {
         }
     }
 
-    /// Returns one that has learned `map`.
+    /// Returns a brain that has learned `map`.
     #[must_use]
     pub fn knowing(map: Arc<MslstMap>, config: MslstConfig) -> Self {
         let navigator = Navigator::new(map, &config);

@@ -39,7 +39,8 @@ impl PlacesConfig {
         }
     }
 
-    /// Returns the same for a mapper that recognizes no place: another does.
+    /// Returns the same configuration for a mapper that leaves the recognition of places to another
+    /// one.
     #[must_use]
     pub const fn unrecognized(mut self) -> Self {
         self.most_compared = 0;

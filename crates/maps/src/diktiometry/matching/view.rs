@@ -14,7 +14,7 @@ pub(crate) fn share_a_view(a: &Place, b: &Place, percepts: &Percepts) -> bool {
     a.views.is_empty() || a.views.iter().any(|view| agrees(b, Some(view), percepts))
 }
 
-/// Returns the same, as what the map learns from.
+/// Returns the similarity of two places by their views, as the map learns from it.
 pub(crate) fn similarity(a: &Place, b: &Place, percepts: &Percepts) -> Similarity {
     Similarity::of(share_a_view(a, b, percepts))
 }

@@ -23,8 +23,8 @@ const LEAST_UNIT: f64 = 0.25;
 const MORE_UNIT: f64 = 0.125;
 
 impl ActionCosts {
-    /// Returns those of [`OPTIONS`] in turn for every standpoint, where `states` are the costs of
-    /// the states of `decisions`. O(ends of decisions).
+    /// Returns the costs of [`OPTIONS`] in turn for every standpoint, where `states` are the costs
+    /// of the states of `decisions`. O(ends of decisions).
     pub(super) fn of(decisions: &Decisions, states: &[f32]) -> Self {
         let standpoints = states.len() * decisions.actions() / OPTIONS;
         let mut costs = Self {

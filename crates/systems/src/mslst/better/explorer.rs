@@ -46,7 +46,7 @@ const SURE: f64 = 0.98;
 const TURN: f64 = 0.35;
 
 impl BetterExplorer {
-    /// Returns one that knows nothing yet.
+    /// Returns an explorer without a map.
     #[must_use]
     pub fn new(config: BetterConfig) -> Self {
         let mut map = ScanMapConfig::for_robot(config.diameter);

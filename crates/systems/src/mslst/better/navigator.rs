@@ -39,7 +39,7 @@ const SURE_TO_SAY: f64 = 0.99;
 const SURE: f64 = 0.9;
 
 impl BetterNavigator {
-    /// Returns one that knows `map` and has no idea where it is.
+    /// Returns a navigator that knows `map` but not its place.
     #[must_use]
     pub fn new(map: Arc<BetterMap>) -> Self {
         Self {
