@@ -349,7 +349,7 @@ impl<R: Robot, S> Sent<R, S> {
         self.judging(move |system, _, task| judge(system, task))
     }
 
-    /// Does the same as [`judged`](Self::judged), with how each place was made, by id.
+    /// Does the same as `judged`, with how each place was made, by id.
     #[must_use]
     pub fn judging(
         self,

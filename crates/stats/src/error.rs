@@ -38,12 +38,12 @@ pub enum SampleError {
         "the exact test needs samples without ties or zero differences; take the asymptotic one"
     )]
     Ties,
-    /// More successes than trials.
+    /// There are more successes than trials.
     #[error("{successes} successes in {trials} trials; successes cannot be more than trials")]
     Successes {
         /// Successes.
         successes: u64,
-        /// Trials.
+        /// Number of trials.
         trials: u64,
     },
     /// A probability or confidence level out of range.

@@ -17,7 +17,7 @@ pub struct TrueFragments {
 pub struct WayOut {
     /// The fragment's number.
     pub fragment: u32,
-    /// Whether one enters it at its first end.
+    /// Whether it is entered at its first end.
     pub is_forward: bool,
     /// Cell at its end.
     pub to: Cell,

@@ -143,8 +143,7 @@ impl ForeignProgram {
     /// Starts a program.
     ///
     /// # Errors
-    /// [`LaunchError`] if it does not start. Behind a keeper that is seen later, by
-    /// [`left`](Self::left).
+    /// [`LaunchError`] if it does not start. With a keeper, [`left`](Self::left) reports it later.
     pub fn start(launch: &Launch<'_>, budget: Budget) -> Result<Self, LaunchError> {
         let (program, arguments) = launch.words.split_first().ok_or(LaunchError::NoProgram)?;
         let mut command = match launch.keeper {

@@ -89,8 +89,7 @@ impl MouseTrial {
         Self::watch(maze, mouse, |_| {})
     }
 
-    /// Does the same as [`play`](Self::play), and calls `see` with every step as soon as it is
-    /// made.
+    /// Does the same as `play`, and calls `see` with every step as soon as it is made.
     ///
     /// # Errors
     /// If the referee refuses the maze or an order.

@@ -28,7 +28,7 @@ pub(super) struct Tried {
     /// Time steps it took.
     pub(super) steps: u32,
     pub(super) moved: bool,
-    /// Whether the robot came to lie in the destination.
+    /// Whether the robot ended in the destination.
     pub(super) arrived: bool,
 }
 

@@ -202,8 +202,7 @@ impl PlaceMap {
     }
 }
 
-/// Returns two rows that differ, drawn at random; the last two that were drawn if all that are
-/// tried are equal.
+/// Returns two different rows, drawn at random. If all tries give equal rows, returns the last two.
 fn two_of<'a>(rows: &[&'a [f32]], rng: &mut impl Rng) -> Result<[&'a [f32]; 2], PlaceMapError> {
     let found = rows.len();
     let count = u32::try_from(found).unwrap_or(u32::MAX);

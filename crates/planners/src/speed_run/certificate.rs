@@ -47,7 +47,7 @@ pub enum SpeedRunCertificateError {
     /// The run does not end in the middle of a goal.
     #[error("the run does not end in the middle of a goal")]
     NotAtGoal,
-    /// The run takes longer or less long than said.
+    /// The run does not take the stated time.
     #[error("the run takes {actual_ms} ms, not the {time_ms} ms that the certificate says")]
     WrongTime {
         /// Duration by the certificate.
