@@ -56,7 +56,7 @@ pub struct Episode {
     pub failed_actions: u32,
     /// Number of these actions that failed in their first time step.
     pub failed_at_once: u32,
-    /// Time steps made; the limit where time ran out.
+    /// Number of time steps made; the limit where time ran out.
     pub steps: u32,
     /// Number of steps in which the body touched a wall.
     pub bumps: u32,

@@ -41,7 +41,7 @@ pub struct BetterLearned {
     pub map: Arc<BetterMap>,
     /// How learning ended.
     pub ended: Ended,
-    /// Actions until it had been everywhere.
+    /// Number of actions until it had been everywhere.
     pub actions: u32,
     /// True position of the robot when each place was made, by id, m.
     pub positions: Vec<Point>,
@@ -90,8 +90,8 @@ pub fn learn_better_without(
     learn_by(course, robot, &config, 1, seed)
 }
 
-/// Returns what the better system reckons with on `robot` where corridors are `corridor_width` m
-/// wide.
+/// Returns the configuration of the better system on `robot`, where corridors are `corridor_width`
+/// m wide.
 #[must_use]
 pub fn better_config(corridor_width: f64, robot: &LaserPioneerConfig) -> BetterConfig {
     BetterConfig {

@@ -277,7 +277,7 @@ pub struct Sent<R: Robot, S> {
     system: S,
     /// Origin of each place of the map, by id.
     sites: Vec<Founding>,
-    /// Actions made since the map has a place.
+    /// Number of actions made since the map has a place.
     actions: u32,
     count: Count<S>,
     keep: Keep<S>,

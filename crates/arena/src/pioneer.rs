@@ -84,7 +84,7 @@ pub const fn body() -> Body {
     }
 }
 
-/// Returns the same robot with perfect motors and sensors: what a planner reckons with.
+/// Returns the same robot with perfect motors and sensors: the robot that a planner assumes.
 #[must_use]
 pub fn without_noise(robot: &LaserPioneerConfig) -> LaserPioneerConfig {
     let perfect = LaserPioneerConfig::noiseless();

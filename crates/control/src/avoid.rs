@@ -34,7 +34,7 @@ pub struct Avoid {
     /// of 72.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::beams"))]
     pub ahead: usize,
-    /// Beams beyond those, on either side, that are watched. Paper: 4 of 72.
+    /// Number of beams beyond those, on either side, that are watched. Paper: 4 of 72.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::beams"))]
     pub beside: usize,
     /// Whether this action has made a step ahead, and one back.

@@ -6,7 +6,7 @@
 //!
 //! [`LogReader`] reads logs of robots; what cannot be used of them stands in a [`LogReport`].
 //! [`ReadTrajectory`] and [`tum`] are ways in time, [`ReadRelations`] what is known of them.
-//! [`UtiasRobot`], [`TucDrive`] and [`SonarTable`] are data sets of others. [`dot`], [`graphml`],
+//! [`UtiasRobot`], [`TucDrive`] and [`SonarTable`] are published data sets. [`dot`], [`graphml`],
 //! [`node_link_json`] and [`route_geojson`] write maps of places.
 //!
 //! ```

@@ -1,4 +1,4 @@
-//! Data sets of others, each in a few lines of its kind, whole and spoiled.
+//! Published data sets, each in a few lines of its kind, intact and damaged.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::fs;

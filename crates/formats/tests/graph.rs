@@ -1,5 +1,5 @@
-//! Graphs are read by the programs of others:
-//! `cargo test -p tolman-formats --test graph -- --ignored` fetches networkx and evo from PyPI.
+//! Other programs read the graphs: `cargo test -p tolman-formats --test graph -- --ignored` fetches
+//! networkx and evo from PyPI.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Logs of others, whole and spoiled: what can be used is used, and said.
+//! Published logs, intact and damaged: usable lines are used, and the rest is reported.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::fs;

@@ -1,4 +1,4 @@
-//! Bags of ROS 2: written here by the crate that reads them, and by the program of others.
+//! Bags of ROS 2, written by the crate that reads them and by another program.
 #![cfg(feature = "mcap")]
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![expect(clippy::float_cmp, reason = "what was written is read to the bit")]

@@ -43,7 +43,7 @@ pub struct SessionState {
     pub task: SessionTask,
     /// Whether the task is under way.
     pub is_busy: bool,
-    /// Time steps made so far.
+    /// Number of time steps made so far.
     pub steps: usize,
     /// Duration of a time step, s.
     pub step_s: f64,
@@ -51,7 +51,7 @@ pub struct SessionState {
     pub places: usize,
     /// Number of places or poses that the system takes for possible.
     pub guesses: usize,
-    /// What is happening, or what came of the task; one or two sentences.
+    /// Present activity, or the result of the task, in one or two sentences.
     pub told: String,
     /// Tone of these words.
     pub tone: Tone,

@@ -27,7 +27,7 @@ pub enum Tone {
     Neutral,
 }
 
-/// Returns what came of learning.
+/// Returns the result of learning, in words.
 pub(crate) fn explored(name: &str, record: &LearnRecord) -> TaskVerdict {
     let LearnRecord {
         end,
@@ -73,7 +73,7 @@ pub(crate) fn explored(name: &str, record: &LearnRecord) -> TaskVerdict {
     TaskVerdict { told, tone }
 }
 
-/// Returns what came of it when the robot was put down.
+/// Returns the result of localizing, in words.
 pub(crate) fn found(record: &FoundOut) -> TaskVerdict {
     let after = format!(
         "after {}, {:.1} m",
@@ -98,7 +98,7 @@ pub(crate) fn found(record: &FoundOut) -> TaskVerdict {
     TaskVerdict { told, tone }
 }
 
-/// Returns what came of the way to the goal.
+/// Returns the result of the way to the goal, in words.
 pub(crate) fn home(record: &WayHome) -> TaskVerdict {
     let shortest = record.shortest;
     let (told, tone) = match record.metres {

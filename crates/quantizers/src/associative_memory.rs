@@ -37,7 +37,7 @@ use crate::{
 #[derive(Clone, Debug)]
 pub struct AssociativeMemory<S: Scalar> {
     soinn: Soinn<S>,
-    /// Features of a key; those of its response follow.
+    /// Number of features of a key; those of its response follow.
     key_dimension: usize,
 }
 

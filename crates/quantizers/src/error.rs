@@ -13,9 +13,9 @@ pub enum InputError {
     /// The input has another number of features than the network.
     #[error("the input has {found} features where the network has {expected}")]
     WrongDimension {
-        /// Features of the network.
+        /// Number of features of the network.
         expected: usize,
-        /// Features of the input.
+        /// Number of features of the input.
         found: usize,
     },
     /// A feature is NaN or infinite.
@@ -41,9 +41,9 @@ pub enum InputError {
     /// The mask of a query has another number of features than the network.
     #[error("the mask has {found} features where the network has {expected}")]
     WrongMask {
-        /// Features of the network.
+        /// Number of features of the network.
         expected: usize,
-        /// Features of the mask.
+        /// Number of features of the mask.
         found: usize,
     },
     /// The mask of a query leaves no feature to compare.

@@ -23,7 +23,7 @@ pub enum Event {
     },
     /// A unit became part of another. Its edges were taken away or taken over just before.
     Merged {
-        /// The unit that went.
+        /// The removed unit.
         gone: UnitId,
         /// The unit that stands for both.
         into: UnitId,

@@ -10,9 +10,9 @@ use tolman_geom::Point;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Picture {
-    /// Pixels across.
+    /// Number of pixels across.
     pub width: u32,
-    /// Pixels down.
+    /// Number of pixels down.
     pub height: u32,
     /// The camera that took it.
     pub camera: PinholeCamera,

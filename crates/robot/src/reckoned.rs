@@ -1,6 +1,6 @@
 use crate::{Landmark, Odometry, Robot, Rolls, SensesLandmarks};
 
-/// A robot whose odometry is handed to somebody who reckons with it, step by step.
+/// A robot whose odometry is handed to an observer, step by step.
 ///
 /// ```
 /// use tolman_robot::geom::Pose;

@@ -196,7 +196,7 @@ fn follow(body: &mut Placed, obstacles: &Obstacles, motion: Motion, contact: Con
     mover.cut
 }
 
-/// A touch: after what share of a displacement, and the unit normal away from what was touched.
+/// A touch: the share of a displacement before it, and the unit normal away from the touched thing.
 #[derive(Clone, Copy)]
 struct Touch {
     share: f64,

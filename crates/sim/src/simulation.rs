@@ -25,7 +25,7 @@ pub struct Truth {
     pub motion: Motion,
     /// Whether that motion was cut by a contact.
     pub bump: bool,
-    /// Steps since the run began.
+    /// Number of steps since the run began.
     pub tick: u64,
     /// Microseconds since the run began.
     pub time_us: u64,

@@ -41,7 +41,7 @@ pub enum SampleError {
     /// There are more successes than trials.
     #[error("{successes} successes in {trials} trials; successes cannot be more than trials")]
     Successes {
-        /// Successes.
+        /// Number of successes.
         successes: u64,
         /// Number of trials.
         trials: u64,

@@ -467,7 +467,7 @@ pub(super) struct Pursuit {
     kidnapping: Option<(f64, Pose)>,
     /// The first time step of it.
     from: usize,
-    /// Time steps until then in which the robot touched something.
+    /// Number of time steps until then in which the robot touched something.
     bumped: usize,
     /// Metres driven.
     driven: f64,
@@ -625,7 +625,7 @@ impl Bout {
             Ok(Standing::UnderWay) => {}
             Ok(Standing::Done) => return Some(TaskEnd::Done),
             Ok(Standing::GaveUp { why }) => return Some(TaskEnd::GaveUp { why }),
-            // It broke off amid an action, as it had to.
+            // It broke off in the middle of an action, as it had to.
             Err(_) if self.outing.is_out_of_time() => return Some(TaskEnd::OutOfTime),
             Err(error) => {
                 let why = error.to_string();
@@ -700,7 +700,7 @@ impl Bout {
         self.learned(driven, been)
     }
 
-    /// Begins to learn. Amid that, the robot is put where `kidnapping` says.
+    /// Begins to learn. During that, the robot is put where `kidnapping` says.
     pub(super) fn begin_to_learn(&mut self, kidnapping: Option<(Cell, Direction)>) -> Pursuit {
         let kidnapping = kidnapping.map(|(cell, way)| {
             let pose = Pose::new(self.squares.middle(cell), heading_of(way));
@@ -710,7 +710,8 @@ impl Bout {
         self.set_out(Task::Explore, most, kidnapping)
     }
 
-    /// Returns what came of learning that went so, while the robot was there.
+    /// Returns the record of a learning run from its drive and the places where the robot truly
+    /// was.
     pub(super) fn learned(&mut self, driven: Driven, been: TrueVisits) -> LearnRecord {
         let squares = self.squares;
         let visits = been.visits(self.outing.visits());

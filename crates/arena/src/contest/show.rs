@@ -137,7 +137,7 @@ impl Bout {
         Ok(standing)
     }
 
-    /// Returns what came of it when the robot was put back.
+    /// Returns the result after the robot was put back.
     pub(super) fn not_put_down(&self, why: String) -> FoundOut {
         FoundOut {
             outcome: LocateOutcome::Abstained { why },
@@ -154,7 +154,7 @@ impl Bout {
         self.set_out(Task::Localize, most, None)
     }
 
-    /// Returns what came of that when it went so.
+    /// Returns the result of localizing by this drive.
     pub(super) fn found_out(&self, driven: Driven, actions: u32) -> FoundOut {
         FoundOut {
             metres: driven.metres,

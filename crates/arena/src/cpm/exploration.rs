@@ -19,7 +19,8 @@ pub struct Exploration {
     /// Whether each place and fragment of the maze is on the map once, and all are joined as they
     /// truly are.
     pub is_map_right: bool,
-    /// Fragments walked, each as often as it was, until the robot knew that it had walked all.
+    /// Number of fragments walked, each as often as it was, until the robot knew that it had walked
+    /// all.
     pub traversals: u32,
     /// Number of fragments of the maze that can be reached.
     pub fragments: u32,

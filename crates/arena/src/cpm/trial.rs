@@ -57,7 +57,7 @@ pub struct TrialRecord {
     pub is_map_right: bool,
     /// Counts of loops closed correctly and wrongly.
     pub closures: Closures,
-    /// Fragments walked in the first episode, each as often as it was.
+    /// Number of fragments walked in the first episode, each as often as it was.
     pub traversals: u32,
     /// Number of fragments of the map at the end of it.
     pub fragments: u32,

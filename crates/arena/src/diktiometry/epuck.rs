@@ -86,7 +86,7 @@ pub struct EpuckSurvey {
     pub score: MapScore,
     /// Number of moves that were made.
     pub moves: u32,
-    /// Moves whose true displacement lies within odometry's bounds.
+    /// Number of moves whose true displacement lies within odometry's bounds.
     pub bounded: u32,
     /// Reason why it broke off.
     pub trouble: Option<String>,

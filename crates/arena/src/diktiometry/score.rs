@@ -37,7 +37,7 @@ pub struct MapScore {
     pub believed_precision: f64,
     /// Share of the true ways of the whole world that are on the map.
     pub link_recall: f64,
-    /// Share of the true ways that were gone at least once which are on the map.
+    /// Share of the ways driven at least once that are on the map.
     pub gone_recall: f64,
     /// Whether the map is one to one the graph of the true places visited and the ways gone.
     pub is_isomorphic: bool,

@@ -42,7 +42,7 @@ pub enum G2oFaultKind {
         /// Text found.
         text: String,
     },
-    /// A pose stands twice.
+    /// A pose is given twice.
     #[error("pose {id} is given a second time, first in line {first}; remove one")]
     Twice {
         /// The pose.

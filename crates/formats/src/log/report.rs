@@ -7,11 +7,11 @@ use super::LogError;
 /// Report on reading a log: its contents, what was left out, and where.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LogReport {
-    /// Lines, empty ones and comments among them.
+    /// Number of lines, including empty ones and comments.
     pub lines: u64,
     /// Number of lines of odometry that were used.
     pub odometry: u64,
-    /// Scans that were used.
+    /// Number of scans that were used.
     pub scans: u64,
     /// Number of scans in which no beam hit anything.
     pub empty_scans: u64,

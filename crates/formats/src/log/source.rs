@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use flate2::bufread::MultiGzDecoder;
 use thiserror::Error;
 
-/// Reason why a file of others cannot be used at all.
+/// Reason why an outside file cannot be used at all.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LogError {

@@ -57,7 +57,7 @@ pub enum GreyMapError {
         byte: usize,
         /// Number of values found.
         found: usize,
-        /// Values there should be.
+        /// Number of values there should be.
         wanted: usize,
     },
 }

@@ -55,7 +55,7 @@ pub(super) struct Transform {
     rotation: [f64; 4],
 }
 
-/// Bytes before a message that tell its byte order.
+/// Number of bytes before a message that tell its byte order.
 const ENCAPSULATION: usize = 4;
 
 /// Reads a message and returns it; bytes after its last field are ignored.

@@ -16,7 +16,7 @@ pub struct AuditConfig {
     pub tight_share: f64,
     /// Radius of the region of poses near by, m (default 5); their headings are any.
     pub near: f64,
-    /// Closures whose ends lie at most this many poses apart, both, are of one run (default 3).
+    /// Maximum distance of two closures of one run, at both ends, poses (default 3).
     pub run_gap: u32,
     /// Pairs of closures are compared whose ends lie at most this many poses apart, both (default
     /// 60).

@@ -21,7 +21,7 @@ pub(super) struct Beam {
     width: usize,
     /// Maximum number of hypotheses that was configured.
     narrow: usize,
-    /// Walks understood since the width last changed.
+    /// Number of walks understood since the width last changed.
     understood: u32,
     /// What was known before the first event of `met`.
     begin: Mapper,

@@ -93,7 +93,7 @@ pub enum RecallError {
 }
 
 impl Environments {
-    /// Places along a fragment that its code holds.
+    /// Number of places along a fragment that its code holds.
     pub const SAMPLES: usize = 16;
 
     /// Returns an empty memory for sequences of a dictionary and of all its later versions.

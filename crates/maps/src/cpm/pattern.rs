@@ -61,9 +61,9 @@ pub enum DictionaryError {
     /// A prototype of another size.
     #[error("the prototype has {found} features where the dictionary has {expected}")]
     WrongDimension {
-        /// Features of the dictionary.
+        /// Number of features of the dictionary.
         expected: usize,
-        /// Features of the prototype.
+        /// Number of features of the prototype.
         found: usize,
     },
     /// A feature that distances cannot be measured with.

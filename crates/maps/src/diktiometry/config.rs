@@ -148,7 +148,7 @@ pub enum Percepts {
 pub struct SignatureKind {
     /// Number of values in a column, ≥ 1.
     pub rows: usize,
-    /// Columns, ≥ 1.
+    /// Number of columns, ≥ 1.
     pub columns: usize,
     /// Maximum difference between values of two views of one place, in the units of the values, ≥
     /// 0: twice the bound of the sensor's noise.

@@ -14,7 +14,7 @@ pub struct Looks {
     pub followed: u32,
     /// Number of these pairs whose neighbours look alike, too.
     pub repeating: u32,
-    /// Places before this id were compared with all that look like them.
+    /// Id below which all places were compared with those that look like them.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) noted: usize,
     /// Minimum number of kinds of looks so far that is enough for a merge where geometry knows

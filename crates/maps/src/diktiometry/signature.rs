@@ -40,17 +40,17 @@ pub enum SignatureError {
     /// There is nothing in it.
     #[error("the signature has {values} values in {rows} rows; give at least one of each")]
     Empty {
-        /// Rows asked for.
+        /// Number of rows asked for.
         rows: usize,
-        /// Values given.
+        /// Number of values given.
         values: usize,
     },
     /// The columns are not of one length.
     #[error("{values} values do not make columns of {rows} rows; give a multiple of {rows}")]
     Ragged {
-        /// Rows asked for.
+        /// Number of rows asked for.
         rows: usize,
-        /// Values given.
+        /// Number of values given.
         values: usize,
     },
     /// A value is NaN or infinite.

@@ -21,7 +21,7 @@ const MOST_COLUMNS: u32 = 40;
 /// Number of rows at the bottom that have to be floor.
 const FLOOR_ROWS: u32 = 3;
 
-/// Rows above the foot whose mean is the colour of what stands there.
+/// Number of rows above the foot whose mean is the colour of what stands there.
 const COLOUR_ROWS: u32 = 3;
 
 /// A pixel differs from the floor by this share of its brightness, or it is floor.

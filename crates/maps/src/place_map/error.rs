@@ -34,9 +34,9 @@ pub enum FeatureError {
     BadPicture {
         /// Its number, from 0.
         record: usize,
-        /// Pixels across.
+        /// Number of pixels across.
         width: u32,
-        /// Pixels down.
+        /// Number of pixels down.
         height: u32,
         /// Number of pixels that are there.
         found: usize,
@@ -110,7 +110,7 @@ pub enum PlaceMapError {
     WrongDimension {
         /// Number of values of all groups.
         expected: usize,
-        /// Features of the network.
+        /// Number of features of the network.
         found: usize,
     },
     /// A saved scale that is not above zero.

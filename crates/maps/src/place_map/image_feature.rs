@@ -13,9 +13,9 @@ use super::ColourSpace;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ImageFeature {
-    /// Pixels across, at least 1.
+    /// Number of pixels across, at least 1.
     pub width: u32,
-    /// Pixels down, at least 1.
+    /// Number of pixels down, at least 1.
     pub height: u32,
     /// Colour space of the pixels.
     pub colours: ColourSpace,

@@ -65,7 +65,7 @@ impl OptimizerConfig {
 /// Result of an optimization.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Optimized {
-    /// Steps made.
+    /// Number of steps made.
     pub steps: u32,
     /// The sum of squared errors before, doubted closures less; no unit.
     pub error_before: f64,

@@ -32,7 +32,7 @@ pub(super) const RANGE_UNIT: f64 = 0.01;
 pub(super) const UNKNOWN: u8 = u8::MAX;
 /// Maximum length to which beams are followed, in [`RANGE_UNIT`]s.
 const LONGEST: f64 = 254.0;
-/// Steps in which a beam is followed, cells.
+/// Length of a step along a beam, cells.
 const STRIDE: f64 = 0.5;
 
 impl Rays {

@@ -38,7 +38,7 @@ struct GridCell {
 const DISTANCE_UNIT: f64 = 0.005;
 /// Value of cells that are farther from any wall than distances are kept.
 const FAR: u8 = u8::MAX;
-/// Cells added at once on a side that the grid outgrows.
+/// Number of cells added at once on a side that the grid outgrows.
 const MARGIN: i32 = 48;
 /// Error of a beam's end above which it did not end on the known wall, m.
 const ELSEWHERE: f64 = 0.2;

@@ -199,7 +199,7 @@ pub(crate) fn draw(maze: &Maze, out: &mut impl fmt::Write) -> fmt::Result {
 /// A line of a drawing. Offsets count characters from the drawing's west border.
 struct Row<'a> {
     line: Line<'a>,
-    /// Blanks before the west border.
+    /// Number of blanks before the west border.
     indent: usize,
 }
 

@@ -11,9 +11,9 @@ pub enum GenerateError {
         Grid::MAX_SIDE
     )]
     Size {
-        /// Columns asked for.
+        /// Number of columns asked for.
         width: u16,
-        /// Rows asked for.
+        /// Number of rows asked for.
         height: u16,
     },
     /// The share of dead ends to open is invalid.
@@ -53,9 +53,9 @@ pub enum GenerateError {
     Small {
         /// The name of the drawing.
         drawing: &'static str,
-        /// Columns asked for.
+        /// Number of columns asked for.
         width: u16,
-        /// Rows asked for.
+        /// Number of rows asked for.
         height: u16,
         /// Minimum number of columns and rows.
         least: (u16, u16),

@@ -12,9 +12,9 @@ use crate::{Cell, Direction, Maze};
 /// stem. No start is marked, and cells off the letter are closed. O(cells).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hook {
-    /// Columns: the width of the hook, cells, at least 2.
+    /// Number of columns: the width of the hook, cells, at least 2.
     pub width: u16,
-    /// Rows: the height of the stem, cells, at least 3.
+    /// Number of rows: the height of the stem, cells, at least 3.
     pub height: u16,
 }
 

@@ -14,9 +14,9 @@ use crate::{Cell, Direction, Grid, Maze};
 /// marked, and cells between the corridors are closed. O(tries · cells).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OneLoop {
-    /// Columns, at least 3.
+    /// Number of columns, at least 3.
     pub width: u16,
-    /// Rows, at least 3.
+    /// Number of rows, at least 3.
     pub height: u16,
     /// Minimum number of dead ends.
     pub dead_ends: usize,

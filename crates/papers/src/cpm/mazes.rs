@@ -12,7 +12,7 @@ use tolman_arena::course::Course;
 use tolman_arena::cpm::{BendLikeness, CORRIDOR_WIDTH, epuck_course};
 use tolman_experiment::BoxError;
 
-/// Cells along each side of an aliased maze.
+/// Number of cells along each side of an aliased maze.
 const ALIASED_SIDE: u16 = 5;
 
 /// Returns the paper's three mazes, redrawn.

@@ -123,7 +123,7 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
         self.stage
     }
 
-    /// Returns the planner: which run is hoped for, and in the end known to be the best.
+    /// Returns the planner. Its run is the best possible one, and in the end the proven best.
     #[must_use]
     pub const fn planner(&self) -> &SpeedRunPlanner<'a, N> {
         &self.planner

@@ -31,7 +31,7 @@ pub struct SavedGng<S> {
     /// Factor by which errors have decayed since all of them were last brought up to date; above 0,
     /// at most 1.
     pub factor: f64,
-    /// Inputs learnt.
+    /// Number of inputs learnt.
     pub steps: u64,
 }
 

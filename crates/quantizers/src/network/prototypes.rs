@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use crate::Scalar;
 
-/// Units abreast in a block.
+/// Number of units side by side in a block.
 pub(crate) const LANES: usize = 16;
 
 /// Vectors of one dimension in blocks of [`LANES`]: first the first feature of each, then the

@@ -28,7 +28,7 @@ pub struct SavedSoinn<S> {
     pub network: NetworkSnapshot<S>,
     /// Memory of each unit.
     pub tallies: Vec<Tally>,
-    /// Inputs learnt.
+    /// Number of inputs learnt.
     pub steps: u64,
 }
 

@@ -5,7 +5,7 @@ use tolman_robot::Ring;
 
 use crate::WallSegment;
 
-/// Beams are padded to a multiple of this many, so that lanes need no remainder.
+/// Number to a multiple of which the beams are padded, so that lanes need no remainder.
 pub(super) const LANES: usize = 4;
 
 /// The beams of a ring from one point of the world, and how far each has got: a depth buffer of one

@@ -19,7 +19,7 @@ pub struct ColumnCamera {
     reach: f64,
 }
 
-/// Looks into one column, side by side: a column that two walls share mixes their colours.
+/// Number of rays in one column, side by side: a column that two walls share mixes their colours.
 const RAYS: usize = 5;
 
 impl ColumnCamera {

@@ -20,9 +20,9 @@ use light::{Shine, Weather};
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct PictureCameraConfig {
-    /// Pixels across, 1 to 4096.
+    /// Number of pixels across, 1 to 4096.
     pub width: u32,
-    /// Pixels down, 1 to 4096.
+    /// Number of pixels down, 1 to 4096.
     pub height: u32,
     /// Mount and field of view of the camera.
     pub camera: PinholeCamera,

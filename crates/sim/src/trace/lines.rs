@@ -60,7 +60,7 @@ pub enum TraceLine<M: Recordable> {
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, bound = "")]
 pub struct StepRecord<M: Recordable> {
-    /// Steps since the run began, this one among them.
+    /// Number of steps since the run began, this one among them.
     pub tick: u64,
     /// Microseconds since the run began.
     pub time_us: u64,

@@ -35,8 +35,8 @@ pub(super) struct Guide {
 /// Number of moves between two checks of what speaks against the map.
 const CHECKED: u32 = 10;
 
-/// Moves per place, and moves at most, without folding after which a map is given up: nearly all
-/// that fold do so sooner.
+/// Number of moves per place, and moves at most, without folding after which a map is given up:
+/// nearly all that fold do so sooner.
 const PATIENCE: u32 = 5;
 const MOST_PATIENCE: u32 = 300;
 

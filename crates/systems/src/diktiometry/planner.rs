@@ -51,7 +51,7 @@ impl Planner {
     }
 
     /// Returns where to go from a place whose open ways are `exits`, by [`Direction::index`];
-    /// `None` if no way leads on. Draws two random numbers, whatever comes of them.
+    /// `None` if no way leads on. Draws two random numbers in any case.
     pub fn choose(
         &mut self,
         observer: &Observer,

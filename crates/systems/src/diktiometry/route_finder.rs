@@ -35,7 +35,8 @@ const SURE: f64 = 0.9;
 const UNSENSED: f64 = 0.05;
 /// Stream of the random walk.
 const WALK_STREAM: u64 = 1;
-/// Number of moves after which a rover that fits nowhere gives up, beside ten for each place.
+/// Number of moves after which a rover that fits nowhere gives up, in addition to ten for each
+/// place.
 const PATIENCE: usize = 40;
 
 impl RouteFinder {

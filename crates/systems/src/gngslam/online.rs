@@ -133,11 +133,11 @@ pub struct OnlineSlam {
     /// Odometry since the last look.
     rolled: Vec<Odometry>,
     was_put_down: bool,
-    /// Looks round that are still to be made.
+    /// Number of looks round that are still to be made.
     looks_round: u32,
     /// Remaining angle of the turn under way, rad.
     turn: f64,
-    /// Looks since the last new place.
+    /// Number of looks since the last new place.
     quiet: u32,
     /// Positions where landmarks were sensed.
     sightings: Vec<LandmarkSighting>,

@@ -150,8 +150,8 @@ impl<O: OfSites> Mapper for SiteMapper<O> {
         self.tell(self.places.visit_count().saturating_sub(1))
     }
 
-    /// Returns the mapper's map; a place lies in the middle of where the robot stood that came to
-    /// it.
+    /// Returns the mapper's map. A place lies in the middle of the robot's positions when it came
+    /// to the place.
     fn map(&self) -> MapView {
         let mut stood: BTreeMap<u32, Vec<Point>> = BTreeMap::new();
         for (keyframe, place) in self.keyframes_of_visits() {

@@ -60,7 +60,7 @@ impl Pilot {
     }
 
     /// Stands still and returns what is seen of the walls from the cell whose middle is `middle`;
-    /// `None` if the ranges stay away.
+    /// `None` if no ranges come.
     pub(super) fn look<R: Body>(
         &mut self,
         robot: &mut R,

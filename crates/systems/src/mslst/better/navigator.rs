@@ -54,7 +54,7 @@ impl BetterNavigator {
         }
     }
 
-    /// Returns the map it goes by.
+    /// Returns the map it navigates by.
     #[must_use]
     pub fn chart(&self) -> &ScanChart {
         self.current().chart()

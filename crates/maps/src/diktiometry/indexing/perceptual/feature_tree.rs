@@ -11,7 +11,7 @@ pub(super) struct Feature {
     pub(super) column: u32,
 }
 
-/// Features that are not in a tree yet, at most.
+/// Maximum number of features that are not in a tree yet.
 const LOOSE: usize = 32;
 
 /// A growing k-d tree of features. It consists of several balanced trees, one for each binary digit
