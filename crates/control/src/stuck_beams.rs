@@ -6,8 +6,8 @@ use tolman_robot::Scan;
 ///
 /// Walls lead from beam to beam, so that a beam seldom says much more or much less than both beams
 /// beside it. One that does so in most scans is stuck; one that has stopped doing so for long is
-/// sound again. What a stuck beam says is replaced by the nearer of what the sound beams beside it
-/// say.
+/// sound again. The range of a stuck beam is replaced by the smaller one of the sound beams beside
+/// it.
 ///
 /// ```
 /// use tolman_control::StuckBeams;

@@ -20,10 +20,10 @@ pub enum Contact {
     Slide,
 }
 
-/// Bodies keep this far apart, m: more than a step's rounding, less than any sensor sees.
+/// Gap that bodies keep, m: more than a step's rounding, less than any sensor sees.
 const SKIN: f64 = 1e-6;
 
-/// A motion cut by less than this, m, met nothing: it is the rounding of a slide.
+/// Cut of a motion below which it met nothing, m: the rounding of a slide.
 const CUT: f64 = 1e-12;
 
 /// Maximum turn along one chord, rad.

@@ -40,7 +40,7 @@ impl Echo {
     }
 }
 
-/// A point this near to a wall lies on it, m.
+/// Distance from a wall within which a point lies on it, m.
 const TOUCHING: f64 = 1e-6;
 
 impl<'a> Surroundings<'a> {

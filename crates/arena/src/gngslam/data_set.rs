@@ -73,7 +73,7 @@ fn cost(pitch: &Pitch, pose: Pose, goal: Pose) -> f64 {
     const OFF: f64 = 0.5;
     const ASIDE: f64 = 0.1;
     const ASLANT: f64 = 0.4;
-    /// A goal that something hides is seen worse than any that is not.
+    /// Penalty of a goal that something hides: it is seen worse than any that nothing hides.
     const HIDDEN: f64 = 1e6;
     /// The goal itself stands a little before its wall, m.
     const PROUD: f64 = 0.05;

@@ -15,7 +15,7 @@ pub(super) const SAMPLES: usize = 8;
 /// error that the layers leave.
 const ASKEW: f64 = 6.0 * core::f64::consts::PI / 180.0;
 
-/// Costs count as settled when a sweep changes none by more than this, time steps.
+/// Maximum change of a cost in a sweep at which the costs count as settled, time steps.
 const SETTLED: f64 = 0.01;
 
 /// Sweeps after which costs are taken as they are.

@@ -10,7 +10,7 @@ use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use crate::course::Course;
 use crate::episode_error::{EpisodeError, step_failed};
 
-/// An action that has not ended by then swings to and fro for long, and counts as failed.
+/// Time steps after which an action counts as failed: it swings to and fro.
 const LONGEST_ACTION: u32 = 40;
 
 /// A robot that is set down anywhere to try an action with its own layers.

@@ -59,8 +59,8 @@ const SURPRISE: f64 = 0.02;
 /// spacing of the lattice across, and half a beam beside.
 const RANGE_SD: f64 = 0.15;
 
-/// A beam more than this many standard deviations off has met another wall; how far off says no
-/// more.
+/// Number of standard deviations above which a beam has met another wall. A larger difference tells
+/// nothing more.
 const OUTLIER: f64 = 3.0;
 
 /// Weight of all beams together, in independent beams: beams that see the same walls are

@@ -49,7 +49,8 @@ impl NearLimits {
     /// Returns the range below which a sensor says that something is near, m.
     #[must_use]
     pub fn threshold(&self, sounding: &Sounding) -> f64 {
-        /// A sensor that looks straight to the side belongs to the sides, whatever the rounding.
+        /// Angle above which a sensor looks back, rad. One that looks straight to the side belongs
+        /// to the sides, whatever the rounding.
         const ASIDE: f64 = FRAC_PI_2 + 1e-6;
         let bearing = sounding.mount.heading.radians().abs();
         if bearing > ASIDE {

@@ -253,13 +253,13 @@ impl UntilNear {
     }
 }
 
-/// A turn by an angle takes no more time steps than this.
+/// Maximum number of time steps of a turn by an angle.
 const MOST_TURN_STEPS: u32 = 60;
 
 /// The first command of such a turn, as a fraction of the full rate.
 const FIRST_COMMAND: f64 = 0.05;
 
-/// It is done this near to what was wanted, rad.
+/// Error at which a turn is done, rad.
 const NEAR_ENOUGH: f64 = 0.02;
 
 /// Number of time steps in which a robot moves away from what it touched while it turned.

@@ -5,7 +5,7 @@ use tolman_robot::Ring;
 
 use crate::fields::Fields;
 
-/// A beam of that length or more has hit nothing, m.
+/// Range from which a beam has hit nothing, m.
 pub(super) const NOTHING_HIT: f64 = 80.0;
 
 /// Parameters of the front laser, from PARAM lines.
@@ -47,8 +47,8 @@ impl Parameters {
         }
     }
 
-    /// Returns where the laser sits, by the parameters if the two poses of a FLASER bear them out,
-    /// else in the middle.
+    /// Returns the pose of the laser on the robot: that of the parameters if the two poses of a
+    /// FLASER agree with it, otherwise the middle.
     pub(crate) fn robot_from_laser(&self, odometry: Pose, laser: Pose) -> Pose {
         let offset = Pose::new(Point::new(self.offset.unwrap_or(0.0), 0.0), Heading::EAST);
         let off = odometry.compose(offset).between(laser);

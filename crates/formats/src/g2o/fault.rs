@@ -10,7 +10,7 @@ pub struct G2oFault {
     pub kind: G2oFaultKind,
 }
 
-/// Reason why a line of a pose graph's file is of no use.
+/// Reason why a line of a pose graph's file cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum G2oFaultKind {

@@ -68,7 +68,7 @@ fn text(bytes: &[u8]) -> Line<'_> {
     core::str::from_utf8(bytes).map_or(Line::NoText, |text| Line::Text(text.trim()))
 }
 
-/// A line that goes on for longer ends the file: it has no lines, or never ends, bytes.
+/// Length of a line that ends the file, bytes: the file has no lines, or never ends.
 const SKIPPED: usize = 64 << 20;
 
 /// Reads to the end of a line, and returns whether there may be another.

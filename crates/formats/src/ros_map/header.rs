@@ -14,9 +14,9 @@ pub struct RosMapHeader {
     pub origin: Point,
     /// Whether white means occupied.
     pub negate: bool,
-    /// A cell more occupied than this, 0 … 1, is occupied.
+    /// Value above which a cell is occupied, 0 … 1.
     pub occupied_thresh: f64,
-    /// A cell less occupied than this, 0 … 1, is free.
+    /// Value below which a cell is free, 0 … 1.
     pub free_thresh: f64,
 }
 

@@ -15,7 +15,7 @@ const HALF_PI: [Interval; 3] = [
     Interval::from_bounds(3.521e-27, 3.522e-27),
 ];
 
-/// Angles beyond this many quarter turns are not told apart.
+/// Number of quarter turns beyond which angles are not distinguished.
 const MOST_QUARTERS: f64 = 1_048_576.0;
 
 /// Bounds of the remainder of the series after x¹⁷ (x¹⁸ for the cosine) for |x| ≤ 0.8: 0.8¹⁹ / 19!.

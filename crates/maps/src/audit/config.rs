@@ -18,8 +18,7 @@ pub struct AuditConfig {
     pub near: f64,
     /// Maximum distance of two closures of one run, at both ends, poses (default 3).
     pub run_gap: u32,
-    /// Pairs of closures are compared whose ends lie at most this many poses apart, both (default
-    /// 60).
+    /// Maximum distance, at both ends, of two closures that are compared, poses (default 60).
     pub pair_gap: u32,
     /// Weight of a radian in the search for the surest way, m (default 3).
     pub lever: f64,

@@ -113,7 +113,7 @@ pub enum AuditCertificateError {
         /// The edge.
         edge: u32,
     },
-    /// The number of runs is another.
+    /// The number of runs differs.
     #[error("the audit states {told} runs of closures; the graph gives {measured}")]
     Runs {
         /// The audit's value.

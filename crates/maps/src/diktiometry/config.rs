@@ -175,8 +175,7 @@ pub enum ViewRotation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SearchLimits {
-    /// Frames whose position is known less well than this are not reached: the box's longer side,
-    /// m, > 0.
+    /// Maximum uncertainty of a frame that is reached: the longer side of its box, m, > 0.
     pub width: f64,
     /// Frames reached at most, ≥ 1.
     pub frames: usize,
@@ -301,8 +300,7 @@ pub struct Tracking {
 pub struct Transients {
     /// Whether they are elided.
     pub elision: Use,
-    /// Elided when they are met, with 99 % certainty, in less than this share of the times they are
-    /// expected, 0 … 1.
+    /// Share of expectations, 0 … 1. What is met in fewer of them, with 99 % certainty, is elided.
     pub rate: f64,
     /// Factor by which older counts fade with each expectation, in (0, 1]; at 1 nothing is
     /// forgotten.
@@ -375,7 +373,7 @@ pub struct Opportunities {
     pub shuttle: Use,
     /// Walking round a cycle again whose ends may be one place.
     pub close_loop: Use,
-    /// A link that was traversed this often needs no shuttle.
+    /// Number of traversals after which a link needs no shuttle.
     pub traversals: u32,
     /// Longest way to where a script begins, moves.
     pub reach: u32,

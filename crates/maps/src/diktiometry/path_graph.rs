@@ -395,8 +395,8 @@ impl Graph for PathGraph {
 /// The cost of a move.
 const MOVE: u32 = 100;
 
-/// A plan that fails is found out half-way and made again: some dozen moves in worlds of dozens of
-/// places.
+/// Cost of a plan that fails, moves. It is noticed half-way and made again: some dozen moves in
+/// worlds of dozens of places.
 const FAILURE: u32 = 20;
 
 /// A chance below this is as good as none.

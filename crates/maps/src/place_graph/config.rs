@@ -15,7 +15,7 @@ pub struct PlaceGraphConfig {
     /// The share of an outline's points that have to lie on surfaces of the map for a fit to be
     /// believed.
     pub least_share: f64,
-    /// The robot is lost when more than this share of its last looks contradicts the map.
+    /// Share of its last looks that contradict the map above which the robot is lost.
     pub most_doubt: f64,
     /// Most hypotheses of where a lost robot is.
     pub most_hypotheses: usize,

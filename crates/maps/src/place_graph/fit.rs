@@ -54,7 +54,7 @@ const DOUBT: f64 = 2.5;
 /// A residual of more standard deviations is as good as none found.
 const MOST_OFF: f64 = 3.0;
 
-/// A sonar hears this much beyond its cone, rad, as its mount is not known better.
+/// Angle beyond its cone in which a sonar hears, rad: its mount is not known better.
 const CONE_SLACK: f64 = 0.03;
 
 /// Points of one outline err together: each brings this share of what it would alone.

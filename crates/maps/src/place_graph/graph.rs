@@ -98,7 +98,7 @@ pub enum PlaceGraphError {
 const SURE: f64 = 0.98;
 const LEAST_LOOKS: u32 = 20;
 
-/// A place that brings less of a fit is not joined, in points.
+/// Minimum fit of a place that is joined, in points.
 const LEAST_SEEN: f64 = 6.0;
 
 /// Number of rounds in which places are fitted to each other, …
@@ -109,7 +109,7 @@ const RELAX_WITHIN: (f64, f64) = (0.1, 0.05);
 /// The first number of places that are fitted to each other.
 const FIRST_RELAXED: usize = 20;
 
-/// Places farther apart than this, in distances between places, have others between them.
+/// Distance above which two places have others between them, in distances between places.
 const LONGEST_LINK: f64 = 2.0;
 
 /// Maximum number of places joined by a fit: those that brought most of it.

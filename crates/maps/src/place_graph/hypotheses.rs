@@ -33,7 +33,7 @@ const DIRECTIONS: u32 = 14;
 /// Places that are nearer to each other make hypotheses but once, m.
 const APART: f64 = 0.4;
 
-/// A hypothesis less likely than the best by this many natural logarithms is given up.
+/// Difference of log-likelihood to the best at which a hypothesis is given up.
 const HOPELESS: f64 = 12.0;
 
 /// Two that are nearer are one, m and rad.

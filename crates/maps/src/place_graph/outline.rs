@@ -71,7 +71,7 @@ impl Outline {
     }
 }
 
-/// A surface that is farther may face another sensor as well, m.
+/// Distance beyond which a surface may face another sensor as well, m.
 const FACED_WITHIN: f64 = 3.0;
 
 /// Standard deviation of the distance of a faced surface: m, and per metre of range.
@@ -116,8 +116,8 @@ fn point_of(beam: &Sounding) -> OutlinePoint {
 /// that lie on one line do.
 const BESIDE: [usize; 4] = [16, 10, 6, 3];
 
-/// Neighbours farther apart than this, or than a fifth of their distance, belong to different
-/// things, m.
+/// Distance, m, above which neighbours belong to different things; so they do above a fifth of
+/// their range.
 const GAP: f64 = 0.25;
 
 /// Gives each point the normal of the line through it and its neighbours, if they are on one.

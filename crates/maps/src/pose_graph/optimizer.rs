@@ -14,7 +14,7 @@ pub struct OptimizerConfig {
     pub most_steps: u32,
     /// Most iterations of conjugate gradients in a step, at least 1.
     pub most_iterations: usize,
-    /// A step that lowers the error by less than this share is the last.
+    /// Share of the error by which a step must lower it, or the optimizer ends.
     pub tolerance: f64,
     /// The squared error at which a closure counts a quarter; `None` to believe all closures.
     pub doubt: Option<f64>,

@@ -33,8 +33,8 @@ pub(super) struct Misfit {
 
 /// Standard deviation of a range from that at the nearest standpoint, m.
 const RANGE_SD: f64 = 0.075;
-/// A beam more than this many standard deviations off has met something else; how far off says no
-/// more.
+/// Number of standard deviations above which a beam has met something else. A larger difference
+/// tells nothing more.
 const OUTLIER: f64 = 3.0;
 /// Weight of all beams together, in independent beams: beams that see the same walls are
 /// correlated.

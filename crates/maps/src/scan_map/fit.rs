@@ -29,7 +29,7 @@ const STEP: f64 = 0.0125;
 const COARSE: f64 = 0.05;
 /// Minimum half-width of the tried positions along an axis, m.
 const LEAST_WINDOW: f64 = 0.1;
-/// An axis on which the walls leave more than this open tells nothing, m (standard deviation).
+/// Standard deviation, m, above which an axis tells nothing.
 const TELLS: f64 = 0.05;
 /// Minimum standard deviation of a position, m.
 const SUREST: f64 = 0.005;

@@ -42,7 +42,8 @@ const FAR: u8 = u8::MAX;
 const MARGIN: i32 = 48;
 /// Error of a beam's end above which it did not end on the known wall, m.
 const ELSEWHERE: f64 = 0.2;
-/// A wall stands while at least one of this many beams that reached its cell ended there.
+/// Number of beams that reached a wall's cell of which at least one must have ended there for the
+/// wall to stand.
 const PASSES_A_HIT: u32 = 3;
 
 impl WallGrid {

@@ -33,7 +33,7 @@ pub struct ScanMatchingConfig {
     pub odometry_sd: f64,
     /// The same of its heading.
     pub odometry_turn_sd: f64,
-    /// A scan that fits worse is left where the odometry has it.
+    /// Minimum score of a fit; below it a scan stays where the odometry has it.
     pub least_score: f64,
     /// Search for places that are seen again; `None` to find none.
     pub closures: Option<ClosureConfig>,
@@ -59,7 +59,7 @@ pub struct ClosureConfig {
     pub sites: ClosureSites,
     /// Way from one search to the next.
     pub every: f64,
-    /// A place is seen again after that much way at least.
+    /// Minimum way after which a place counts as seen again.
     pub least_way: f64,
     /// Keyframes whose scans are put together and looked for.
     pub query_keyframes: usize,
@@ -77,7 +77,7 @@ pub struct ClosureConfig {
     pub window_turn_growth: f64,
     /// Maximum half-width of the window for its heading.
     pub most_window_turn: f64,
-    /// A worse fit is not a closure.
+    /// Minimum score of a closure.
     pub least_score: f64,
     /// Maximum difference of the corrections of two closures that agree.
     pub agreement: f64,

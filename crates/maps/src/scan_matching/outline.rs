@@ -19,8 +19,8 @@ pub(super) struct SurfacePoint {
     pub(super) goes_on: bool,
 }
 
-/// Ends of neighbouring beams that are this many times farther apart than beams that meet a surface
-/// at right angles belong to two surfaces.
+/// Distance of two neighbouring beams' ends above which they belong to two surfaces, as a multiple
+/// of that on a surface at right angles.
 const SLANT: f64 = 6.0;
 /// Range below which a beam ends on the robot itself, m.
 const NEAREST: f64 = 0.1;

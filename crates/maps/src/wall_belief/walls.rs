@@ -69,7 +69,7 @@ impl<const N: usize> WallBelief<N> {
     /// Log-odds from which a wall is believed to stand; below the negative value it is believed to
     /// be open.
     pub const CONVINCED: f64 = 3.0;
-    /// The log-odds grow no farther than this, so that a wrong belief can be given up.
+    /// Maximum of the log-odds, so that a wrong belief can be given up.
     const MOST: f64 = 9.0;
     /// Factor on the log-odds of a wall that is doubted.
     const DOUBT: f64 = 0.8;

@@ -280,7 +280,7 @@ pub struct FaultError {
     pub value: f64,
     /// Least valid value.
     pub least: f64,
-    /// The most.
+    /// Greatest valid value.
     pub most: f64,
 }
 

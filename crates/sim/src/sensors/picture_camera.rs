@@ -239,6 +239,6 @@ pub struct PictureCameraError {
     pub value: f64,
     /// Least valid value.
     pub least: f64,
-    /// The most.
+    /// Greatest valid value.
     pub most: f64,
 }

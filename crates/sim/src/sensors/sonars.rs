@@ -242,7 +242,7 @@ pub struct SonarError {
     pub value: f64,
     /// Least valid value.
     pub least: f64,
-    /// The most.
+    /// Greatest valid value.
     pub most: f64,
 }
 

@@ -23,8 +23,8 @@ pub struct CpmOfSites {
 
 /// Maximum error of a way, as a share of its length, and an additional margin, m.
 const SHARE: f64 = 0.01;
-/// A robot that comes from another side stops elsewhere in a place: by this share of a corridor's
-/// width.
+/// Distance between the points in a place where robots from different sides stop, as a share of a
+/// corridor's width.
 const PLACE: f64 = 0.75;
 /// Maximum error of a heading along the building's axes, rad.
 const HEADING: f64 = 0.35;

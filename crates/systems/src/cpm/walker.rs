@@ -214,8 +214,8 @@ const TRIMMED: f64 = 0.8;
 /// Distance before its middle at which a junction comes into sight, in corridor widths.
 const IN_SIGHT: f64 = 0.5;
 
-/// On a known way, one stride in this many is not skipped. Two walks along one fragment differ by
-/// less.
+/// Number of strides on a known way of which one is not skipped. Two walks along one fragment
+/// differ by less than one in as many.
 const SPREAD: u32 = 20;
 
 /// Mean sensor value beyond which a wall is nearer than any beside the middle of a corridor. The

@@ -35,7 +35,7 @@ const ALIGNED: f64 = 0.02;
 const SETTLED: f64 = 0.01;
 /// Number of time steps after which a routine is lost: the longest corridor of 60 cells.
 const PATIENCE: u32 = 2000;
-/// Number of time steps in a row in which a sensor may tell nothing before it is taken for broken.
+/// Number of time steps in a row in which a sensor may tell nothing before it counts as broken.
 const MOST_SILENT: u32 = 20;
 
 impl<R, E> Surveyor<R, E> {

@@ -11,7 +11,7 @@ use super::route::Target;
 /// Number of directions in which each place is checked for more floor.
 const DIRECTIONS: u32 = 48;
 
-/// Points near which the robot has nothing more to look for lie this near, m.
+/// Distance from an explored point within which there is nothing more to look for, m.
 const SAME: f64 = 0.3;
 
 /// Room that a robot needs to go on.

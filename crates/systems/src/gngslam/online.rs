@@ -26,7 +26,7 @@ use crate::stream;
 pub struct OnlineSlamConfig {
     /// Parameters of driving. A leg is one piece of the way: it looks after each.
     pub drive: UntilNearConfig,
-    /// It turns by no more than this before it looks again, rad.
+    /// Maximum turn before it looks again, rad.
     pub turn_piece: f64,
     /// Number of looks round the place where it is put down, before it drives.
     pub first_looks: u32,
@@ -40,7 +40,7 @@ pub struct OnlineSlamConfig {
     pub lane: f64,
     /// Maximum number of time steps to stand still for a snapshot, at least 1.
     pub patience: u32,
-    /// It has come to a place when it is this near, m.
+    /// Distance at which it has come to a place, m.
     pub arrival: f64,
     /// Factor of its limits where it has driven before, 0 to 1: it got through there, however near
     /// the walls are.
@@ -174,7 +174,7 @@ const RETRIES: u32 = 2;
 /// Pieces that a blocked way counts as.
 const BLOCKED: u32 = 20;
 
-/// It goes this much farther beyond a place than it has to, m.
+/// Extra distance that it goes beyond a place, m.
 const BEYOND: f64 = 0.05;
 
 /// Number of time steps that it drives away from something it has touched.

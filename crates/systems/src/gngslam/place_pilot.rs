@@ -15,7 +15,7 @@ use super::{Wanderer, WandererError};
 pub struct PlacePilotConfig {
     /// Parameters of driving between two looks.
     pub drive: UntilNearConfig,
-    /// It has come to a node when its wheels have it this near, m.
+    /// Distance by its odometry at which it has come to a node, m.
     pub arrival: f64,
     /// It goes round what is in the way by this angle, rad.
     pub round: f64,

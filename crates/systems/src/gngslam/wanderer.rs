@@ -19,7 +19,8 @@ pub struct WandererConfig {
     /// Smallest share of the limit ahead to which it goes, 0 to 1. The share of each leg is drawn
     /// between this and 1; at 1, the paper's value, it is always the limit.
     pub nearest: f64,
-    /// A leg that led less far is followed by another one before a record is taken, m. Ours: 0.3.
+    /// Minimum length of a leg, m; a shorter one is followed by another before a record is taken.
+    /// Ours: 0.3.
     pub least_way: f64,
     /// Number of legs it tries before it takes a record wherever it is, at least 1. Ours: 12.
     pub most_tries: u32,

@@ -24,7 +24,7 @@ pub enum SiteKind {
     Junction,
 }
 
-/// A way leads on if the nearest thing in it is at least this many corridor widths away.
+/// Minimum distance of the nearest thing in a way that leads on, in corridor widths.
 const OPEN_WIDTHS: f64 = 1.25;
 
 impl SiteKind {

@@ -16,7 +16,7 @@ const LOOKS: u32 = 10;
 const CLOSE: f64 = 0.06;
 /// This near, rad, a heading is reached.
 const AIMED: f64 = 0.05;
-/// A robot that looks farther past its target than this turns before it drives, rad.
+/// Angle past its target above which a robot turns before it drives, rad.
 const ASIDE: f64 = 0.15;
 /// Maximum way of a time step, as a share of the pitch, so that the walls are seen meanwhile.
 const STRIDE: f64 = 0.25;

@@ -35,7 +35,7 @@ pub(super) struct Beam {
 /// Cosine below which a beam is too far off the grid, 8°: its reading is about walls at the side.
 const STRAIGHT: f64 = 0.99;
 
-/// A beam this far from the middle of its row, as a share of the pitch, may meet a post.
+/// Distance from the middle of its row at which a beam may meet a post, as a share of the pitch.
 const INTERIOR: f64 = 0.35;
 
 /// Maximum distance of a range's end from the place of a wall at which it still shows that wall, as

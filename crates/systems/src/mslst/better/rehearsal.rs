@@ -19,7 +19,7 @@ const AXES: [Direction; 2] = [Direction::East, Direction::North];
 const TRIES: u32 = 4;
 /// Angle by which a robot looks past its axis, rad.
 const ASKEW: f64 = 5.0 * core::f64::consts::PI / 180.0;
-/// An action that has not ended by then counts as one that leads nowhere, time steps.
+/// Time steps after which an action counts as one that leads nowhere.
 const LONGEST_ACTION: u32 = 40;
 
 /// Tries every action in thought, from every standpoint and along every axis, with the robot's own
