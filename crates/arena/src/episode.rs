@@ -50,7 +50,7 @@ pub struct Lifted {
 pub struct Episode {
     /// Whether the robot's centre came to lie in the destination.
     pub reached: bool,
-    /// High-level actions begun.
+    /// Number of high-level actions begun.
     pub actions: u32,
     /// Number of these actions that failed.
     pub failed_actions: u32,

@@ -235,7 +235,7 @@ pub(crate) fn check_count(
     })
 }
 
-/// Refuses what is not of a format, or of a version that is not known.
+/// Refuses text of another format or of an unknown version.
 pub(crate) fn check_header(
     found: &str,
     version: u32,

@@ -66,7 +66,7 @@ pub enum DictionaryError {
         /// Number of features of the prototype.
         found: usize,
     },
-    /// A feature that distances cannot be measured with.
+    /// A feature is not finite or too large for distances.
     #[error("feature {feature} is {value}: it has to be finite and within ±1e100")]
     BadFeature {
         /// Its number, from 0.
@@ -95,7 +95,7 @@ pub enum DictionaryError {
         version: Version,
     },
     /// A list of half-turned patterns is not an involution.
-    #[error("pattern {} half turned is {}, but that half turned is not the first one again", .pattern.0, .half_turned.0)]
+    #[error("the half turn of pattern {} is {}, whose half turn is another pattern", .pattern.0, .half_turned.0)]
     NotInvolutive {
         /// The pattern.
         pattern: PatternId,
