@@ -15,7 +15,7 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
-use crate::{docs, fuzz, golden, layers, mazes, playground, prose, python};
+use crate::{docs, fuzz, golden, layers, mazes, mutants, playground, prose, python};
 
 /// Outcome of a step that did not fail.
 pub(crate) enum Outcome {
@@ -77,11 +77,21 @@ const THOROUGH: &[Step] = &[
     ("fuzz", fuzz_targets),
     ("fuzzing", || passed(fuzz::run(FUZZING, 1, &[]))),
     ("pages", || if_installed("chromium", all_pages)),
+    // Programs that are killed, or misbehave, again and again.
+    ("endurance", || {
+        passes(
+            "test --workspace --all-features --test cli --quiet -- --ignored a_thousand a_hundred",
+        )
+    }),
+    ("mutants", || mutants::check(MUTANTS, &[])),
     ("golden, all", || passed(golden::run(&[], false))),
     ("python", python::check),
     ("playground", playground::check),
     ("packages", || passed(packages::all())),
 ];
+
+/// Some thirty changes of the code, spread over all crates that are changed.
+const MUTANTS: mutants::Shard = mutants::Shard { first: 0, of: 400 };
 
 /// Duration of fuzzing all readers, seconds.
 const FUZZING: u64 = 600;

@@ -15,6 +15,7 @@ mod fuzz;
 mod golden;
 mod layers;
 mod mazes;
+mod mutants;
 mod playground;
 mod prose;
 mod python;
@@ -49,7 +50,8 @@ enum Verb {
         /// Run the remaining steps after one has failed
         #[arg(long)]
         keep_going: bool,
-        /// Also run the long steps: fuzzing, the slowest golden runs, the Python module
+        /// Also run the long steps: fuzzing, programs that misbehave or are killed, mutants, the
+        /// slowest golden runs, the Python module
         #[arg(long)]
         thorough: bool,
     },
@@ -89,6 +91,15 @@ enum Verb {
         /// Formats, such as `carmen` or `map_of_cpm`; all if left out
         targets: Vec<String>,
     },
+    /// Changes the code in small ways and checks that the tests notice; exits 1 if they miss more
+    /// than 8 %; needs cargo-mutants
+    Mutants {
+        /// Changes to try: K/N for every N-th one from the K-th on
+        #[arg(long, default_value = "0/400", value_parser = mutants::Shard::parse)]
+        shard: mutants::Shard,
+        /// Crates, such as `tolman-geom`; geom, maze, planners, quantizers and maps if left out
+        packages: Vec<String>,
+    },
     /// Builds the Python module, installs it into target/python and runs its tests; skipped with a
     /// note if Python or a package is missing
     Python,
@@ -122,6 +133,7 @@ fn main() -> ExitCode {
             seed,
             targets,
         } => fuzz::run(seconds, seed, &targets),
+        Verb::Mutants { shard, packages } => mutants::run(shard, &packages),
         Verb::Python => python::run(),
         Verb::Playground { out } => playground::run(out.as_deref()),
         Verb::Docs => docs::run(),

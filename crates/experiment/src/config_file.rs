@@ -1,5 +1,8 @@
 //! `config.toml`: everything that is needed to repeat the results.
 
+// Input holds any bytes: a reader indexes nothing.
+#![cfg_attr(not(test), warn(clippy::indexing_slicing))]
+
 use serde::{Deserialize, Serialize};
 
 use super::{Build, Error, Experiment, Options};

@@ -21,6 +21,11 @@
 //! assert_eq!(map.cells, [MapCell::Free, MapCell::Occupied]);
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
+// Files hold any bytes: a reader indexes nothing and cuts no number off.
+#![cfg_attr(
+    not(test),
+    warn(clippy::indexing_slicing, clippy::cast_possible_truncation)
+)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;

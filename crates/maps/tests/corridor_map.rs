@@ -35,6 +35,7 @@ fn map(drawing: &[&str]) -> CorridorMap {
         }],
         links: Vec::new(),
         goal: middle('G').into_iter().collect(),
+        start: Vec::new(),
         surprise: 0.0,
         cell: WallGrid::CELL,
         first: [0, 0],

@@ -41,6 +41,9 @@
 //! # Ok::<(), tolman_robot::epuck_serial::SerialError>(())
 //! ```
 
+// Input holds any bytes: a reader indexes nothing.
+#![cfg_attr(not(test), warn(clippy::indexing_slicing))]
+
 use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;

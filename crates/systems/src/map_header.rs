@@ -5,6 +5,9 @@
 //! Pioneer","seed":1,` and goes on with what the system keeps. Files of other versions are refused
 //! by name, and so are those of the formats that were there before.
 
+// Input holds any bytes: a reader indexes nothing.
+#![cfg_attr(not(test), warn(clippy::indexing_slicing))]
+
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

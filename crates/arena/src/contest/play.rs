@@ -1065,12 +1065,17 @@ mod tests {
     }
 
     #[test]
-    fn a_better_cpm_that_is_kidnapped_or_misses_readings_learns_its_map_all_the_same() {
+    fn who_is_kidnapped_or_misses_readings_learns_its_map_all_the_same() {
         let schooling = Schooling::default();
         let maze = drawn("blocks");
-        for condition in [Condition::Kidnapping, Condition::DropOuts] {
+        for (contestant, condition) in [
+            (Contestant::CpmBetter, Condition::Kidnapping),
+            (Contestant::CpmBetter, Condition::DropOuts),
+            (Contestant::MslstBetter, Condition::Kidnapping),
+            (Contestant::MslstBetter, Condition::DropOuts),
+        ] {
             let contest = Contest {
-                contestant: Contestant::CpmBetter,
+                contestant,
                 robot: ContestRobot::Own,
                 maze: &maze,
                 name: "blocks",
@@ -1081,8 +1086,9 @@ mod tests {
             };
             let learned = contest.play(&schooling, |_, _| {}).unwrap().learned;
             let learned = learned.unwrap();
-            assert!(learned.judgement.is_right, "{condition:?}: {learned:?}");
-            assert_eq!(learned.claim, Claim::Right, "{condition:?}");
+            let told = format!("{contestant:?}, {condition:?}: {learned:?}");
+            assert!(learned.judgement.is_right, "{told}");
+            assert_eq!(learned.claim, Claim::Right, "{told}");
         }
     }
 

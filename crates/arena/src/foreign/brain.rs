@@ -1,5 +1,8 @@
 //! A foreign program that drives a robot: JSON lines to and fro.
 
+// Input holds any bytes: a reader indexes nothing.
+#![cfg_attr(not(test), warn(clippy::indexing_slicing))]
+
 use core::convert::Infallible;
 use core::time::Duration;
 
@@ -99,6 +102,14 @@ enum Answer<C> {
     Command(C),
 }
 
+/// The first line that a brain is told.
+#[derive(Serialize)]
+struct Greeting<'a> {
+    #[serde(flatten)]
+    hello: &'a Hello,
+    protocol: u32,
+}
+
 /// How a brain ends its task.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -126,9 +137,11 @@ impl ForeignBrain {
             return Ok(None);
         };
         if self.steps == 0 {
-            let mut hello = json!({ "hello": self.hello });
-            hello["hello"]["protocol"] = PROTOCOL.into();
-            program.say(hello.to_string())?;
+            let greeting = Greeting {
+                hello: &self.hello,
+                protocol: PROTOCOL,
+            };
+            program.say(json!({ "hello": greeting }).to_string())?;
         }
         program.say(step.to_string())?;
         program.hear()

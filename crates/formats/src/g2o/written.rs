@@ -42,8 +42,12 @@ impl G2oEdge {
         let at = self.measured;
         let (x, y, heading) = (at.position.x, at.position.y, at.heading.radians());
         let _ = write!(text, "EDGE_SE2 {from} {to} {x} {y} {heading}");
-        for (row, column) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
-            let _ = write!(text, " {}", self.information[(row, column)]);
+        let matrix = &self.information;
+        let upper = [
+            matrix.m11, matrix.m12, matrix.m13, matrix.m22, matrix.m23, matrix.m33,
+        ];
+        for entry in upper {
+            let _ = write!(text, " {entry}");
         }
         text.push('\n');
     }

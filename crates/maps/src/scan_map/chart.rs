@@ -19,6 +19,7 @@ pub struct ScanChart {
     /// Lower and higher end of each link, in order.
     links: Vec<[u32; 2]>,
     goal: Vec<Point>,
+    start: Vec<Point>,
     radius: f64,
     surprise: f64,
 }
@@ -35,6 +36,12 @@ pub struct ChartParts {
     pub links: Vec<[u32; 2]>,
     /// Positions where the landmark of the goal was sensed, m.
     pub goal: Vec<Point>,
+    /// Positions where the landmark of the start was sensed, m; none if the map begins there.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Vec::is_empty")
+    )]
+    pub start: Vec<Point>,
     /// Contradiction between its walls, 0 … 1: [`ScanMap::surprise`]. Older files lack it.
     #[cfg_attr(feature = "serde", serde(default))]
     pub surprise: f64,
@@ -128,11 +135,6 @@ pub enum ChartError {
 /// Maximum distance of anything from the origin, m.
 const FARTHEST: f64 = 5e4;
 
-/// Surprise above which a map is doubtful: the share of beams of two scans in a row that
-/// contradicted it. Among 180 right maps of the arena the highest was 0.28; among 10 maps of
-/// kidnapped robots the lowest was 0.64.
-const DOUBTFUL: f64 = 0.35;
-
 impl ScanChart {
     /// Returns how many bytes places, links, walls and the landmark's positions take. O(1).
     #[must_use]
@@ -140,6 +142,7 @@ impl ScanChart {
         size_of_val(self.places.as_slice())
             + size_of_val(self.links.as_slice())
             + size_of_val(self.goal.as_slice())
+            + size_of_val(self.start.as_slice())
             + self.ground.bytes()
     }
 
@@ -151,6 +154,7 @@ impl ScanChart {
             places: map.places().to_vec(),
             links: map.links().collect(),
             goal: map.goal().to_vec(),
+            start: map.start().to_vec(),
             radius: map.radius(),
             surprise: map.surprise(),
         }
@@ -164,6 +168,7 @@ impl ScanChart {
             places: self.places.clone(),
             links: self.links.clone(),
             goal: self.goal.clone(),
+            start: self.start.clone(),
             surprise: self.surprise,
             cell: WallGrid::CELL,
             first: self.ground.first(),
@@ -193,12 +198,14 @@ impl ScanChart {
         }
         lie_somewhere("place", parts.places.iter().map(|place| place.position))?;
         lie_somewhere("goal", parts.goal.iter().copied())?;
+        lie_somewhere("start", parts.start.iter().copied())?;
         check_links(&parts.links, parts.places.len())?;
         Ok(Self {
             ground: GroundPlan::from_rows(parts.first, &parts.rows)?,
             places: parts.places,
             links: parts.links,
             goal: parts.goal,
+            start: parts.start,
             radius,
             surprise,
         })
@@ -232,6 +239,12 @@ impl ScanChart {
         &self.goal
     }
 
+    /// Returns where the landmark of the start was sensed; nothing if the map begins there.
+    #[must_use]
+    pub fn start(&self) -> &[Point] {
+        &self.start
+    }
+
     /// Returns where the robot can stand on a grid of [its ground](GroundPlan::grid).
     #[must_use]
     pub const fn clearings<'a>(&self, grid: &'a WallGrid) -> Clearings<'a> {
@@ -245,7 +258,7 @@ impl ScanChart {
         if self.goal.is_empty() {
             return Some("the robot never sensed the goal: give it more --steps");
         }
-        (self.surprise > DOUBTFUL).then_some(
+        (self.surprise > ScanMap::DOUBTFUL).then_some(
             "its walls contradict one another, as where a robot is lifted while it learns: learn it again",
         )
     }

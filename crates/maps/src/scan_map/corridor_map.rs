@@ -161,24 +161,30 @@ impl CorridorMap {
     }
 }
 
-/// Returns where the robot was put down and where landmarks were sensed.
+/// Returns where landmarks stand, and where the robot was put down.
 fn landmarks(
     chart: &ScanChart,
     width: f64,
 ) -> impl Iterator<Item = (GridIndex, Option<Landmark>)> + '_ {
     let goals = goals(chart.goal(), width).into_iter();
     let goals = goals.map(|at| (index_of(at), Some(Landmark::Goal)));
-    // Of the places where another landmark was sensed the first is nearest to where it stands.
+    let start = bounds(chart.start()).map(middle_of);
+    let start = start.map(|at| (index_of(at), Some(Landmark::Start)));
     let mut known = alloc::vec![Some(Landmark::Goal)];
+    known.extend(start.map(|(_, landmark)| landmark));
+    // A map that knows its start elsewhere begins where the robot was put after a lift.
+    let begins_anywhere = start.is_some();
+    // Of the places where another landmark was sensed the first is nearest to where it stands.
     let places = chart.places().iter().enumerate();
     let others = places.filter_map(move |(number, place)| {
         let is_new = !known.contains(&place.landmark);
         known.push(place.landmark);
-        let is_meant = number == 0 || (place.landmark.is_some() && is_new);
+        let is_first = number == 0 && !begins_anywhere;
+        let is_meant = is_first || (place.landmark.is_some() && is_new);
         let landmark = place.landmark.filter(|_| is_new);
         is_meant.then(|| (index_of(place.position), landmark))
     });
-    goals.chain(others)
+    goals.chain(start).chain(others)
 }
 
 /// Returns the positions of the goal that was sensed at these points: one for each corridor side by
@@ -200,7 +206,11 @@ fn goals(sensed: &[Point], width: f64) -> Vec<Point> {
         parts.entry(part(at)).or_default().push(*at);
     }
     let bounds = parts.values().filter_map(|points| bounds(points));
-    bounds.map(|[low, high]| low + 0.5 * (high - low)).collect()
+    bounds.map(middle_of).collect()
+}
+
+fn middle_of([low, high]: [Point; 2]) -> Point {
+    low + 0.5 * (high - low)
 }
 
 /// Returns the low and the high corner of the bounding box of points.

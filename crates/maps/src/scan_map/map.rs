@@ -23,6 +23,8 @@ pub struct ScanMap {
     stands: Vec<Point>,
     /// Positions where the landmark of the goal was sensed.
     goal: Vec<Point>,
+    /// Positions where the landmark of the start was sensed, unless the map begins there.
+    start: Vec<Point>,
     position: Point,
     /// Variance of the position along each axis, m².
     variance: Vector,
@@ -37,8 +39,8 @@ pub struct ScanMap {
 /// Fewest beams that can contradict walls.
 const FEWEST: u32 = 20;
 
-/// Minimum distance between two stored points where the landmark of the goal was sensed, m.
-const SPACING_OF_GOAL: f64 = 0.02;
+/// Minimum distance between two stored points where a landmark was sensed, m.
+const SPACING_OF_LANDMARK: f64 = 0.02;
 
 /// A place of a [`ScanMap`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +68,10 @@ pub struct Advance<'a> {
 }
 
 impl ScanMap {
+    /// [`surprise`](Self::surprise) above which a map is doubtful. Among 180 right maps of the arena
+    /// the highest was 0.28; among 10 maps of kidnapped robots the lowest was 0.64.
+    pub const DOUBTFUL: f64 = 0.35;
+
     /// Returns a map of nothing.
     #[must_use]
     pub fn new(config: ScanMapConfig) -> Self {
@@ -76,6 +82,7 @@ impl ScanMap {
             links: BTreeSet::new(),
             stands: Vec::new(),
             goal: Vec::new(),
+            start: Vec::new(),
             position: Point::origin(),
             variance: Vector::zeros(),
             at: None,
@@ -105,17 +112,15 @@ impl ScanMap {
         self.weigh(seen);
         self.draw(seen);
         self.enter(seen.landmark);
-        if seen.landmark == Some(Landmark::Goal) {
-            self.sense_goal(self.position);
+        if let Some(landmark) = seen.landmark {
+            self.sense(landmark, self.position);
         }
     }
 
     /// Notes that the robot stands at a landmark on its way, `moved` from where it was observed
     /// last.
     pub fn pass(&mut self, moved: Vector, landmark: Landmark) {
-        if landmark == Landmark::Goal {
-            self.sense_goal(self.position + moved);
-        }
+        self.sense(landmark, self.position + moved);
     }
 
     /// Returns where the robot is.
@@ -162,6 +167,12 @@ impl ScanMap {
         &self.goal
     }
 
+    /// Returns where the landmark of the start was sensed; nothing if the map begins there.
+    #[must_use]
+    pub fn start(&self) -> &[Point] {
+        &self.start
+    }
+
     /// Returns where the robot has been, as far as it could stand there now.
     #[must_use]
     pub fn clearings(&self) -> Clearings<'_> {
@@ -175,6 +186,7 @@ impl ScanMap {
             + self.links.len() * size_of::<[u32; 2]>()
             + size_of_val(self.stands.as_slice())
             + size_of_val(self.goal.as_slice())
+            + size_of_val(self.start.as_slice())
             + self.grid.bytes()
     }
 
@@ -200,11 +212,19 @@ impl ScanMap {
         self.config.radius
     }
 
-    /// Notes where the goal's landmark was sensed, unless it was sensed right there before.
-    fn sense_goal(&mut self, at: Point) {
-        let is_new = |known: &Point| (at - known).norm() >= SPACING_OF_GOAL;
-        if self.goal.iter().all(is_new) {
-            self.goal.push(at);
+    /// Notes where the landmark of the goal or the start was sensed, unless it was sensed right
+    /// there before.
+    fn sense(&mut self, landmark: Landmark, at: Point) {
+        let first = self.places.first();
+        let begins_there = first.is_none_or(|first| first.landmark == Some(landmark));
+        let known = match landmark {
+            Landmark::Goal => &mut self.goal,
+            Landmark::Start if !begins_there => &mut self.start,
+            Landmark::Start | Landmark::Numbered(_) => return,
+        };
+        let is_new = |known: &Point| (at - known).norm() >= SPACING_OF_LANDMARK;
+        if known.iter().all(is_new) {
+            known.push(at);
         }
     }
 

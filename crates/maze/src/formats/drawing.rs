@@ -111,7 +111,9 @@ impl Reader {
         for x in 0..grid.width() {
             let cell = Cell::new(x, y);
             self.wall(row, cell, Direction::West, row.vertical(x)?)?;
-            self.places[grid.index(cell)] = row.place(middle(x));
+            if let Some(place) = self.places.get_mut(grid.index(cell)) {
+                *place = row.place(middle(x));
+            }
             for offset in middle(x) - 1..=middle(x) + 1 {
                 match row.char(offset) {
                     ' ' => {}

@@ -1,5 +1,10 @@
 //! The text formats, one file each; detection and the entry points here.
 
+// Files hold any bytes: a reader indexes nothing and cuts no number off.
+#![cfg_attr(
+    not(test),
+    warn(clippy::indexing_slicing, clippy::cast_possible_truncation)
+)]
 mod drawing;
 mod error;
 mod lines;

@@ -40,8 +40,8 @@ fn maze(grid: Grid, sides: &[Sides]) -> Result<Maze, MazeError> {
             let open = here.is_open(direction);
             match grid.neighbour(cell, direction) {
                 Some(neighbour) => {
-                    let there = sides[grid.index(neighbour)];
-                    if there.is_open(direction.opposite()) != open {
+                    let there = sides.get(grid.index(neighbour));
+                    if there.is_none_or(|there| there.is_open(direction.opposite()) != open) {
                         let fault = MazeFault::Disagree {
                             cell,
                             direction,

@@ -1,3 +1,6 @@
+// Input holds any bytes: a reader indexes nothing.
+#![cfg_attr(not(test), warn(clippy::indexing_slicing))]
+
 use std::io::{BufRead, Lines};
 
 use serde::de::DeserializeOwned;

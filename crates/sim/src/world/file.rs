@@ -11,6 +11,9 @@
 //!
 //! A world made from a maze or an occupancy grid is written with its grid instead of its walls.
 
+// Input holds any bytes: a reader indexes nothing.
+#![cfg_attr(not(test), warn(clippy::indexing_slicing))]
+
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use tolman_geom::Point;

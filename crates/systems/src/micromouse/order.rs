@@ -1,5 +1,8 @@
 //! Orders of a mouse to the referee.
 
+// Input holds any bytes: a reader indexes nothing.
+#![cfg_attr(not(test), warn(clippy::indexing_slicing))]
+
 use serde::{Deserialize, Serialize};
 use tolman_planners::moves::MouseStep;
 

@@ -1,3 +1,6 @@
+// Input holds any bytes: a reader indexes nothing.
+#![cfg_attr(not(test), warn(clippy::indexing_slicing))]
+
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use tolman_geom::Point;

@@ -1,8 +1,10 @@
-//! Mice that misbehave, and hosts that are ended: no process is left behind.
+//! Mice and simulators that misbehave, and hosts that are ended: no process is left behind.
 
 use core::time::Duration;
+use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::Mutex;
 use std::time::Instant;
 use std::{fs, thread};
 
@@ -147,19 +149,148 @@ const BAD_MICE: [(&str, &str, &str, &str); 20] = [
     ),
 ];
 
+/// Starts the bad mouse of this number for the `round`-th time.
+fn try_mouse(number: usize, round: usize) {
+    let (name, script, time_limit, ended) = BAD_MICE[number];
+    let mark = format!("bad-mouse-{name}-{round}");
+    let folder = folder(&mark);
+    let mut host = host(&folder, &mark, script, time_limit);
+    let told = Ended::from(host.output().unwrap()).failed(1, &["did not solve a.maze"]);
+    let told: serde_json::Value = serde_json::from_str(&told).unwrap();
+    assert_eq!(told["ended"], ended, "{name}");
+    nothing_is_left(&mark);
+    fs::remove_dir_all(folder).unwrap();
+}
+
 #[test]
 fn bad_mice_leave_nothing_behind() {
-    for (name, script, time_limit, ended) in BAD_MICE {
-        let folder = folder(&format!("bad-mouse-{name}"));
-        let told: Ended = host(&folder, name, script, time_limit)
-            .output()
-            .unwrap()
-            .into();
-        let told = told.failed(1, &["did not solve a.maze"]);
-        let told: serde_json::Value = serde_json::from_str(&told).unwrap();
-        assert_eq!(told["ended"], ended, "{name}");
-        nothing_is_left(name);
+    for number in 0..BAD_MICE.len() {
+        try_mouse(number, 0);
     }
+}
+
+/// Replies to what a mouse asks: about walls, movements, turns and the reset button.
+const REPLIES: &str = "\
+play() {
+    while read -r asked; do case $asked in
+        maze*) echo 8 ;; wall*) echo $1 ;; move*) echo $2 ;; turn* | ack*) echo $3 ;; was*) echo $4 ;;
+    esac; done
+}
+";
+
+/// Name, script, the mouse's exit code, a part of what it complains of.
+const BAD_SIMULATORS: [(&str, &str, i32, &str); 17] = [
+    ("goes-away", "exit 0", 1, "went away"),
+    ("crashes", "kill -SEGV $$", 1, "went away"),
+    ("is-silent", "exec sleep 1000", 1, "went away"),
+    ("stops-itself", "kill -STOP $$", 1, "went away"),
+    ("closes-its-output", "exec >&-; sleep 1000", 1, "went away"),
+    ("never-reads", "exec <&-; sleep 1000", 1, "went away"),
+    (
+        "answers-ahead-and-goes",
+        "printf '8\\n8\\nfalse\\nfalse\\n'",
+        1,
+        "went away",
+    ),
+    (
+        "is-killed-at-work",
+        "(sleep 0.02; kill -KILL $$) & play false ack ack true",
+        1,
+        "went away",
+    ),
+    (
+        "resets-again-and-again",
+        "play false ack ack true",
+        1,
+        "went away",
+    ),
+    ("never-ends-a-line", "cat /dev/zero", 2, "a number of cells"),
+    ("floods-with-lines", "yes 16", 2, "true or false"),
+    (
+        "speaks-bytes",
+        "printf '\\377\\376\\000\\n'; sleep 1000",
+        2,
+        "a number of cells",
+    ),
+    ("has-no-maze", "yes 0", 2, "a number of cells"),
+    ("has-a-huge-maze", "yes 65535", 2, "32 × 32"),
+    ("walls-the-mouse-in", "play true ack ack false", 1, "no way"),
+    ("hides-walls", "play false crash ack false", 1, "crashed"),
+    (
+        "forbids-turns",
+        "play false ack no false",
+        2,
+        "ack was expected",
+    ),
+];
+
+/// Time after which a simulator is killed whose mouse has not ended by itself.
+const PATIENCE: Duration = Duration::from_millis(300);
+
+/// Starts a mouse with the bad simulator of this number for the `round`-th time.
+fn try_simulator(number: usize, round: usize) {
+    let (name, script, code, part) = BAD_SIMULATORS[number];
+    let mark = format!("bad-simulator-{name}-{round}");
+    let mut mouse = command_in(Path::new("."), &["mouse", "--mms"])
+        .env(MARK, &mark)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut simulator = Command::new("sh")
+        .args(["-c", &format!("{REPLIES}{script}")])
+        .env(MARK, &mark)
+        .stdin(mouse.stdout.take().unwrap())
+        .stdout(mouse.stdin.take().unwrap())
+        .stderr(Stdio::null())
+        .process_group(0)
+        .spawn()
+        .unwrap();
+    let started = Instant::now();
+    while mouse.try_wait().unwrap().is_none() && started.elapsed() < PATIENCE {
+        thread::sleep(Duration::from_millis(2));
+    }
+    // With all that it started: they hold the pipes, too.
+    let group = format!("-{}", simulator.id());
+    let mut kill = Command::new("kill");
+    kill.args(["-s", "KILL", "--", &group])
+        .stderr(Stdio::null())
+        .status()
+        .unwrap();
+    simulator.wait().unwrap();
+    nothing_is_left(&mark);
+    Ended::from(mouse.wait_with_output().unwrap()).failed(code, &[part]);
+}
+
+#[test]
+fn bad_simulators_leave_nothing_behind() {
+    for number in 0..BAD_SIMULATORS.len() {
+        try_simulator(number, 0);
+    }
+}
+
+#[test]
+#[ignore = "takes minutes: cargo test -p tolman --test cli -- --ignored a_thousand_starts"]
+fn a_thousand_starts_leave_nothing_behind() {
+    let tries = |count, start: fn(usize, usize), kinds| {
+        (0..count).map(move |number| (start, number % kinds, 1 + number / kinds))
+    };
+    let mice = tries(650, try_mouse, BAD_MICE.len());
+    let simulators = tries(350, try_simulator, BAD_SIMULATORS.len());
+    let starts = Mutex::new(mice.chain(simulators));
+    let next = || starts.lock().unwrap().next();
+    // Most of them wait.
+    thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                while let Some((start, number, round)) = next() {
+                    start(number, round);
+                }
+            });
+        }
+    });
+    assert!(next().is_none());
 }
 
 /// A host whose mouse has moved once and started processes in other sessions.

@@ -8,7 +8,10 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Instant;
 
-use crate::{Ended, command_in, folder, tolman_in};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::{CORRIDOR, Ended, command_in, folder, tolman_in};
 
 /// How a program is ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +20,8 @@ enum End {
     Interrupt(Duration),
     /// Without a chance to save anything, once something was saved.
     Kill,
+    /// Without a chance to save anything, after this time.
+    KillAfter(Duration),
 }
 
 /// The code of a program that Ctrl-C ended.
@@ -40,6 +45,10 @@ fn ended(folder: &Path, command: &str, unfinished: &Path, end: End) -> Ended {
             while !unfinished.exists() && child.try_wait().unwrap().is_none() {
                 sleep(Duration::from_millis(5));
             }
+            "-KILL"
+        }
+        End::KillAfter(after) => {
+            sleep(after);
             "-KILL"
         }
     };
@@ -105,9 +114,9 @@ impl Run {
                 assert!(told.err.contains("go on with: tolman"), "{}", told.err);
                 assert!(told.err.contains(&format!("--from {name}")), "{}", told.err);
             }
-            if self.unfinished.exists() {
+            if told.code.is_none() || self.unfinished.exists() {
                 count += 1;
-            } else if told.code.is_some() {
+            } else {
                 // It was faster.
                 self.is_whole(told, ends);
                 return count;
@@ -141,6 +150,11 @@ impl Run {
     /// After this share of the time that it takes.
     fn at(&self, share: f64) -> End {
         End::Interrupt(self.takes.mul_f64(share))
+    }
+
+    /// At any moment while it goes.
+    fn any_time(&self, rng: &mut ChaCha8Rng) -> End {
+        End::KillAfter(self.takes.mul_f64(rng.random()))
     }
 
     /// Interrupts it at several moments, twice, and kills it.
@@ -245,6 +259,54 @@ fn a_drive_goes_on_when_it_was_interrupted() {
     let drive =
         "drive --map map.json --maze a.maze --steps 4000 --svg a.svg --unfinished a.unfinished";
     Run::new(&folder, drive, &["a.svg"], "a.unfinished").survives_all();
+}
+
+/// Runs of a second or some: every system that learns, a drive, a brain, and an experiment.
+fn runs_of_all_kinds() -> Vec<Run> {
+    let learned = |system: &str, size: &str, more: &str| {
+        let folder = maze(&format!("killed-{system}"), size);
+        let learn = format!("learn --system {system} --maze a.maze {more} --out map.json");
+        Run::new(&folder, &learn, &["map.json"], "map.json.unfinished")
+    };
+    let driven = maze("killed-drive", "5x5");
+    let learn = "learn --system gngslam --maze a.maze --steps 300 --out map.json";
+    tolman_in(&driven, &words(learn));
+    let drive =
+        "drive --map map.json --maze a.maze --steps 4000 --svg a.svg --unfinished a.unfinished";
+    let run = "run random --maze a.maze --steps 150000 --svg run.svg --unfinished run.part";
+    let played = folder("killed-experiment");
+    fs::write(played.join("corridor.maze"), CORRIDOR).unwrap();
+    let play = "experiment baselines --maze corridor.maze --runs 300 --json --out out";
+    // It goes on by itself, from the runs that are there.
+    let (results, no_file) = (["out/runs.jsonl", "out/summary.json"], "out.unfinished");
+    vec![
+        learned(
+            "mslst",
+            "6x6",
+            "--set scan_steps=60000 --set graph_actions=9000",
+        ),
+        learned("mslst-better", "8x8", ""),
+        learned("cpm", "9x9", ""),
+        learned("gngslam", "4x4", "--steps 3000"),
+        learned("diktiometry", "6x6", "--set moves=500"),
+        Run::new(&driven, drive, &["a.svg"], "a.unfinished"),
+        Run::new(&maze("killed-run", "48x48"), run, &["run.svg"], "run.part"),
+        Run::new(&played, play, &results, no_file),
+    ]
+}
+
+#[test]
+#[ignore = "takes minutes: cargo test -p tolman --test cli -- --ignored a_hundred_kills"]
+fn a_hundred_kills_at_random_change_nothing() {
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let runs = runs_of_all_kinds();
+    let mut kills = 0;
+    while kills < 100 {
+        for run in &runs {
+            let ends = [(); 4].map(|()| run.any_time(&mut rng));
+            kills += run.survives(&ends);
+        }
+    }
 }
 
 #[test]

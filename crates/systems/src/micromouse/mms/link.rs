@@ -1,5 +1,8 @@
 //! The mouse's end of the two pipes: it writes one command per line and reads one reply per line.
 
+// Input holds any bytes: a reader indexes nothing.
+#![cfg_attr(not(test), warn(clippy::indexing_slicing))]
+
 use std::io::{self, BufRead, Read, Write};
 
 use tolman_maze::{Cell, Direction};

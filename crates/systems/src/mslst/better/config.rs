@@ -60,6 +60,8 @@ pub enum BetterPart {
     Absence,
     /// Its layers see scans straightened.
     Straightening,
+    /// It notices that it was lifted while it learned, and begins another map.
+    Lifts,
 }
 
 impl BetterConfig {

@@ -8,6 +8,7 @@ use tolman_maze::Direction;
 use tolman_robot::{Guess, MapView, Mapper, Position, Scan, Standing, Task};
 
 use super::reckoning::Reckoning;
+use super::stop::Stop;
 use super::{BetterConfig, BetterPart};
 use crate::{Brain, Doing, RolledStep};
 
@@ -26,6 +27,11 @@ pub struct BetterExplorer {
     plan: Plan,
     /// Its believed position after each action.
     trail: Vec<Point>,
+    /// What it sensed when its last action ended, until it sets off.
+    stop: Option<Stop>,
+    /// Number of maps that it dropped because it was lifted, and of actions that made them.
+    dropped: u32,
+    forgotten: usize,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,6 +48,9 @@ enum Plan {
 /// of the arena.
 const DOUBTFUL: f64 = 0.01;
 const SURE: f64 = 0.98;
+/// Maximum number of maps that it drops because their walls contradict one another. Rooms may look
+/// so without a lift.
+const MOST_DROPPED: u32 = 3;
 /// Cost of a quarter turn, in metres of way.
 const TURN: f64 = 0.35;
 
@@ -62,6 +71,9 @@ impl BetterExplorer {
             last: None,
             plan: Plan::Stuck,
             trail: Vec::new(),
+            stop: None,
+            dropped: 0,
+            forgotten: 0,
         }
     }
 
@@ -93,7 +105,18 @@ impl BetterExplorer {
         self.map
     }
 
+    /// Begins another map: it cannot know where the last one goes on.
+    fn begin_anew(&mut self) {
+        *self = Self {
+            beams: core::mem::take(&mut self.beams),
+            dropped: self.dropped + 1,
+            forgotten: self.visit_count(),
+            ..Self::new(self.config)
+        };
+    }
+
     fn arrived(&mut self, seen: &RolledStep, scan: Option<&Scan>) {
+        self.stop = Stop::of(seen.step.heading, scan);
         let (Some(scan), Some(heading)) = (scan, seen.step.heading) else {
             return;
         };
@@ -105,6 +128,12 @@ impl BetterExplorer {
             scan,
             landmark: seen.step.landmark,
         });
+        let heeds_lifts = self.config.has(BetterPart::Lifts) && self.dropped < MOST_DROPPED;
+        if heeds_lifts && self.map.surprise() > ScanMap::DOUBTFUL {
+            // It did not notice at once.
+            self.begin_anew();
+            return self.arrived(seen, Some(scan));
+        }
         self.trail.push(self.map.position());
         self.plan = self.consult(scan, heading.radians());
     }
@@ -184,9 +213,15 @@ impl Mapper for BetterExplorer {
                 ..Self::new(self.config)
             };
         }
-        self.reckoning.add(seen, &self.config);
         let scan = seen.step.scan.as_ref();
         let scan = scan.map(|scan| self.beams.mended(scan));
+        if self.config.has(BetterPart::Lifts)
+            && let Some(stop) = self.stop.take()
+            && stop.was_left_by_a_lift(seen, scan.as_ref())
+        {
+            self.begin_anew();
+        }
+        self.reckoning.add(seen, &self.config);
         match seen.step.doing {
             Doing::PutDown => self.arrived(seen, scan.as_ref()),
             Doing::UnderWay(_) => {
@@ -220,7 +255,9 @@ impl Mapper for BetterExplorer {
     }
 
     fn visits(&self) -> Vec<Option<u32>> {
-        self.corridors().visits(&self.trail)
+        let mut visits = vec![None; self.forgotten];
+        visits.extend(self.corridors().visits(&self.trail));
+        visits
     }
 
     fn certainty(&self) -> Option<f64> {
@@ -230,7 +267,7 @@ impl Mapper for BetterExplorer {
     }
 
     fn visit_count(&self) -> usize {
-        self.trail.len()
+        self.forgotten + self.trail.len()
     }
 
     fn map_bytes(&self) -> Option<usize> {

@@ -1,3 +1,6 @@
+// Input holds any bytes: a reader indexes nothing.
+#![cfg_attr(not(test), warn(clippy::indexing_slicing))]
+
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use tolman_geom::Point;
@@ -105,11 +108,8 @@ fn check_sites(sites: &[Point], places: usize) -> Result<(), BetterMapFileError>
         return Err(BetterMapFileError::Sites { found, places });
     }
     let is_nowhere = |at: &Point| !at.coords.iter().all(|along| along.is_finite());
-    match sites.iter().position(is_nowhere) {
-        Some(place) => {
-            let at = sites[place];
-            Err(BetterMapFileError::Site { place, at })
-        }
+    match sites.iter().enumerate().find(|(_, at)| is_nowhere(at)) {
+        Some((place, at)) => Err(BetterMapFileError::Site { place, at: *at }),
         None => Ok(()),
     }
 }

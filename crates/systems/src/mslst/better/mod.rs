@@ -106,6 +106,7 @@ mod map_file;
 mod navigator;
 mod reckoning;
 mod rehearsal;
+mod stop;
 
 pub use config::{BetterConfig, BetterConfigError, BetterPart, Motors};
 pub use explorer::BetterExplorer;

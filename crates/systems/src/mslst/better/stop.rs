@@ -1,0 +1,165 @@
+use core::f64::consts::FRAC_PI_4;
+
+use tolman_geom::{Heading, Vector};
+use tolman_robot::Scan;
+
+use crate::RolledStep;
+
+/// What the robot sensed when its last action ended. By this it notices that it was lifted since.
+#[derive(Clone, Debug)]
+pub(super) struct Stop {
+    heading: Heading,
+    scan: Scan,
+}
+
+/// Difference between what the compass and what the wheels say of a turn, rad, that no robot without
+/// a lift comes to.
+const UNEXPLAINED_TURN: f64 = FRAC_PI_4;
+/// Distance by which a wall has to be nearer than where the robot saw through, m: errors of ranges and
+/// wheels stay below it.
+const NEARER: f64 = 0.3;
+/// Share of the beams that have to contradict the other scan.
+const CONTRADICTING: f64 = 0.2;
+
+impl Stop {
+    /// Returns what was sensed; nothing where a reading is missing.
+    pub(super) fn of(heading: Option<Heading>, scan: Option<&Scan>) -> Option<Self> {
+        Some(Self {
+            heading: heading?,
+            scan: scan?.clone(),
+        })
+    }
+
+    /// Returns whether the robot was lifted before the time step `seen`, the first since it stopped,
+    /// at whose end it has this scan. The compass then contradicts the wheels, or each scan has
+    /// walls where the other sees through. O(beams).
+    pub(super) fn was_left_by_a_lift(&self, seen: &RolledStep, scan: Option<&Scan>) -> bool {
+        let (Some(heading), Some(odometry)) = (seen.step.heading, seen.odometry) else {
+            return false;
+        };
+        let turned = self.heading.turn_to(heading);
+        let unexplained = Heading::from_radians(turned - odometry.turn).radians();
+        if unexplained.abs() > UNEXPLAINED_TURN {
+            return true;
+        }
+        let Some(scan) = scan else {
+            return false;
+        };
+        let moved = self.heading.turned(0.5 * turned).unit() * odometry.distance;
+        let before = (&self.scan, self.heading);
+        let now = (scan, heading);
+        contradicting(now, before, moved).max(contradicting(before, now, -moved)) > CONTRADICTING
+    }
+}
+
+/// Returns the share of the beams of one scan that end where the other sees through. `offset` leads
+/// from where the other was taken to where the one was.
+fn contradicting(one: (&Scan, Heading), other: (&Scan, Heading), offset: Vector) -> f64 {
+    let (scan, heading) = one;
+    let ends = (0..)
+        .zip(&scan.ranges)
+        .filter(|(_, range)| **range < scan.ring.max_range);
+    let beams = scan.ranges.len().max(1) as f64;
+    let contradict = ends.filter(|(beam, range)| {
+        let end = offset + heading.turned(scan.ring.bearing(*beam)).unit() * **range;
+        sees_through(other, end)
+    });
+    contradict.count() as f64 / beams
+}
+
+/// Returns whether the beams about the direction of a point, relative to where the scan was taken,
+/// all reach beyond it.
+fn sees_through((scan, heading): (&Scan, Heading), at: Vector) -> bool {
+    let ahead = heading.turn_to(Heading::of(at)) - scan.ring.first_bearing;
+    let beams = scan.ranges.len() as f64;
+    let beam = libm::round(ahead / scan.ring.spacing);
+    [-1.0, 0.0, 1.0].into_iter().all(|beside| {
+        let index = (beam + beside).rem_euclid(beams) as usize;
+        let range = scan.ranges.get(index);
+        range.is_some_and(|range| *range > at.norm() + NEARER)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_robot::{Odometry, Ring};
+
+    use super::*;
+    use crate::{Doing, TimeStep};
+
+    /// Walls of a corridor 1 m wide, of which one end is near, relative to the robot: to the east, north,
+    /// west and south of it, m.
+    type Walls = [f64; 4];
+
+    const DEAD_END: Walls = [0.5, 0.5, 4.0, 0.5];
+
+    fn scan([east, north, west, south]: Walls, heading: Heading) -> Scan {
+        let ring = Ring::full(72, 1.25);
+        let range = |beam| {
+            let way = heading.turned(ring.bearing(beam)).unit();
+            let along = if way.x > 0.0 { east } else { west } / way.x.abs().max(1e-9);
+            let across = if way.y > 0.0 { north } else { south } / way.y.abs().max(1e-9);
+            along.min(across).min(ring.max_range)
+        };
+        let ranges = (0..ring.beams).map(range).collect();
+        Scan { ring, ranges }
+    }
+
+    /// Returns whether a robot that stopped amid `before`, looking east, thinks that it was lifted,
+    /// if it then senses `now`, looking `heading`, and its wheels say that it turned and drove.
+    fn was_lifted(before: Walls, now: Walls, heading: Heading, wheels: Odometry) -> bool {
+        let stop = Stop::of(Some(Heading::EAST), Some(&scan(before, Heading::EAST))).unwrap();
+        let now = scan(now, heading);
+        let step = TimeStep {
+            scan: Some(now.clone()),
+            heading: Some(heading),
+            landmark: None,
+            doing: Doing::UnderWay(tolman_maze::Direction::East),
+        };
+        let seen = RolledStep {
+            step,
+            odometry: Some(wheels),
+            bump: None,
+        };
+        stop.was_left_by_a_lift(&seen, Some(&now))
+    }
+
+    #[test]
+    fn what_the_wheels_explain_is_no_lift() {
+        let back = Odometry {
+            distance: -0.25,
+            turn: 0.0,
+        };
+        assert!(!was_lifted(
+            DEAD_END,
+            [0.75, 0.5, 3.75, 0.5],
+            Heading::EAST,
+            back
+        ));
+        let round = Odometry {
+            distance: 0.0,
+            turn: 1.6,
+        };
+        assert!(!was_lifted(DEAD_END, DEAD_END, Heading::NORTH, round));
+    }
+
+    #[test]
+    fn a_turn_that_the_wheels_do_not_know_of_is_a_lift() {
+        let still = Odometry {
+            distance: 0.0,
+            turn: 0.0,
+        };
+        assert!(was_lifted(DEAD_END, DEAD_END, Heading::NORTH, still));
+    }
+
+    #[test]
+    fn walls_where_none_were_are_a_lift() {
+        let still = Odometry {
+            distance: 0.0,
+            turn: 0.0,
+        };
+        let elsewhere = [0.5, 4.0, 0.5, 4.0];
+        assert!(was_lifted(DEAD_END, elsewhere, Heading::EAST, still));
+        assert!(was_lifted(elsewhere, DEAD_END, Heading::EAST, still));
+    }
+}
