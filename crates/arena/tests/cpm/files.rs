@@ -87,7 +87,7 @@ fn spoiled_files_say_what_is_wrong() {
         ),
         (
             |file| file["dictionary"]["patterns"][0]["half_turned"] = json!(77),
-            "half turned",
+            "half turn of pattern 0",
         ),
         (
             |file| file["map"]["fragments"][0]["minus"][1] = json!(9),
