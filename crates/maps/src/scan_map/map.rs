@@ -68,8 +68,8 @@ pub struct Advance<'a> {
 }
 
 impl ScanMap {
-    /// [`surprise`](Self::surprise) above which a map is doubtful. Among 180 right maps of the arena
-    /// the highest was 0.28; among 10 maps of kidnapped robots the lowest was 0.64.
+    /// [`surprise`](Self::surprise) above which a map is doubtful. Among 180 right maps of the
+    /// arena the highest was 0.28; among 10 maps of kidnapped robots the lowest was 0.64.
     pub const DOUBTFUL: f64 = 0.35;
 
     /// Returns a map of nothing.

@@ -12,11 +12,11 @@ pub(super) struct Stop {
     scan: Scan,
 }
 
-/// Difference between what the compass and what the wheels say of a turn, rad, that no robot without
-/// a lift comes to.
+/// Difference between what the compass and what the wheels say of a turn, rad, that no robot comes
+/// to without a lift.
 const UNEXPLAINED_TURN: f64 = FRAC_PI_4;
-/// Distance by which a wall has to be nearer than where the robot saw through, m: errors of ranges and
-/// wheels stay below it.
+/// Distance by which a wall has to be nearer than where the robot saw through, m: errors of ranges
+/// and wheels stay below it.
 const NEARER: f64 = 0.3;
 /// Share of the beams that have to contradict the other scan.
 const CONTRADICTING: f64 = 0.2;
@@ -30,9 +30,9 @@ impl Stop {
         })
     }
 
-    /// Returns whether the robot was lifted before the time step `seen`, the first since it stopped,
-    /// at whose end it has this scan. The compass then contradicts the wheels, or each scan has
-    /// walls where the other sees through. O(beams).
+    /// Returns whether the robot was lifted before the time step `seen`, the first since it
+    /// stopped, at whose end it has this scan. The compass then contradicts the wheels, or a scan
+    /// has walls where the other sees through. O(beams).
     pub(super) fn was_left_by_a_lift(&self, seen: &RolledStep, scan: Option<&Scan>) -> bool {
         let (Some(heading), Some(odometry)) = (seen.step.heading, seen.odometry) else {
             return false;
@@ -87,8 +87,7 @@ mod tests {
     use super::*;
     use crate::{Doing, TimeStep};
 
-    /// Walls of a corridor 1 m wide, of which one end is near, relative to the robot: to the east, north,
-    /// west and south of it, m.
+    /// Distances of the walls around the robot, to the east, north, west and south, m.
     type Walls = [f64; 4];
 
     const DEAD_END: Walls = [0.5, 0.5, 4.0, 0.5];
