@@ -28,7 +28,7 @@ enum End {
 const INTERRUPTED: i32 = 130;
 
 fn words(command: &str) -> Vec<&str> {
-    command.split(' ').collect()
+    command.split_whitespace().collect()
 }
 
 /// Returns how a command ended that was ended so, if it had not ended before.
