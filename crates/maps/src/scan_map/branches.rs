@@ -173,16 +173,24 @@ impl Branches {
         }
     }
 
-    /// Returns the knot nearest to a cell within `reach` cells. If there is none, makes one on the
-    /// nearest branch. `None` if the graph has no branches.
-    pub(super) fn knot_at(&mut self, at: GridIndex, reach: f64) -> Option<usize> {
+    /// Returns the knot nearest to a cell within `reach` cells among those that `fits`, of their
+    /// numbers and cells. If there is none, makes one on the nearest branch, or takes any if there
+    /// are no branches. `None` if the graph has no knots.
+    pub(super) fn knot_at(
+        &mut self,
+        at: GridIndex,
+        reach: f64,
+        fits: impl Fn(usize, GridIndex) -> bool,
+    ) -> Option<usize> {
         let far =
             |cell: GridIndex| libm::hypot(f64::from(cell[0] - at[0]), f64::from(cell[1] - at[1]));
-        let knots = self
-            .knots
-            .iter()
-            .map(|(number, knot)| (far(knot.at), *number));
-        let nearest = knots.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let within =
+            |(number, knot): &(&usize, &Knot)| fits(**number, knot.at) && far(knot.at) <= reach;
+        let nearer = |a: &(&usize, &Knot), b: &(&usize, &Knot)| far(a.1.at).total_cmp(&far(b.1.at));
+        let fitting = self.knots.iter().filter(within).min_by(nearer);
+        if let Some((number, _)) = fitting {
+            return Some(*number);
+        }
         let cells = self
             .branches
             .iter()
@@ -191,10 +199,9 @@ impl Branches {
                 let cells = branch.cells.iter().enumerate();
                 cells.map(move |(index, cell)| (far(*cell), number, index))
             });
-        let on_branch = cells.min_by(|a, b| a.0.total_cmp(&b.0));
-        match on_branch {
-            Some((_, number, index)) if nearest.0 > reach => Some(self.split(number, index)),
-            _ => Some(nearest.1),
+        match cells.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some((_, number, index)) => Some(self.split(number, index)),
+            None => Some(*self.knots.iter().min_by(nearer)?.0),
         }
     }
 

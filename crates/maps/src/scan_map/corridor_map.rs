@@ -45,6 +45,9 @@ const OPEN: f64 = 0.8;
 /// Maximum distance between a knot and a sensed landmark that stands there, as a share of the
 /// corridors' width.
 const STANDS_BY: f64 = 0.65;
+/// Distance from a knot within which a robot would sense the landmark that stands there, as a share
+/// of the corridors' width.
+const HAS_NOTHING: f64 = 0.3;
 /// Distance from the middle of a place within which a robot is at it, as a share of the corridors'
 /// width.
 const REACH: f64 = 0.33;
@@ -68,12 +71,16 @@ impl CorridorMap {
         let mut branches = Branches::of(&skeleton, chart.radius());
         branches.prune();
         branches.merge(OPEN * width);
-        let marks: Vec<(usize, Option<Landmark>)> = landmarks(chart, width)
-            .filter_map(|(at, landmark)| {
-                let reach = STANDS_BY * width / WallGrid::CELL;
-                Some((branches.knot_at(at, reach)?, landmark))
-            })
-            .collect();
+        let reach = STANDS_BY * width / WallGrid::CELL;
+        let mut marks: Vec<(usize, Option<Landmark>)> = Vec::new();
+        for (at, landmark) in landmarks(chart, width) {
+            let may_stand_at = |number, knot| {
+                let is_taken = marks.contains(&(number, landmark));
+                landmark.is_none() || !(is_taken || has_nothing(chart, middle(knot), width))
+            };
+            let knot = branches.knot_at(at, reach, may_stand_at);
+            marks.extend(knot.map(|knot| (knot, landmark)));
+        }
         let numbers: BTreeMap<usize, u32> = branches.knots().keys().copied().zip(0..).collect();
         let place = |(number, knot): (&usize, &super::branches::Knot)| CorridorPlace {
             position: middle(knot.at),
@@ -159,6 +166,13 @@ impl CorridorMap {
             links: self.ways.iter().flat_map(both_ways).collect(),
         }
     }
+}
+
+/// Returns whether the robot stood about a point and sensed no landmark.
+fn has_nothing(chart: &ScanChart, at: Point, width: f64) -> bool {
+    let mut places = chart.places().iter();
+    places
+        .any(|place| place.landmark.is_none() && (place.position - at).norm() < HAS_NOTHING * width)
 }
 
 /// Returns where landmarks stand, and where the robot was put down.
