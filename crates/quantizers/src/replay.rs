@@ -63,6 +63,7 @@ pub struct ReplayQuantizer<S, Q> {
 /// What is remembered, and how often it is learnt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct ReplayConfig {
     /// How many inputs are remembered; at least 1.
     pub capacity: u32,

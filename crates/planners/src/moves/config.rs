@@ -7,6 +7,7 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct MoveExplorerConfig {
     /// Weight of a step on known ground relative to a step of the hoped-for way beyond it, while no
     /// way to the goal is known. > 0.

@@ -13,6 +13,7 @@ use crate::{BodyError, Chance, Channel, CommandError, Contact, Model, Motion, Su
 /// One "robot unit" of the paper is the diameter of the body.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct LaserPioneerConfig {
     /// Radius of the body, m.
     pub radius: f64,
@@ -49,6 +50,7 @@ pub struct LaserPioneerConfig {
 /// still.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct MotorNoise {
     /// Noise of a commanded turn, rad.
     pub turn: Gaussian,
@@ -61,6 +63,7 @@ pub struct MotorNoise {
 /// Faults of a robot beyond plain noise; each list applies in order, after the noise.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct LaserPioneerFaults {
     /// Of the turn the motors make, rad; a drop-out makes none.
     pub motor_turn: Vec<Fault>,
@@ -93,6 +96,7 @@ pub struct StuckBeam {
 /// order, after the faults. They are not in the configuration, since code cannot be written to a
 /// file.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct LaserPioneerDisturbances {
     /// Of the turn the motors make, rad; no error if missing.
     pub motor_turn: Disturbances<f64>,
