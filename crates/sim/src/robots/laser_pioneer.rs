@@ -11,6 +11,22 @@ use crate::{BodyError, Chance, Channel, CommandError, Contact, Model, Motion, Su
 /// The robot of MSLST: a Pioneer-like disc that turns in place, with a laser ring and a compass.
 ///
 /// One "robot unit" of the paper is the diameter of the body.
+///
+/// ```
+/// use tolman_robot::Ring;
+/// use tolman_sim::noise::Gaussian;
+/// use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+///
+/// let mut config = LaserPioneerConfig::noiseless();
+/// config.ring = Ring::fan(180, core::f64::consts::PI, 8.0);
+/// config.scan_noise = Gaussian::absolute(0.01);
+/// LaserPioneer::new(config.clone())?;
+/// // What has no sense is refused by name.
+/// config.radius = -1.0;
+/// let error = LaserPioneer::new(config).unwrap_err();
+/// assert!(error.to_string().contains("radius"));
+/// # Ok::<(), tolman_sim::robots::RobotConfigError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
