@@ -34,6 +34,7 @@ const COINS: Entry = Entry {
     open: |_| {
         let table = Table::of::<Game>("1", "A fair coin")
             .metric(Metric::mean(Game::tosses))
+            .paper_runs(1000)
             .row(Row::new("one by one").paper(Game::tosses, 2.0))
             .row(Row::new("two by two").paper(Game::tosses, 8.0 / 3.0));
         let config = toml::Table::new();
