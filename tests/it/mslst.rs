@@ -16,11 +16,10 @@ use crate::support::{own_course, trial};
 
 /// A short apprenticeship, so that the tests are quick.
 fn config() -> MslstConfig {
-    MslstConfig {
-        scan_steps: 2000,
-        graph_actions: 600,
-        ..MslstConfig::j()
-    }
+    let mut config = MslstConfig::j();
+    config.scan_steps = 2000;
+    config.graph_actions = 600;
+    config
 }
 
 fn learned() -> Learned {

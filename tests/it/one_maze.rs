@@ -77,10 +77,8 @@ where
 #[test]
 fn mslst_does() {
     let layers = Stack::paper(ring(), 2.0 * calibrated().radius, CORRIDOR_WIDTH).unwrap();
-    let config = MslstConfig {
-        graph_actions: 2000,
-        ..MslstConfig::large(50.0)
-    };
+    let mut config = MslstConfig::large(50.0);
+    config.graph_actions = 2000;
     let mut mslst = Actor::seeded(Mslst::new(config), layers, SEED);
     let (explored, reached) = explore_and_reach(pioneer(), &mut mslst);
     assert!(explored > config.scan_steps && reached < 500, "{reached}");
@@ -101,19 +99,15 @@ fn cpm_does() {
 
 #[test]
 fn the_diktiometry_does() {
-    let furniture = OfficeConfig {
-        corridor_width: CORRIDOR_WIDTH,
-        wall_thickness: 0.0,
-        ..OfficeConfig::bare()
-    };
+    let mut furniture = OfficeConfig::bare();
+    furniture.corridor_width = CORRIDOR_WIDTH;
+    furniture.wall_thickness = 0.0;
     let office = Office::new(&maze(), &furniture).unwrap();
     // Bounds that hold for this robot. With the paper's 10 % of the way, corridors of three cells
     // get more places than they have.
-    let surveyor = SurveyorConfig {
-        odometry_share: 0.02,
-        compass_bound: 0.005,
-        ..SurveyorConfig::mslst()
-    };
+    let mut surveyor = SurveyorConfig::mslst();
+    surveyor.odometry_share = 0.02;
+    surveyor.compass_bound = 0.005;
     let config = DiktiometerConfig::paper(
         surveyor.routines(CORRIDOR_WIDTH),
         mapper(&office, &surveyor),
@@ -133,12 +127,11 @@ fn the_diktiometry_does() {
 #[test]
 fn the_micromouse_does() {
     let robot = calibrated();
-    let config = MazeMouseConfig {
-        pitch: CORRIDOR_WIDTH,
-        wall_thickness: 0.0,
-        turn_per_step: robot.turn_per_step,
-        translate_per_step: robot.translate_per_step,
-    };
+    let config = MazeMouseConfig::new(
+        CORRIDOR_WIDTH,
+        robot.turn_per_step,
+        robot.translate_per_step,
+    );
     let mut mouse = MazeMouse::certify(brief(&maze()).unwrap(), config).unwrap();
     let (explored, reached) = explore_and_reach(pioneer(), &mut mouse);
     assert!(mouse.certificate().is_some());

@@ -88,6 +88,14 @@ const THOROUGH: &[Step] = &[
     ("python", python::check),
     ("playground", playground::check),
     ("packages", || passed(packages::all())),
+    // Every set of a crate's features by itself: the other steps turn on all of them or none.
+    ("features", || {
+        if_installed("cargo-hack", || {
+            passes(
+                "hack clippy --workspace --feature-powerset --exclude-features default --quiet -- --deny warnings",
+            )
+        })
+    }),
 ];
 
 /// Some thirty changes of the code, spread over all crates that are changed.

@@ -1,9 +1,10 @@
 //! `cargo xtask layers`: checks that the dependencies between the crates are those of
-//! docs/architecture.md, and that every public name means one thing.
+//! docs/architecture.md, that every public name means one thing, and that configurations can grow.
 //!
 //! [`rules::faults`] compares the page's tables with `cargo metadata`. [`names::faults`] compares
 //! the names of types with docs/glossary.md.
 
+mod configs;
 mod names;
 mod page;
 mod reexports;
@@ -28,6 +29,7 @@ pub(crate) fn run() -> Result<()> {
     let crates = workspace::root().join("crates");
     faults.extend(reexports::faults(&page.stable, &packages, &crates)?);
     faults.extend(size::faults(&crates)?);
+    faults.extend(configs::faults(&crates)?);
     faults.extend(names::faults(&crates, &workspace::root().join(GLOSSARY))?);
     if faults.is_empty() {
         let edges: usize = packages

@@ -13,12 +13,10 @@ use tolman_systems::cpm::{Aim, CpmConfig, Explorer, JunctionDecision};
 
 fn world(columns: u32, rows: u32) -> PlaneMaze {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let maze = MazeConfig {
-        columns,
-        rows,
-        diagonals: 0.3,
-        ..MazeConfig::small()
-    };
+    let mut maze = MazeConfig::small();
+    maze.columns = columns;
+    maze.rows = rows;
+    maze.diagonals = 0.3;
     PlaneMaze::random(&maze, &mut rng).unwrap()
 }
 
@@ -35,14 +33,12 @@ fn explored(world: &PlaneMaze, config: CpmConfig, reckoning: Reckoning) -> Explo
 /// Returns a maze of many loops and corridors of four kinds, as long as an e-puck sees them.
 fn confusing(side: u32) -> PlaneMaze {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let maze = MazeConfig {
-        columns: side,
-        rows: side,
-        patterns: 100,
-        observations_per_cell: 8.0,
-        likeness: Likeness::Kinds(4),
-        ..MazeConfig::small()
-    };
+    let mut maze = MazeConfig::small();
+    maze.columns = side;
+    maze.rows = side;
+    maze.patterns = 100;
+    maze.observations_per_cell = 8.0;
+    maze.likeness = Likeness::Kinds(4);
     PlaneMaze::random(&maze, &mut rng).unwrap()
 }
 
@@ -51,10 +47,8 @@ fn confusing(side: u32) -> PlaneMaze {
 fn miscounted(world: &PlaneMaze, walks: u32) -> Explorer {
     let mut rng = ChaCha8Rng::seed_from_u64(2);
     let mut rover = PlaneWalker::new(world, WalkerNoise::NOISY, Reckoning::Bounded);
-    let config = CpmConfig {
-        most_traversals: walks,
-        ..CpmConfig::robust()
-    };
+    let mut config = CpmConfig::robust();
+    config.most_traversals = walks;
     let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
     while let JunctionDecision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
         // A way that is not there leads back.

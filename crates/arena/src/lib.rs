@@ -12,6 +12,13 @@
 //! a maze for its speed run. [`gngslam`] has the arenas and the data of the place map.
 //! [`log_score`] judges ways that were found from logs. [`mms`] is the protocol of the simulator of
 //! that name; [`foreign`] runs foreign programs under supervision.
+//!
+//! # Who learns a maze
+//!
+//! `cargo run --example who_learns`:
+#![doc = "```"]
+#![doc = include_str!("../examples/who_learns.rs")]
+#![doc = "```"]
 
 extern crate alloc;
 

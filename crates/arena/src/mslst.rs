@@ -83,10 +83,8 @@ pub fn learn_better_without(
     robot: &LaserPioneerConfig,
     seed: u64,
 ) -> Result<BetterLearned, LearnError> {
-    let config = BetterConfig {
-        without,
-        ..better_config(course.corridor_width, robot)
-    };
+    let mut config = better_config(course.corridor_width, robot);
+    config.without = without;
     learn_by(course, robot, &config, 1, seed)
 }
 
@@ -94,11 +92,10 @@ pub fn learn_better_without(
 /// m wide.
 #[must_use]
 pub fn better_config(corridor_width: f64, robot: &LaserPioneerConfig) -> BetterConfig {
-    BetterConfig {
-        diameter: 2.0 * robot.radius,
-        corridor_width,
-        ..BetterConfig::pioneer()
-    }
+    let mut config = BetterConfig::pioneer();
+    config.diameter = 2.0 * robot.radius;
+    config.corridor_width = corridor_width;
+    config
 }
 
 fn learn_by(

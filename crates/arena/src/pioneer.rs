@@ -3,7 +3,7 @@
 use tolman_robot::{Body, Ring};
 use tolman_sim::Contact;
 use tolman_sim::noise::{Fault, Gaussian};
-use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, MotorNoise};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use tolman_systems::mslst::ROBOT_UNIT;
 
 use crate::Simulated;
@@ -39,22 +39,19 @@ pub fn ring() -> Ring {
 /// `docs/mslst.md`).
 #[must_use]
 pub fn calibrated() -> LaserPioneerConfig {
-    LaserPioneerConfig {
-        radius: 0.5 * ROBOT_UNIT,
-        ring: ring(),
-        turn_per_step: 91_f64.to_radians(),
-        translate_per_step: 2.0 * ROBOT_UNIT,
-        motor_noise: MotorNoise {
-            turn: Gaussian {
-                relative_sd: 0.12,
-                absolute_sd: 0.5_f64.to_radians(),
-            },
-            translate: Gaussian::relative(0.25),
-            drift_sd: 2_f64.to_radians(),
-        },
-        contact: Contact::Slide,
-        ..LaserPioneerConfig::noiseless()
-    }
+    let mut config = LaserPioneerConfig::noiseless();
+    config.radius = 0.5 * ROBOT_UNIT;
+    config.ring = ring();
+    config.turn_per_step = 91_f64.to_radians();
+    config.translate_per_step = 2.0 * ROBOT_UNIT;
+    config.motor_noise.turn = Gaussian {
+        relative_sd: 0.12,
+        absolute_sd: 0.5_f64.to_radians(),
+    };
+    config.motor_noise.translate = Gaussian::relative(0.25);
+    config.motor_noise.drift_sd = 2_f64.to_radians();
+    config.contact = Contact::Slide;
+    config
 }
 
 /// Returns the same robot with sensor noise, as the better MSLST is judged. Encoders err by
@@ -88,13 +85,12 @@ pub const fn body() -> Body {
 #[must_use]
 pub fn without_noise(robot: &LaserPioneerConfig) -> LaserPioneerConfig {
     let perfect = LaserPioneerConfig::noiseless();
-    LaserPioneerConfig {
-        motor_noise: perfect.motor_noise,
-        scan_noise: perfect.scan_noise,
-        compass_noise: perfect.compass_noise,
-        odometry_distance_noise: perfect.odometry_distance_noise,
-        odometry_turn_noise: perfect.odometry_turn_noise,
-        faults: perfect.faults,
-        ..robot.clone()
-    }
+    let mut config = robot.clone();
+    config.motor_noise = perfect.motor_noise;
+    config.scan_noise = perfect.scan_noise;
+    config.compass_noise = perfect.compass_noise;
+    config.odometry_distance_noise = perfect.odometry_distance_noise;
+    config.odometry_turn_noise = perfect.odometry_turn_noise;
+    config.faults = perfect.faults;
+    config
 }

@@ -176,7 +176,9 @@ fn a_robot_with_a_laser_wanders_too() {
     let model = LaserPioneer::new(LaserPioneerConfig::noiseless()).unwrap();
     let start = pitch.start(1).unwrap();
     let mut robot = Solo::new(pitch.world.clone(), model, start, 1).unwrap();
-    let config = WandererConfig::paper().with_rates(0.08, 0.15);
+    let mut config = WandererConfig::paper();
+    config.drive.translate = 0.08;
+    config.drive.turn = 0.15;
     let mut wanderer = Wanderer::new(config, 1);
     for _ in 0..50 {
         let record = wanderer.leg(&mut robot).unwrap();

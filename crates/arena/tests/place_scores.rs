@@ -26,10 +26,9 @@ fn learned(data: &DataSet, pitch: &Pitch) -> (PlaceScore, f64) {
     let choice = FeatureChoice::paper(ImageFeature::small(ColourSpace::Hsv));
     let form = ImageForm::Span { left_out: 0.0 };
     let table = FeatureTable::of(&records, &choice, form).unwrap();
-    let config = PlaceMapConfig::paper().with_gng(GngConfig {
-        growth_period: 30,
-        ..GngConfig::fritzke()
-    });
+    let mut config = PlaceMapConfig::paper();
+    config.gng = GngConfig::fritzke();
+    config.gng.growth_period = 30;
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let map = PlaceMap::learn(&table, 0..RECORDS, config, &mut rng).unwrap();
     let scorer = PlaceScorer::paper(data, pitch);

@@ -12,6 +12,7 @@ use crate::{Layer, Outcome, Proposal, Situation};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct Avoid {
     /// Clear distance wanted ahead, from the robot's centre, m. Paper: 0.9 units.
     #[cfg_attr(

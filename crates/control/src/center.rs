@@ -6,6 +6,7 @@ use crate::{Layer, Proposal, Situation};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct Center {
     /// Ratio of the distances to the two walls above which it steers. Paper: 1.25.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]

@@ -59,6 +59,26 @@ pub struct Corridor {
 /// the circle, must be below 1.625 corridor widths. Other rings ask for the same share of the half
 /// circle. A corridor runs north–south or east–west. One that seems to run along a diagonal is the
 /// inside of a bend, whose two corners look like walls. O(beams).
+///
+/// ```
+/// use tolman_control::{CorridorDetector, View};
+/// use tolman_geom::Heading;
+/// use tolman_robot::{Ring, Scan};
+///
+/// // Walls 0.5 m to the left and right; nothing ahead and behind within 2 m.
+/// let ring = Ring::full(72, 2.0);
+/// let detector = CorridorDetector::new(ring, 1.0)?;
+/// let range = |beam| (0.5 / ring.bearing(beam).sin().abs()).min(ring.max_range);
+/// let scan = Scan { ring, ranges: (0..ring.beams).map(range).collect() };
+/// let view = View { scan: &scan, heading: Heading::EAST };
+/// let corridor = detector.detect(view).unwrap();
+/// assert_eq!(corridor.misaligned_beams, 0);
+/// assert!((corridor.narrowest - 1.0).abs() < 1e-9);
+/// // Without walls there is no corridor.
+/// let view = View { scan: &Scan::clear(ring), heading: Heading::EAST };
+/// assert_eq!(detector.detect(view), None);
+/// # Ok::<(), tolman_control::RingError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorridorDetector {
     /// The ring whose scans it reads.

@@ -31,6 +31,7 @@ pub const fn unit_of(direction: Direction) -> Vector {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct Move {
     /// Turn command per degree of heading error. Paper: 0.0105.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]

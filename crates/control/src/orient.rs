@@ -15,6 +15,7 @@ use crate::{Layer, Outcome, Proposal, Situation};
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct Orient {
     /// Turn command per beam of misalignment. Paper: 0.04 at 72 beams.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]

@@ -12,6 +12,24 @@ use crate::{
 };
 
 /// The layers in their order, the highest first.
+///
+/// ```
+/// use rand_chacha::ChaCha8Rng;
+/// use rand_chacha::rand_core::SeedableRng;
+/// use tolman_control::{Stack, View};
+/// use tolman_geom::Heading;
+/// use tolman_maze::Direction;
+/// use tolman_robot::{Ring, Scan};
+///
+/// let ring = Ring::full(72, 0.75);
+/// let mut stack = Stack::paper(ring, 0.3, 0.57)?;
+/// stack.begin(Direction::North);
+/// // It looks east: the layers turn it to the left first.
+/// let view = View { scan: &Scan::clear(ring), heading: Heading::EAST };
+/// let proposal = stack.correct(view, &mut ChaCha8Rng::seed_from_u64(1));
+/// assert!(proposal.command.turn > 0.0);
+/// # Ok::<(), tolman_control::RingError>(())
+/// ```
 #[derive(Debug)]
 pub struct Stack {
     detector: CorridorDetector,

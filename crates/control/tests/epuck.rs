@@ -6,16 +6,15 @@
     reason = "a test that cannot set itself up has failed"
 )]
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::PI;
 
 use tolman_control::epuck::{
-    ForwardConfig, KeepOff, MeetPointConfig, Pilot, PilotConfig, PlaceKind, Profile, RangeCurve,
-    SegmentConfig, Segments, SensorAlignment,
+    MeetPointConfig, Pilot, PilotConfig, PlaceKind, Profile, RangeCurve, SegmentConfig, Segments,
+    SensorAlignment,
 };
 use tolman_control::heading_of;
 use tolman_geom::{Point, Pose};
 use tolman_maze::{Cell, Maze};
-use tolman_robot::epuck::MOST_WHEEL_SPEED;
 use tolman_sim::noise::Fault;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_sim::sensors::ResponseCurve;
@@ -29,31 +28,16 @@ fn pilot(maze: &Maze, slip: f64, seed: u64) -> Pilot<Solo<Epuck>> {
     let world = World::from_maze(maze, &CorridorSize::thin(WIDTH)).unwrap();
     let (cell, direction) = maze.start().unwrap();
     let start = Pose::new(world.cell_centre(cell), heading_of(direction));
-    let robot = Epuck::new(EpuckConfig {
-        step_us: STEP_US,
-        wheels: vec![Fault::Slip { share: slip }],
-        ..EpuckConfig::cpm()
-    })
-    .unwrap();
+    let mut robot = EpuckConfig::cpm();
+    robot.step_us = STEP_US;
+    robot.wheels = vec![Fault::Slip { share: slip }];
+    let robot = Epuck::new(robot).unwrap();
     let solo = Solo::new(world, robot, start, seed).unwrap();
     let response = ResponseCurve::cpm();
     let points = (0..=250).map(|millimetre| f64::from(millimetre) * 1e-3);
-    let config = PilotConfig {
-        step_us: STEP_US,
-        samples: 100,
-        sweep_speed: TAU / 100.0 / (STEP_US as f64 * 1e-6),
-        most_wheel_speed: MOST_WHEEL_SPEED,
-        turn_tolerance: 1e-9,
-        curve: RangeCurve::new(
-            points
-                .map(|range| (range, response.at(range).value))
-                .collect(),
-        )
-        .unwrap(),
-        forward: ForwardConfig::for_width(WIDTH),
-        keep_off: KeepOff::ours(),
-    };
-    Pilot::new(solo, config)
+    let curve = points.map(|range| (range, response.at(range).value));
+    let curve = RangeCurve::new(curve.collect()).unwrap();
+    Pilot::new(solo, PilotConfig::paper(curve, STEP_US, WIDTH))
 }
 
 fn look(pilot: &mut Pilot<Solo<Epuck>>) -> (Profile, Segments) {

@@ -48,16 +48,11 @@ fn refuses<T: Serialize + DeserializeOwned + Debug>(value: &T, field: &str, numb
 }
 
 fn pilot() -> PilotConfig {
-    PilotConfig {
-        step_us: 10_000,
-        samples: 100,
-        sweep_speed: 4.9,
-        most_wheel_speed: 6.0,
-        turn_tolerance: 1e-6,
-        curve: RangeCurve::cpm(),
-        forward: ForwardConfig::for_width(0.2),
-        keep_off: KeepOff::ours(),
-    }
+    let mut config = PilotConfig::paper(RangeCurve::cpm(), 10_000, 0.2);
+    config.sweep_speed = 4.9;
+    config.most_wheel_speed = 6.0;
+    config.turn_tolerance = 1e-6;
+    config
 }
 
 #[test]

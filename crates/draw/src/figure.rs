@@ -35,6 +35,16 @@ pub struct Drawing {
 }
 
 /// A picture of an experiment.
+///
+/// ```
+/// use tolman_draw::{Figure, FloorPlan};
+/// use tolman_geom::Point;
+///
+/// let wall = [Point::new(0.0, 0.0), Point::new(2.0, 1.0)];
+/// let drawing = FloorPlan::of_walls(&[wall], 200.0).drawing("One wall.");
+/// let figure = Figure::new("wall", "A wall", drawing).caption("It stands alone.");
+/// assert!(figure.standalone().ends_with("</svg>"));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// The name of its file without the extension, and the prefix of its ids: lower-case letters,

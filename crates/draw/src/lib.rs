@@ -33,6 +33,13 @@
 //! let figure = Figure::new("room", "A room", plan.drawing("One straight way through a room."));
 //! assert!(figure.standalone().starts_with("<svg xmlns="));
 //! ```
+//!
+//! # A plan with a learned map
+//!
+//! `cargo run --example floor_plan`:
+#![doc = "```"]
+#![doc = include_str!("../examples/floor_plan.rs")]
+#![doc = "```"]
 
 // What the signatures need, whole: see docs/architecture.md, API boundaries.
 pub use tolman_geom as geom;

@@ -7,6 +7,18 @@ use super::number::{NOTHING, extent, tenths};
 
 /// Depth of one colour by value: none at the low end, full at the high end. It works on light and
 /// dark pages alike, and one colour shows more and less to every reader.
+///
+/// ```
+/// use tolman_draw::{FloorPlan, Series, Shade};
+/// use tolman_geom::Point;
+///
+/// let visits = [(Point::new(0.5, 0.5), 3.0), (Point::new(1.5, 0.5), 12.0)];
+/// let shade = Shade::of("visits", visits.map(|(_, count)| count)).series(Series(1));
+/// assert_eq!((shade.low, shade.high), (3.0, 12.0));
+/// let wall = [Point::new(0.0, 0.0), Point::new(2.0, 0.0)];
+/// let mut plan = FloorPlan::of_walls(&[wall], 200.0);
+/// plan.cells(&visits, 1.0, &shade);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shade {
     /// Quantity of the values, with its unit.

@@ -13,6 +13,13 @@
 //! tolerance, range and definition, declared once by [`record!`]. Results already in a folder are
 //! reused only if they are in their ranges and pass [`Record::check`]. For a run just played,
 //! failing this is an error.
+//!
+//! # An experiment of your own
+//!
+//! `cargo run --example coins`:
+#![doc = "```"]
+#![doc = include_str!("../examples/coins.rs")]
+#![doc = "```"]
 
 extern crate alloc;
 

@@ -20,6 +20,21 @@ const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
 
 /// The mouse: what it knows and what it is doing. Directions to and from it are relative to its
 /// heading: north is ahead, east is to its right.
+///
+/// ```
+/// use tolman_firmware::{Command, Mouse, Sides};
+/// use tolman_maze::{Cell, Direction};
+/// use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
+///
+/// // Goals are told, walls are not.
+/// let times = SpeedRunTimes::new(&SpeedRunConfig::classic()).unwrap();
+/// let goals = [Cell::new(1, 1)];
+/// let mut mouse = Mouse::new(&times, &goals)?;
+/// let open = |ahead, right| Sides { left: false, ahead, right };
+/// assert_eq!(mouse.arrive(open(true, false))?, Command::Drive(Direction::North));
+/// assert_eq!(mouse.arrive(open(false, true))?, Command::Drive(Direction::East));
+/// # Ok::<(), tolman_maps::wall_map::TooLarge>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Mouse<'a> {
     times: &'a SpeedRunTimes<MAZE>,

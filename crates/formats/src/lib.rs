@@ -21,6 +21,13 @@
 //! assert_eq!(map.cells, [MapCell::Free, MapCell::Occupied]);
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
+//!
+//! # From a log to a trajectory
+//!
+//! `cargo run --example log_to_tum`:
+#![doc = "```"]
+#![doc = include_str!("../examples/log_to_tum.rs")]
+#![doc = "```"]
 // Files hold any bytes: a reader indexes nothing and cuts no number off.
 #![cfg_attr(
     not(test),

@@ -27,6 +27,13 @@
 //! let arrived = Pose::IDENTITY.moved(quarter, 1.0);
 //! assert!((arrived.position - Point::new(1.0, 1.0)).norm() < 1e-12);
 //! ```
+//!
+//! # Bounds that grow and shrink
+//!
+//! `cargo run --example bounds`:
+#![doc = "```"]
+#![doc = include_str!("../examples/bounds.rs")]
+#![doc = "```"]
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

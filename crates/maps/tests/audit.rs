@@ -253,11 +253,17 @@ fn a_graph_in_two_pieces_is_joined_by_its_closures() {
     verify(&graph, &CONFIG, &found).unwrap();
 }
 
+fn scaled(scale: f64) -> AuditConfig {
+    let mut config = CONFIG;
+    config.sigma_scale = scale;
+    config
+}
+
 #[test]
 fn what_cannot_be_audited_says_why() {
     let laps = Laps::new(2, 0.0, 0);
     for scale in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let error = audit(&laps.graph, &CONFIG.with_sigma_scale(scale)).unwrap_err();
+        let error = audit(&laps.graph, &scaled(scale)).unwrap_err();
         assert!(error.to_string().contains("sigma scale"), "{error}");
     }
     let mut graph = laps.graph;
@@ -399,7 +405,7 @@ fn no_field_of_a_certificate_can_be_changed() {
         }
     }
     assert!(changed > 200, "{changed}");
-    let error = verify(&laps.graph, &CONFIG.with_sigma_scale(1.1), &found);
+    let error = verify(&laps.graph, &scaled(1.1), &found);
     assert!(error.is_err(), "another scale is another covariance");
 }
 

@@ -94,11 +94,11 @@ fn mirrored(records: &[PlaceRecord]) -> Vec<PlaceRecord> {
 }
 
 fn fine() -> PlaceMapConfig {
-    PlaceMapConfig::paper().with_gng(GngConfig {
-        max_units: 40,
-        growth_period: 20,
-        ..GngConfig::fritzke()
-    })
+    let mut config = PlaceMapConfig::paper();
+    config.gng = GngConfig::fritzke();
+    config.gng.max_units = 40;
+    config.gng.growth_period = 20;
+    config
 }
 
 fn small(scaling: FeatureScaling) -> FeatureChoice {

@@ -111,12 +111,14 @@ fn a_wrong_belief_is_given_up() {
     assert_eq!(belief, before);
 }
 
-const FILTER: PoseFilterConfig = PoseFilterConfig {
-    particles: 300,
-    slip: 0.1,
-    drift: 0.2,
-    spread: 0.001,
-    sensor: SENSOR,
+const FILTER: PoseFilterConfig = {
+    let mut config = PoseFilterConfig::for_pitch(0.1);
+    config.particles = 300;
+    config.slip = 0.1;
+    config.drift = 0.2;
+    config.spread = 0.001;
+    config.sensor = SENSOR;
+    config
 };
 
 const SENSOR: RangeModel = RangeModel {

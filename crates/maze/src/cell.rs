@@ -3,6 +3,15 @@ use core::fmt;
 use crate::Direction;
 
 /// A cell of a maze: column `x` counted from the west, row `y` counted from the south, both from 0.
+///
+/// ```
+/// use tolman_maze::{Cell, Direction};
+///
+/// let corner = Cell::new(0, 0);
+/// assert_eq!(corner.beyond(Direction::North), Some(Cell::new(0, 1)));
+/// assert_eq!(corner.beyond(Direction::West), None);
+/// assert_eq!(corner.to_string(), "(0, 0)");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cell {

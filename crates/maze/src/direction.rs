@@ -1,6 +1,15 @@
 use core::fmt;
 
 /// A compass direction of the grid, clockwise from north.
+///
+/// ```
+/// use tolman_maze::Direction::{East, North, West};
+///
+/// assert_eq!(North.right(), East);
+/// // What is to the left of a robot that looks east?
+/// assert_eq!(East.turned(West), North);
+/// assert_eq!(North.seen_from(East), West);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]

@@ -1,6 +1,14 @@
 use crate::{Cell, Direction, Grid};
 
 /// Knowledge of one wall of a maze.
+///
+/// ```
+/// use tolman_maze::Knowledge;
+///
+/// let seen = Knowledge::of_standing(true);
+/// assert_eq!(seen, Knowledge::Wall);
+/// assert!(seen.is_known() && !Knowledge::default().is_known());
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]

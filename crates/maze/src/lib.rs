@@ -50,6 +50,14 @@
 //!
 //! Without the feature `alloc` only cells, directions, the numbering of walls and the vocabulary of partial
 //! knowledge are left: what firmware builds its own map on.
+//!
+//! # A file checked and converted
+//!
+//! `cargo run --example convert`:
+#![cfg_attr(feature = "alloc", doc = "```")]
+#![cfg_attr(not(feature = "alloc"), doc = "```ignore")]
+#![doc = include_str!("../examples/convert.rs")]
+#![doc = "```"]
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

@@ -116,10 +116,8 @@ fn growth(runs: u64) {
             let mut found = Vec::new();
             let (mut share, mut purity) = (0.0, 1.0_f64);
             for seed in 0..runs {
-                let errors = MoveNoise {
-                    stop: 0.0175,
-                    ..errors
-                };
+                let mut errors = errors;
+                errors.stop = 0.0175;
                 let mut config = alike();
                 config.place_radius = errors.stop;
                 let world = world(seed);
@@ -157,12 +155,17 @@ fn growth(runs: u64) {
 /// What becomes of the map without each part of the mapper, where everything is as the mapper is
 /// told and where it is not.
 fn parts(runs: u64) {
-    let outliers = |share: f64, factor: f64| MoveNoise {
-        outliers: share,
-        outlier_factor: factor,
-        ..ODOMETRY
+    let outliers = |share: f64, factor: f64| {
+        let mut errors = ODOMETRY;
+        errors.outliers = share;
+        errors.outlier_factor = factor;
+        errors
     };
-    let seen = |look: f64| MoveNoise { look, ..ODOMETRY };
+    let seen = |look: f64| {
+        let mut errors = ODOMETRY;
+        errors.look = look;
+        errors
+    };
     let meets: Change = |config| {
         config.matching.identity = Identity::Meets;
         config.restructuring.geometric_merge = GeometricMerge::Estims;
@@ -286,12 +289,10 @@ fn looks(runs: u64) {
     );
     println!("| --- | ---: | ---: | ---: | ---: |");
     const SIDE: u16 = 9;
-    let rough = MoveNoise {
-        distance: 0.2,
-        compass: 2.0 * COMPASS,
-        look: 0.2,
-        ..ODOMETRY
-    };
+    let mut rough = ODOMETRY;
+    rough.distance = 0.2;
+    rough.compass = 2.0 * COMPASS;
+    rough.look = 0.2;
     // Square rooms of `room` places each way.
     let room = |side: u16, room: u32| {
         let side = u32::from(side);
@@ -390,10 +391,8 @@ fn kidnapped(runs: u64) {
                 let mut config = painted();
                 config.indexing.perceptual = form;
                 change(&mut config);
-                let errors = MoveNoise {
-                    look: 0.2,
-                    ..ODOMETRY
-                };
+                let mut errors = ODOMETRY;
+                errors.look = 0.2;
                 let world = open(SIDE).painted(colours, seed);
                 let mut walk = Walk::new(world, errors, config, seed);
                 walk.heed(1.0, 2000);

@@ -81,28 +81,26 @@ fn main() -> Result<(), Box<dyn Error>> {
     let point = |(x, y): (f64, f64)| Point::new(x, y);
     let walls = corners.map(|pair| WallSegment::between(point(pair[0]), point(pair[1])));
     let world = World::from_segments(walls.collect())?;
-    let config = LaserPioneerConfig {
-        ring: Ring {
-            beams: 180,
-            first_bearing: -0.5 * PI,
-            spacing: 1_f64.to_radians(),
-            max_range: 30.0,
-        },
-        turn_per_step: 0.1,
-        translate_per_step: 0.05,
-        scan_noise: Gaussian {
-            absolute_sd: 0.01,
-            ..Gaussian::NONE
-        },
-        odometry_distance_noise: Gaussian {
-            relative_sd: 0.05,
-            ..Gaussian::NONE
-        },
-        odometry_turn_noise: Gaussian {
-            relative_sd: 0.05,
-            absolute_sd: 0.004,
-        },
-        ..LaserPioneerConfig::noiseless()
+    let mut config = LaserPioneerConfig::noiseless();
+    config.ring = Ring {
+        beams: 180,
+        first_bearing: -0.5 * PI,
+        spacing: 1_f64.to_radians(),
+        max_range: 30.0,
+    };
+    config.turn_per_step = 0.1;
+    config.translate_per_step = 0.05;
+    config.scan_noise = Gaussian {
+        absolute_sd: 0.01,
+        ..Gaussian::NONE
+    };
+    config.odometry_distance_noise = Gaussian {
+        relative_sd: 0.05,
+        ..Gaussian::NONE
+    };
+    config.odometry_turn_noise = Gaussian {
+        relative_sd: 0.05,
+        absolute_sd: 0.004,
     };
     let start = Pose::new(Point::new(1.2, 1.2), tolman_geom::Heading::EAST);
     let mut solo = Solo::new(world, LaserPioneer::new(config)?, start, 7)?;

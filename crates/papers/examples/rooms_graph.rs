@@ -89,18 +89,16 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Drives, and returns the true poses and what the wheels said between them.
 fn drive() -> Result<(Vec<Pose>, Vec<G2oEdge>), Box<dyn Error>> {
     let world = World::from_json(include_str!("../mazes/worlds/rooms.json"))?;
-    let config = LaserPioneerConfig {
-        turn_per_step: 0.1,
-        translate_per_step: 0.05,
-        odometry_distance_noise: Gaussian {
-            absolute_sd: 0.002,
-            ..Gaussian::NONE
-        },
-        odometry_turn_noise: Gaussian {
-            absolute_sd: 0.003,
-            ..Gaussian::NONE
-        },
-        ..LaserPioneerConfig::noiseless()
+    let mut config = LaserPioneerConfig::noiseless();
+    config.turn_per_step = 0.1;
+    config.translate_per_step = 0.05;
+    config.odometry_distance_noise = Gaussian {
+        absolute_sd: 0.002,
+        ..Gaussian::NONE
+    };
+    config.odometry_turn_noise = Gaussian {
+        absolute_sd: 0.003,
+        ..Gaussian::NONE
     };
     let start = Pose::new(Point::new(0.5, 0.5), Heading::EAST);
     let mut solo = Solo::new(world, LaserPioneer::new(config)?, start, 7)?;

@@ -4,6 +4,15 @@ use alloc::vec::Vec;
 use crate::Graph;
 
 /// A graph stored as a list of arcs, grouped by the node they leave (compressed sparse rows).
+///
+/// ```
+/// use tolman_planners::{Arcs, costs_from};
+///
+/// // From 0 to 1 for 5, and from 1 back to 0 for 7.
+/// let arcs = Arcs::new(2, &[(0, 1, 5), (1, 0, 7)]);
+/// assert_eq!(costs_from(&arcs, [0]), [Some(0), Some(5)]);
+/// assert_eq!(costs_from(&arcs.reversed(), [0]), [Some(0), Some(7)]);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Arcs {
     /// Index in `arcs` of each node's first arc; one more entry than nodes.

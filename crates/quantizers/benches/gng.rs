@@ -87,11 +87,9 @@ fn row(what: &str, dimension: usize, units: usize, way: &str, rate: Option<f64>)
 }
 
 fn grown(dimension: usize, units: usize, growth_period: u32, inputs: &[Vec<f32>]) -> Gng<f32> {
-    let config = GngConfig {
-        max_units: units,
-        growth_period,
-        ..GngConfig::fritzke()
-    };
+    let mut config = GngConfig::fritzke();
+    config.max_units = units;
+    config.growth_period = growth_period;
     let mut gng = Gng::new(dimension, config).unwrap();
     let enough = units * growth_period as usize * 5 / 4;
     for input in inputs.iter().cycle().take(enough) {

@@ -31,14 +31,9 @@ fn main() {
     ] {
         let mut soinn = Soinn::<f32>::new(2, config).unwrap();
         let units = grow(&mut soinn, &inputs);
-        let mut gng = Gng::new(
-            2,
-            GngConfig {
-                max_units: units,
-                ..GngConfig::fritzke()
-            },
-        )
-        .unwrap();
+        let mut fritzke = GngConfig::fritzke();
+        fritzke.max_units = units;
+        let mut gng = Gng::new(2, fritzke).unwrap();
         grow(&mut gng, &inputs);
         let floor = soinn.clone();
         let mut rate = |what: &str, work: &mut dyn FnMut(&[f32; 2])| {

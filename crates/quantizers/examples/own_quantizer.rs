@@ -44,10 +44,8 @@ fn farthest(quantizer: &mut impl Quantizer<f64>) -> Result<f64, Box<dyn Error>> 
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let config = GngConfig {
-        max_units: 20,
-        ..GngConfig::default()
-    };
+    let mut config = GngConfig::default();
+    config.max_units = 20;
     let mut wary = Wary {
         gas: Gng::new(1, config)?,
         trusting: 1000,

@@ -11,10 +11,8 @@ use tolman_quantizers::{Gng, GngConfig, Quantizer};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let config = GngConfig {
-        max_units: 60,
-        ..GngConfig::fritzke()
-    };
+    let mut config = GngConfig::fritzke();
+    config.max_units = 60;
     let mut gng = Gng::<f64>::new(2, config)?;
     for _ in 0..30_000 {
         let (x, y, radius) = if rng.random_bool(0.5) {

@@ -25,7 +25,9 @@ use crate::{
 /// ```
 /// use tolman_quantizers::{Gng, GngConfig, Quantizer};
 ///
-/// let mut gng = Gng::<f32>::new(2, GngConfig { max_units: 20, ..GngConfig::default() })?;
+/// let mut config = GngConfig::default();
+/// config.max_units = 20;
+/// let mut gng = Gng::<f32>::new(2, config)?;
 /// for step in 0..3000_u16 {
 ///     let angle = f32::from(step) * 2.4;
 ///     gng.observe(&[angle.cos(), angle.sin()])?;

@@ -17,7 +17,8 @@
 //! use tolman_quantizers::{Gng, GngConfig, Quantizer};
 //!
 //! // Points on two rings, in order around each.
-//! let config = GngConfig { max_units: 40, ..GngConfig::default() };
+//! let mut config = GngConfig::default();
+//! config.max_units = 40;
 //! let mut gng = Gng::<f64>::new(2, config)?;
 //! for step in 0..20_000_u32 {
 //!     let angle = f64::from(step) * 0.7;

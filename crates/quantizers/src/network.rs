@@ -38,6 +38,20 @@ pub use snapshot::{NetworkSnapshot, SnapshotUnit};
 /// # For those who write a quantizer
 /// Inside this crate units are addressed by *slots*. Slots ascend with ids and stay what they are
 /// until `tidy`, which closes the gaps that removed units leave.
+///
+/// ```
+/// use tolman_quantizers::{Gng, GngConfig, Quantizer};
+///
+/// let mut gng = Gng::<f64>::new(1, GngConfig::fritzke())?;
+/// gng.begin_with(&[[0.0], [10.0]])?;
+/// let network = gng.network();
+/// assert_eq!((network.len(), network.dimension()), (2, 1));
+/// // Which unit stands for 3, and where does it lie?
+/// let nearest = network.nearest(&[3.0])?;
+/// assert_eq!(nearest.distance(), 3.0);
+/// assert!(network.prototype(nearest.id)?.eq([0.0]));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Network<S> {
     metric: Metric<S>,

@@ -63,6 +63,7 @@ pub struct ReplayQuantizer<S, Q> {
 /// Which inputs are remembered, and how often they are learnt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct ReplayConfig {
     /// Number of remembered inputs, at least 1.
     pub capacity: u32,

@@ -27,24 +27,18 @@ fn allocations(dimension: usize, config: GngConfig) -> u64 {
 
 #[test]
 fn a_grown_network_allocates_nothing() {
-    let config = GngConfig {
-        growth_period: 20,
-        max_age: 30,
-        ..GngConfig::fritzke()
-    };
+    let mut config = GngConfig::fritzke();
+    config.growth_period = 20;
+    config.max_age = 30;
     for (dimension, max_units) in [(2, 100), (2, 1000), (11, 100)] {
-        let bounded = GngConfig {
-            max_units,
-            ..config
-        };
+        let mut bounded = config;
+        bounded.max_units = max_units;
         assert_eq!(allocations(dimension, bounded), 0, "{dimension} features");
-        let forgetful = GngConfig {
-            utility: Some(Utility {
-                threshold: 10.0,
-                removal: Removal::EveryInput,
-            }),
-            ..bounded
-        };
+        let mut forgetful = bounded;
+        forgetful.utility = Some(Utility {
+            threshold: 10.0,
+            removal: Removal::EveryInput,
+        });
         assert_eq!(
             allocations(dimension, forgetful),
             0,

@@ -7,6 +7,20 @@ use tolman_robot::{Guess, Position, Scan};
 use super::Fact;
 
 /// A learned map as it grew: nodes and edges that appear, may move, and may disappear.
+///
+/// ```
+/// use tolman_replay::{MapEdge, MapGrowth, MapNode};
+/// use tolman_geom::Point;
+///
+/// // A place at step 0, another at step 40, and a way between them.
+/// let mut map = MapGrowth { name: "places".to_owned(), ..MapGrowth::default() };
+/// map.nodes.push(MapNode::new(0, Point::new(0.5, 0.5), 0));
+/// map.nodes.push(MapNode::new(1, Point::new(2.5, 0.5), 40));
+/// map.edges.push(MapEdge::new(0, 1, 40));
+/// // At step 90 it learns that it was wrong by half a metre.
+/// map.nodes[1].move_to(90, Point::new(3.0, 0.5), 0.05);
+/// assert_eq!(map.nodes[1].latest().x, 3.0);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MapGrowth {
     /// Name of the layer: `state graph`.
@@ -137,6 +151,19 @@ pub enum EdgeKind {
 }
 
 /// Believed positions of a robot, or of something else.
+///
+/// ```
+/// use tolman_replay::Belief;
+/// use tolman_robot::{Guess, Position};
+/// use tolman_geom::Point;
+///
+/// let mut belief = Belief::new("belief");
+/// let site = |id| (id == 3).then_some(Point::new(1.5, 0.5));
+/// let guess = Guess { at: Position::Place(3), weight: 0.9 };
+/// belief.note(10, &[guess], site);
+/// belief.note(11, &[guess], site);
+/// assert_eq!(belief.entries.len(), 1, "nothing new at step 11");
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Belief {
     /// Name of the layer.
@@ -267,6 +294,15 @@ pub struct FieldChange {
 }
 
 /// A number over time, shown with its curve.
+///
+/// ```
+/// use tolman_replay::TimeSeries;
+///
+/// let mut charge = TimeSeries::new("battery", "V");
+/// charge.sample(0, 7.4);
+/// charge.sample(600, 7.1);
+/// assert_eq!(charge.samples.len(), 2);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TimeSeries {
     /// Name: `coverage`.
@@ -304,6 +340,16 @@ pub struct Sample {
 }
 
 /// Words over time, such as the action in progress or the present state.
+///
+/// ```
+/// use tolman_replay::Notes;
+///
+/// let mut notes = Notes::new("action");
+/// notes.say(0, "go north");
+/// notes.say(1, "go north");
+/// notes.say(9, "go east");
+/// assert_eq!(notes.notes.len(), 2, "what holds on is said once");
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Notes {
     /// Subject: `action`.
@@ -340,6 +386,13 @@ pub struct Note {
 }
 
 /// Steps at which something happened, marked on the slider.
+///
+/// ```
+/// use tolman_replay::{Mark, Marks};
+///
+/// let bumps = Marks::new(Mark::Bump, "bump", [12, 57]);
+/// assert_eq!(bumps.steps, [12, 57]);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Marks {
     /// Kind of event, which sets the colour.

@@ -26,6 +26,13 @@
 //! assert!(page(&replay)?.starts_with("<!DOCTYPE html>"));
 //! # Ok::<(), tolman_replay::EncodeError>(())
 //! ```
+//!
+//! # A run that is played
+//!
+//! `cargo run --example there_and_back`:
+#![doc = "```"]
+#![doc = include_str!("../examples/there_and_back.rs")]
+#![doc = "```"]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;

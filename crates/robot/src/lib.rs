@@ -7,6 +7,13 @@
 //! A robot of one make has a module of its own with its measures: [`epuck`], [`pioneer_2dx`].
 //!
 //! Metres, radians, seconds; the robot's frame has x ahead and y to the left.
+//!
+//! # A mapper of your own
+//!
+//! `cargo run --example own_mapper`:
+#![doc = "```"]
+#![doc = include_str!("../examples/own_mapper.rs")]
+#![doc = "```"]
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

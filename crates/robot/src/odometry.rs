@@ -1,6 +1,16 @@
 use tolman_geom::Pose;
 
 /// Motion of the robot in the last time step, by its wheels.
+///
+/// ```
+/// use tolman_geom::Pose;
+/// use tolman_robot::Odometry;
+///
+/// // A quarter circle to the left, 1 m long.
+/// let rolled = Odometry { distance: 1.0, turn: core::f64::consts::FRAC_PI_2 };
+/// let pose = rolled.applied_to(Pose::IDENTITY);
+/// assert!((pose.position.x - pose.position.y).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Odometry {

@@ -72,6 +72,16 @@ impl Ring {
 }
 
 /// One reading of a [`Ring`]: a range in metres for each beam.
+///
+/// ```
+/// use tolman_robot::{Ring, Scan};
+///
+/// // 180 beams over the half circle ahead; the middle one meets a wall.
+/// let mut scan = Scan::clear(Ring::fan(181, core::f64::consts::PI, 8.0));
+/// scan.ranges[90] = 1.5;
+/// assert!(scan.ring.bearing(90).abs() < 1e-12);
+/// assert_eq!(scan.ranges.iter().filter(|range| **range < scan.ring.max_range).count(), 1);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Scan {

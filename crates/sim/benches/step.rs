@@ -26,7 +26,7 @@ use tolman_robot::epuck::WheelSpeeds;
 use tolman_robot::{Ring, TurnTranslate};
 use tolman_sim::casters::{Lanes, LatticeWalk, ParryPolyline};
 use tolman_sim::noise::Gaussian;
-use tolman_sim::robots::{Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig, MotorNoise};
+use tolman_sim::robots::{Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig};
 use tolman_sim::sensors::{ResponseCurve, ResponsePoint};
 use tolman_sim::{CorridorSize, Model, Simulation, World};
 
@@ -100,11 +100,9 @@ fn epucks(criterion: &mut Criterion, table: &mut Table) {
     let parry = world
         .clone()
         .with_caster(Arc::new(ParryPolyline::new(world.walls())));
-    let perfect = EpuckConfig {
-        response: noiseless(&ResponseCurve::epuck()),
-        wheels: Vec::new(),
-        ..EpuckConfig::webots()
-    };
+    let mut perfect = EpuckConfig::webots();
+    perfect.response = noiseless(&ResponseCurve::epuck());
+    perfect.wheels = Vec::new();
     for (name, world, config) in [
         (PARRY, parry, &perfect),
         ("lattice walk", world.clone(), &perfect),
@@ -146,13 +144,12 @@ fn noiseless(curve: &ResponseCurve) -> ResponseCurve {
 }
 
 fn quiet() -> LaserPioneerConfig {
-    LaserPioneerConfig {
-        radius: 0.25,
-        ring: Ring::full(72, 2.5),
-        turn_per_step: 0.5,
-        translate_per_step: 0.1,
-        ..LaserPioneerConfig::noiseless()
-    }
+    let mut config = LaserPioneerConfig::noiseless();
+    config.radius = 0.25;
+    config.ring = Ring::full(72, 2.5);
+    config.turn_per_step = 0.5;
+    config.translate_per_step = 0.1;
+    config
 }
 
 fn noisy() -> LaserPioneerConfig {
@@ -160,18 +157,15 @@ fn noisy() -> LaserPioneerConfig {
         relative_sd: 0.02,
         absolute_sd: 0.01,
     };
-    LaserPioneerConfig {
-        motor_noise: MotorNoise {
-            turn: noise,
-            translate: noise,
-            drift_sd: 0.1,
-        },
-        scan_noise: noise,
-        compass_noise: noise,
-        odometry_distance_noise: noise,
-        odometry_turn_noise: noise,
-        ..quiet()
-    }
+    let mut config = quiet();
+    config.motor_noise.turn = noise;
+    config.motor_noise.translate = noise;
+    config.motor_noise.drift_sd = 0.1;
+    config.scan_noise = noise;
+    config.compass_noise = noise;
+    config.odometry_distance_noise = noise;
+    config.odometry_turn_noise = noise;
+    config
 }
 
 fn command(rng: &mut ChaCha8Rng) -> TurnTranslate {

@@ -18,7 +18,9 @@ use crate::chance::{Chance, Channel, Draws};
 /// use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
 ///
 /// let world = AbstractWorld::from_maze(&Maze::open(Grid::new(5, 5)), 1.0);
-/// let errors = MoveNoise { distance: 0.1, compass: 4_f64.to_radians(), ..MoveNoise::NONE };
+/// let mut errors = MoveNoise::NONE;
+/// errors.distance = 0.1;
+/// errors.compass = 4_f64.to_radians();
 /// let mut robot = AbstractRobot::new(world.into(), 0, errors, 7)?;
 /// let moved = robot.go(Direction::East).unwrap();
 /// assert_eq!((moved.from, moved.to), (0, 1));
@@ -189,6 +191,7 @@ impl AbstractWorld {
 
 /// Errors of the measured moves, drawn uniformly within their bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MoveNoise {
     /// Bound of the error of each distance, as a share of it, 0 ≤ … < 1.
     pub distance: f64,

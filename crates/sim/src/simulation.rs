@@ -35,6 +35,28 @@ pub struct Truth {
 ///
 /// Robots act one by one in the order they were added, then all sense. Nothing depends on anything
 /// but the world, the seed, the robots and their commands.
+///
+/// ```
+/// use tolman_robot::TurnTranslate;
+/// use tolman_sim::geom::{Heading, Point, Pose};
+/// use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+/// use tolman_sim::{Simulation, WallSegment, World};
+///
+/// let wall = WallSegment::between(Point::new(0.0, 9.0), Point::new(9.0, 9.0));
+/// let mut simulation = Simulation::new(World::from_segments(vec![wall])?, 7);
+/// let mut add = |x, heading| {
+///     let robot = LaserPioneer::new(LaserPioneerConfig::noiseless()).unwrap();
+///     simulation.add(robot, Pose::new(Point::new(x, 0.0), heading))
+/// };
+/// let (left, right) = (add(0.0, Heading::EAST)?, add(2.0, Heading::WEST)?);
+/// // They drive towards each other until they meet.
+/// let ahead = TurnTranslate { turn: 0.0, translate: 1.0 };
+/// while !simulation.truth(left).bump {
+///     simulation.step(&[ahead, ahead])?;
+/// }
+/// assert!(simulation.truth(right).pose.position.x > simulation.truth(left).pose.position.x);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Simulation<M: Model> {
     world: Arc<World>,

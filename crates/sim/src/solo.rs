@@ -6,6 +6,24 @@ use tolman_robot::Robot;
 use crate::{Model, PlaceError, RobotId, Simulation, StepError, Truth, World};
 
 /// One robot alone in a world: all that a brain needs of a simulator.
+///
+/// ```
+/// use tolman_robot::{Robot, TurnTranslate};
+/// use tolman_sim::geom::{Heading, Point, Pose};
+/// use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+/// use tolman_sim::{Solo, WallSegment, World};
+///
+/// let wall = WallSegment::between(Point::new(2.0, -1.0), Point::new(2.0, 1.0));
+/// let world = World::from_segments(vec![wall])?;
+/// let robot = LaserPioneer::new(LaserPioneerConfig::noiseless())?;
+/// let start = Pose::new(Point::new(0.0, 0.0), Heading::EAST);
+/// let mut solo = Solo::new(world, robot, start, 7)?;
+/// solo.step(&TurnTranslate { turn: 0.0, translate: 1.0 })?;
+/// // What it senses, and the truth, which no brain sees.
+/// assert!(solo.sensing().scan.is_some());
+/// assert!(solo.truth().pose.position.x > 0.0 && solo.bumps() == 0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Solo<M: Model> {
     simulation: Simulation<M>,

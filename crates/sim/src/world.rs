@@ -62,6 +62,21 @@ impl CorridorSize {
 /// Metres; x is east, y is north. A world made from a maze has its origin in the middle of the wall
 /// post at the south-west corner of cell (0, 0). So cell (x, y) covers [x, x + 1] × [y, y + 1]
 /// pitches, including half the thickness of its walls.
+///
+/// ```
+/// use tolman_sim::geom::Point;
+/// use tolman_sim::maze::{Cell, Grid, Maze};
+/// use tolman_sim::{CorridorSize, WallSegment, World};
+///
+/// // From a maze, or from walls anywhere.
+/// let maze = Maze::open(Grid::new(3, 1));
+/// let corridor = World::from_maze(&maze, &CorridorSize::thin(0.9))?;
+/// assert!((corridor.cell_centre(Cell::new(1, 0)) - Point::new(1.35, 0.45)).norm() < 1e-12);
+/// let wall = WallSegment::between(Point::new(0.0, 0.0), Point::new(4.0, 3.0));
+/// let world = World::from_segments(vec![wall])?;
+/// assert_eq!(world.walls().len(), 1);
+/// # Ok::<(), tolman_sim::WorldError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct World {
     walls: Vec<WallSegment>,

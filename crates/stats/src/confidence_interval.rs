@@ -1,6 +1,17 @@
 //! Confidence intervals.
 
 /// The ends of a confidence interval.
+///
+/// ```
+/// use tolman_stats::median_interval;
+///
+/// let steps: Vec<f64> = (1..=25).map(f64::from).collect();
+/// let interval = median_interval(&steps, 0.95)?;
+/// assert!(interval.contains(13.0));
+/// let seconds = interval.scaled(0.1);
+/// assert!(seconds.low < 1.3 && seconds.high > 1.3);
+/// # Ok::<(), tolman_stats::SampleError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfidenceInterval {
     /// The lower end.

@@ -3,6 +3,13 @@
 //! Samples are slices of finite numbers; anything else is a [`SampleError`]. p-values are kept as
 //! logarithms ([`PValue`]), so the deep tails of large samples do not underflow. All functions are
 //! deterministic on every platform; the bootstrap draws from the caller's generator.
+//!
+//! # Two systems compared
+//!
+//! `cargo run --example compare`:
+#![doc = "```"]
+#![doc = include_str!("../examples/compare.rs")]
+#![doc = "```"]
 
 // What the signatures need, whole: see docs/architecture.md, API boundaries.
 pub use rand;

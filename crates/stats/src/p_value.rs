@@ -6,6 +6,16 @@ use core::fmt;
 /// A p-value, kept as its logarithm: rank tests of a thousand runs go far below the least double.
 ///
 /// Shown with two digits, as `0.043` or `2.1e-341`.
+///
+/// ```
+/// use tolman_stats::{PValue, holm};
+///
+/// let p_values = [0.01, 0.04, 0.03].map(|p: f64| PValue::from_ln(p.ln()));
+/// assert_eq!(p_values[0].to_string(), "0.010");
+/// // Of three comparisons, only the first is still evidence at 5 %.
+/// let corrected = holm(&p_values);
+/// assert_eq!(corrected.iter().filter(|p| p.value() < 0.05).count(), 1);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct PValue {
     ln: f64,

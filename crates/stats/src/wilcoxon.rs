@@ -22,6 +22,17 @@ pub struct Wilcoxon {
 /// [`Method::Auto`] is exact for at most 50 pairs without ties or zero differences, and otherwise
 /// asymptotic with corrections for ties and continuity. O(n log n), and O(n³) if exact.
 ///
+/// ```
+/// use tolman_stats::{Method, wilcoxon};
+///
+/// // The same six mazes, before and after.
+/// let before = [12.0, 15.0, 18.0, 21.0, 24.0, 27.0];
+/// let after = [11.0, 13.0, 15.0, 17.0, 19.0, 21.0];
+/// let test = wilcoxon(&before, &after, Method::Exact)?;
+/// assert_eq!((test.rank_sum, test.p.to_string().as_str()), (21.0, "0.031"));
+/// # Ok::<(), tolman_stats::SampleError>(())
+/// ```
+///
 /// # Errors
 /// If the samples are empty, unequally long or not finite, or all differences are zero. Also if an
 /// exact test is asked for and the differences have ties or zeros.

@@ -24,6 +24,13 @@
 //!     Stack::paper(ring, 0.3, 0.57)
 //! }
 //! ```
+//!
+//! # A mouse and its proof
+//!
+//! `cargo run --example proven_run`:
+#![doc = "```"]
+#![doc = include_str!("../examples/proven_run.rs")]
+#![doc = "```"]
 
 extern crate alloc;
 

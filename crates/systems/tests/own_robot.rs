@@ -164,11 +164,10 @@ fn layers() -> Stack {
 
 /// Returns a short apprenticeship.
 fn config() -> MslstConfig {
-    MslstConfig {
-        scan_steps: 2000,
-        graph_actions: 800,
-        ..MslstConfig::j()
-    }
+    let mut config = MslstConfig::j();
+    config.scan_steps = 2000;
+    config.graph_actions = 800;
+    config
 }
 
 const MOST_ACTIONS: u32 = 5000;

@@ -122,15 +122,14 @@ impl Condition {
                 faults.odometry_distance.push(MISSES);
             }
             Self::Flawless => {
-                return LaserPioneerConfig {
-                    radius: robot.radius,
-                    ring: robot.ring,
-                    turn_per_step: robot.turn_per_step,
-                    translate_per_step: robot.translate_per_step,
-                    contact: robot.contact,
-                    step_us: robot.step_us,
-                    ..LaserPioneerConfig::noiseless()
-                };
+                let mut config = LaserPioneerConfig::noiseless();
+                config.radius = robot.radius;
+                config.ring = robot.ring;
+                config.turn_per_step = robot.turn_per_step;
+                config.translate_per_step = robot.translate_per_step;
+                config.contact = robot.contact;
+                config.step_us = robot.step_us;
+                return config;
             }
             Self::AsMade | Self::Doors | Self::Kidnapping => {}
         }

@@ -4,7 +4,6 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::diktiometry::{JournalLength, Use};
-use tolman_maps::wall_belief::{PoseFilterConfig, RangeModel};
 use tolman_maze::{Maze, MazeFile};
 use tolman_robot::Ring;
 use tolman_sim::robots::{Epuck, LaserPioneer, LaserPioneerConfig, Pioneer2dx, Pioneer2dxConfig};
@@ -15,7 +14,7 @@ use tolman_systems::cpm::{
 use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
 use tolman_systems::gngslam::{OfflineSlam, OfflineSlamConfig, OnlineSlam, OnlineSlamConfig};
 use tolman_systems::micromouse::SIDE;
-use tolman_systems::micromouse::noisy::{MotionSource, NoisyMouse, NoisyMouseConfig, PoseSource};
+use tolman_systems::micromouse::noisy::{MotionSource, NoisyMouse, NoisyMouseConfig};
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 use tolman_systems::mslst::{BetterMslst, Mslst, MslstConfig};
 
@@ -316,11 +315,9 @@ impl Contestant {
                 let course = contest.with_door(pioneer_course(name, maze)?)?;
                 let stack = layers(&course, &calibrated())?;
                 let cells = maze.reachable().count() as u32;
-                let config = MslstConfig {
-                    scan_steps: SCANS_A_CELL * cells,
-                    graph_actions: ACTIONS_A_CELL * cells,
-                    ..MslstConfig::large(50.0)
-                };
+                let mut config = MslstConfig::large(50.0);
+                config.scan_steps = SCANS_A_CELL * cells;
+                config.graph_actions = ACTIONS_A_CELL * cells;
                 let actor = Actor::seeded(Mslst::new(config), stack, seed);
                 let body = laser_pioneer(&course, condition, seed)?;
                 Ok(sent(course, body, actor))
@@ -342,22 +339,19 @@ impl Contestant {
             (Self::Micromouse, _) => {
                 let course = contest.with_door(pioneer_course(name, maze)?)?;
                 let robot = calibrated();
-                let config = MazeMouseConfig {
-                    pitch: course.corridor_width,
-                    wall_thickness: 0.0,
-                    turn_per_step: robot.turn_per_step,
-                    translate_per_step: robot.translate_per_step,
-                };
+                let config = MazeMouseConfig::new(
+                    course.corridor_width,
+                    robot.turn_per_step,
+                    robot.translate_per_step,
+                );
                 let mouse = MazeMouse::whole_maze(brief(maze)?, config)?;
                 let body = laser_pioneer(&course, condition, seed)?;
                 Ok(sent(course, body, mouse))
             }
             (Self::WallBelief, _) => {
                 let course = contest.with_door(pioneer_course(name, maze)?)?;
-                let robot = LaserPioneerConfig {
-                    ring: Ring::full(BEAMS, calibrated().ring.max_range),
-                    ..calibrated()
-                };
+                let mut robot = calibrated();
+                robot.ring = Ring::full(BEAMS, calibrated().ring.max_range);
                 let config = believing(&robot, course.corridor_width);
                 let mouse = NoisyMouse::new(brief(maze)?, config, seed)?;
                 let robot = LaserPioneer::new(condition.laser_pioneer(robot, seed))?;
@@ -370,7 +364,8 @@ impl Contestant {
                 let robot = Pioneer2dx::new(robot)?;
                 let body = course.robot_at(course.start()?, robot, seed)?;
                 let records = RECORDS_A_CELL * maze.reachable().count();
-                let config = OfflineSlamConfig::paper().with_records(records.max(2));
+                let mut config = OfflineSlamConfig::paper();
+                config.records = records.max(2);
                 Ok(sent(course, body, OfflineSlam::new(config, seed)))
             }
             (Self::GngSlamBetter, ContestRobot::Own) => {
@@ -383,14 +378,12 @@ impl Contestant {
             }
             (Self::GngSlamBetter, ContestRobot::Pioneer) => {
                 let course = contest.with_door(Course::new(name, maze.clone(), WIDE)?)?;
-                let robot = LaserPioneerConfig {
-                    ring: Ring::full(90, 4.0),
-                    ..calibrated()
-                };
+                let mut robot = calibrated();
+                robot.ring = Ring::full(90, 4.0);
                 let mut config = OnlineSlamConfig::pioneer_2dx();
                 // The same distance and turn per time step as the Pioneer 2-DX.
-                let rates = (0.04 / robot.translate_per_step, 0.1);
-                config.drive = config.drive.with_rates(rates.0, rates.1);
+                config.drive.translate = 0.04 / robot.translate_per_step;
+                config.drive.turn = 0.1;
                 let body = LaserPioneer::new(condition.laser_pioneer(robot, seed))?;
                 let body = course.robot_at(course.start()?, body, seed)?;
                 Ok(sent(course, body, OnlineSlam::new(config, seed)))
@@ -403,7 +396,7 @@ impl Contestant {
         self,
         course: Course,
         robot: R,
-        walker: WalkerConfig,
+        mut walker: WalkerConfig,
         patterns: CommonPatterns,
         maze: &Maze,
         seed: u64,
@@ -413,17 +406,15 @@ impl Contestant {
     {
         let mode = match self {
             // It does not notice that its map grows without end; the contest does.
-            Self::Cpm => Mode::Paper(CpmConfig {
-                most_traversals: patience(maze),
-                ..CpmConfig::online()
-            }),
+            Self::Cpm => {
+                let mut config = CpmConfig::online();
+                config.most_traversals = patience(maze);
+                Mode::Paper(config)
+            }
             _ => Mode::Reckoned(CpmConfig::robust()),
         };
         let config = mode.config();
-        let walker = WalkerConfig {
-            heading: mode.heading(),
-            ..walker
-        };
+        walker.heading = mode.heading();
         let system = Cpm::new(walker, patterns, config, seed);
         sent(course, robot, system)
     }
@@ -530,25 +521,9 @@ pub(super) fn pioneer_course(name: &str, maze: &Maze) -> Result<Course, BoxError
 /// Returns what the noisy mouse is told of a Pioneer among thin walls: encoders and ranges are off
 /// by a few percent.
 const fn believing(robot: &LaserPioneerConfig, pitch: f64) -> NoisyMouseConfig {
-    NoisyMouseConfig {
-        localization: PoseSource::ParticleFilter,
-        motion: MotionSource::Encoders,
-        filter: PoseFilterConfig {
-            particles: 200,
-            slip: 0.05,
-            drift: 0.05,
-            spread: 0.01 * pitch,
-            sensor: RangeModel {
-                absolute: 0.05 * pitch,
-                relative: 0.03,
-                outliers: 0.1,
-            },
-        },
-        pitch,
-        wall_thickness: 0.0,
-        turn_per_step: robot.turn_per_step,
-        translate_per_step: robot.translate_per_step,
-    }
+    let mut config = NoisyMouseConfig::new(pitch, robot.turn_per_step, robot.translate_per_step);
+    config.motion = MotionSource::Encoders;
+    config
 }
 
 fn laser_pioneer(

@@ -12,7 +12,7 @@ use tolman_robot::{Landmark, Robot, SensesLandmarks};
 use tolman_sim::robots::Epuck;
 use tolman_sim::{Area, StepError, WallSegment, World, Zone};
 use tolman_systems::cpm::{
-    Aim, CpmConfig, CpmFailure, CpmRobot, Done, EpisodeSummary, Layer3, Walker, WalkerConfig,
+    Aim, CpmConfig, CpmFailure, CpmRobot, Done, EpisodeSummary, Layer3, Walker,
 };
 
 use super::pursue::pursue;
@@ -79,14 +79,10 @@ fn search<B: CpmRobot>(
     width: f64,
 ) -> Result<(EpisodeSummary, bool), CpmFailure<B::Error>> {
     // Enough for worlds of this size.
-    let config = CpmConfig {
-        most_traversals: 20,
-        ..CpmConfig::online()
-    };
-    let walker = WalkerConfig {
-        longest_fragment: 150,
-        ..walker_config(&epuck(), width).unwrap()
-    };
+    let mut config = CpmConfig::online();
+    config.most_traversals = 20;
+    let mut walker = walker_config(&epuck(), width).unwrap();
+    walker.longest_fragment = 150;
     let mut walker = Walker::new(body, walker);
     let mut layer = Layer3::begin(&mut walker, PATTERNS.clone(), None, config)?;
     let mut rng = ChaCha8Rng::seed_from_u64(1);

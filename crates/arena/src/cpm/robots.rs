@@ -14,31 +14,28 @@ const STEP_US: u64 = 13_000;
 /// Returns the paper's e-puck, with the wheels of the real one, so that a sweep takes 1.3 s.
 #[must_use]
 pub fn epuck() -> EpuckConfig {
-    EpuckConfig {
-        step_us: STEP_US,
-        ..EpuckConfig::cpm()
-    }
+    let mut config = EpuckConfig::cpm();
+    config.step_us = STEP_US;
+    config
 }
 
 /// Returns the paper's e-puck as if its wheels could turn fast enough to sweep at "2π rad/s", in 1
 /// s (section 4.1).
 #[must_use]
 pub fn idealized_epuck() -> EpuckConfig {
-    EpuckConfig {
-        step_us: 10_000,
-        most_wheel_speed: 9.0,
-        ..EpuckConfig::cpm()
-    }
+    let mut config = EpuckConfig::cpm();
+    config.step_us = 10_000;
+    config.most_wheel_speed = 9.0;
+    config
 }
 
 /// Returns the paper's e-puck at the speed of the real one, which swept at 3π/5 rad/s, in 3.3 s
 /// (section 7).
 #[must_use]
 pub fn slow_epuck() -> EpuckConfig {
-    EpuckConfig {
-        step_us: 33_333,
-        ..EpuckConfig::cpm()
-    }
+    let mut config = EpuckConfig::cpm();
+    config.step_us = 33_333;
+    config
 }
 
 /// Returns how the paper's robot drives and observes in corridors of this width, m. It takes one
@@ -103,10 +100,8 @@ mod tests {
         assert_eq!(sweep(&slow_epuck()), 3_333_300);
         assert_eq!(sweep(&epuck()), 1_300_000);
         // Real wheels cannot turn a whole sample in 10 ms.
-        let too_fast = EpuckConfig {
-            most_wheel_speed: epuck().most_wheel_speed,
-            ..idealized_epuck()
-        };
+        let mut too_fast = idealized_epuck();
+        too_fast.most_wheel_speed = epuck().most_wheel_speed;
         assert_eq!(sweep(&too_fast), 2_000_000);
     }
 }

@@ -134,10 +134,9 @@ impl CpmTrial<'_> {
     /// Returns the robot of the paper with wheels that slip by this share.
     #[must_use]
     pub fn slipping(share: f64) -> EpuckConfig {
-        EpuckConfig {
-            wheels: vec![Fault::Slip { share }],
-            ..epuck()
-        }
+        let mut config = epuck();
+        config.wheels = vec![Fault::Slip { share }];
+        config
     }
 
     /// Returns the robot anywhere in its world.
@@ -418,15 +417,12 @@ pub(super) mod tests {
     fn loops_that_stay_open_on_the_map_are_missed() {
         let maze = maze_1();
         // A robot to which nothing is similar closes none.
-        let matching = FragmentMatching::Positions(Similarity {
-            mu: 2.0,
-            ..Similarity::paper()
-        });
-        let config = CpmConfig {
-            matching,
-            most_traversals: 20,
-            ..CpmConfig::online()
-        };
+        let mut similarity = Similarity::paper();
+        similarity.mu = 2.0;
+        let matching = FragmentMatching::Positions(similarity);
+        let mut config = CpmConfig::online();
+        config.matching = matching;
+        config.most_traversals = 20;
         let mut missed = 0;
         for seed in 0..4 {
             let blind = CpmTrial {
@@ -447,9 +443,10 @@ pub(super) mod tests {
     #[test]
     fn sensors_that_fail_are_told() {
         let maze = maze_1();
-        let faulty = |fault| EpuckConfig {
-            proximity: vec![fault],
-            ..epuck()
+        let faulty = |fault| {
+            let mut config = epuck();
+            config.proximity = vec![fault];
+            config
         };
         let silent = faulty(Fault::DropOut { probability: 1.0 });
         let trouble = play(&maze, silent).trouble.unwrap();

@@ -25,6 +25,7 @@ use tolman_systems::stream;
 
 /// Parameters of an e-puck's survey of a maze.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
 pub struct EpuckSurveyConfig {
     /// Number of moves, each from one place to the next.
     pub moves: u32,
@@ -57,18 +58,17 @@ impl EpuckSurveyConfig {
     pub fn mapper(&self, separation: f64) -> Config {
         // Ways may bend: a robot that left to the north does not come back by going south.
         let actions = vec![ActionKind::default(); Direction::ALL.len()];
-        Config {
-            place_radius: self.margin / 2.0,
-            percepts: Percepts::Signatures(SignatureKind {
-                rows: 1,
-                columns: COLUMNS,
-                tolerance: 0.5,
-                share: 0.75,
-                rotation: ViewRotation::Aligned,
-                views: 4,
-            }),
-            ..Config::new(actions, separation)
-        }
+        let mut config = Config::new(actions, separation);
+        config.place_radius = self.margin / 2.0;
+        config.percepts = Percepts::Signatures(SignatureKind {
+            rows: 1,
+            columns: COLUMNS,
+            tolerance: 0.5,
+            share: 0.75,
+            rotation: ViewRotation::Aligned,
+            views: 4,
+        });
+        config
     }
 }
 

@@ -27,6 +27,7 @@ const MOST_COLOURS: u32 = 1 << 16;
 /// Furnishing of an office.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct OfficeConfig {
     /// Width of a corridor from wall to wall, m. Adjacent openings are only distinguished if the
     /// walls between them are thick.

@@ -51,9 +51,8 @@ pub fn surveyor(
     seed: u64,
 ) -> Result<OfficeSurveyor, RunError> {
     let furniture = office.config();
-    let routines = config
-        .routines(furniture.corridor_width)
-        .with_doorways(furniture.doorway_width());
+    let mut routines = config.routines(furniture.corridor_width);
+    routines.doorway_width = Some(furniture.doorway_width());
     let robot = office_robot(office, config, Pose::new(at, Heading::NORTH), seed)?;
     Ok(Surveyor::new(robot, config.sight, routines)?)
 }
@@ -172,12 +171,10 @@ mod tests {
             .values()
             .map(|there| there.ways.map(|way| way.map(place)));
         let world = AbstractWorld::of_places(positions, ways.collect()).unwrap();
-        let errors = MoveNoise {
-            distance: config.odometry_share,
-            compass: config.compass_bound,
-            stop: 0.03,
-            ..MoveNoise::NONE
-        };
+        let mut errors = MoveNoise::NONE;
+        errors.distance = config.odometry_share;
+        errors.compass = config.compass_bound;
+        errors.stop = 0.03;
         let mut ghost = AbstractRobot::new(world.into(), 0, errors, 8).unwrap();
 
         // Of each move: how wide the box is and how wrong its middle, a metre of way.

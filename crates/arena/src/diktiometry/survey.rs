@@ -25,6 +25,7 @@ use tolman_systems::stream;
 
 /// Everything a run depends on but the office and the seed.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct SurveyConfig {
     /// The robot and its noise.
     pub robot: SurveyorConfig,

@@ -1,7 +1,7 @@
 use tolman_robot::{Body, CameraSensing, Ring};
 use tolman_sim::Contact;
 use tolman_sim::noise::{Fault, Gaussian};
-use tolman_sim::robots::{CameraPioneerConfig, LaserPioneerConfig, MotorNoise};
+use tolman_sim::robots::{CameraPioneerConfig, LaserPioneerConfig};
 use tolman_systems::diktiometry::{CameraEye, Eye, LaserEye, NoEye, RoutineConfig, SenseError};
 
 use crate::pioneer::{CAMERA_PIONEER, LASER_PIONEER, calibrated};
@@ -10,6 +10,7 @@ use crate::pioneer::{CAMERA_PIONEER, LASER_PIONEER, calibrated};
 /// those that the paper does not name.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct SurveyorConfig {
     /// Body, laser and motors. Errors of compass and odometry are added to its own.
     pub pioneer: LaserPioneerConfig,
@@ -70,17 +71,14 @@ impl SurveyorConfig {
     /// about as long as a move.
     #[must_use]
     pub fn paper() -> Self {
+        let mut pioneer = LaserPioneerConfig::noiseless();
+        pioneer.ring = Ring::full(180, 4.0);
+        pioneer.motor_noise.turn = Gaussian::relative(0.1);
+        pioneer.motor_noise.translate = Gaussian::relative(0.1);
+        pioneer.motor_noise.drift_sd = 0.02;
+        pioneer.contact = Contact::Slide;
         Self {
-            pioneer: LaserPioneerConfig {
-                ring: Ring::full(180, 4.0),
-                motor_noise: MotorNoise {
-                    turn: Gaussian::relative(0.1),
-                    translate: Gaussian::relative(0.1),
-                    drift_sd: 0.02,
-                },
-                contact: Contact::Slide,
-                ..LaserPioneerConfig::noiseless()
-            },
+            pioneer,
             sight: PlaceCue::Camera {
                 columns: 24,
                 colour_sd: 0.02,
@@ -160,12 +158,9 @@ impl SurveyorConfig {
             // It is not used.
             PlaceCue::Laser { .. } | PlaceCue::Exits => (1, 0.0),
         };
-        CameraPioneerConfig {
-            columns,
-            reach: 20.0,
-            image: vec![Fault::Gaussian(Gaussian::absolute(colour_sd))],
-            pioneer: self.laser_robot(),
-        }
+        let mut robot = CameraPioneerConfig::new(self.laser_robot(), columns, 20.0);
+        robot.image = vec![Fault::Gaussian(Gaussian::absolute(colour_sd))];
+        robot
     }
 
     /// Returns what the control routines know of this robot in corridors `corridor_width` metres
@@ -177,8 +172,10 @@ impl SurveyorConfig {
             translate_per_step,
             ..
         } = self.pioneer;
-        RoutineConfig::new(corridor_width, turn_per_step, translate_per_step)
-            .with_bounds(self.odometry_share, self.compass_bound)
+        let mut routines = RoutineConfig::new(corridor_width, turn_per_step, translate_per_step);
+        routines.odometry_share = self.odometry_share;
+        routines.compass_bound = self.compass_bound;
+        routines
     }
 }
 

@@ -153,7 +153,7 @@ mod tests {
     use alloc::sync::Arc;
 
     use tolman_robot::{Goal, Ring, Standing};
-    use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+    use tolman_sim::robots::LaserPioneer;
 
     use super::*;
     use crate::pioneer::calibrated;
@@ -216,16 +216,15 @@ mod tests {
     fn a_robot_with_a_laser_and_no_camera_learns_too() {
         let pitch = Pitch::named("l-room").unwrap();
         let start = pitch.start(5).unwrap();
-        let laser = LaserPioneerConfig {
-            ring: Ring::full(90, 4.0),
-            ..calibrated()
-        };
+        let mut laser = calibrated();
+        laser.ring = Ring::full(90, 4.0);
         let per_step = laser.translate_per_step;
         let model = LaserPioneer::new(laser).unwrap();
         let robot = Simulated::new(Arc::clone(&pitch.world), model, start, 5).unwrap();
         let mut robot = Stopping::new(robot);
         let mut config = OnlineSlamConfig::pioneer_2dx();
-        config.drive = config.drive.with_rates(0.04 / per_step, 0.1);
+        config.drive.translate = 0.04 / per_step;
+        config.drive.turn = 0.1;
         let mut system = OnlineSlam::new(config, 5);
         for _ in 0..80 {
             system.act(&mut robot, Task::Explore).unwrap();

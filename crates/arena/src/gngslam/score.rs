@@ -227,10 +227,10 @@ mod tests {
             scaling: FeatureScaling::Group,
         };
         let table = FeatureTable::of(records, &choice, ImageForm::Pixels).unwrap();
-        let config = PlaceMapConfig::paper().with_passes(30).with_gng(GngConfig {
-            max_units: units,
-            ..GngConfig::fritzke()
-        });
+        let mut config = PlaceMapConfig::paper();
+        config.passes = 30;
+        config.gng = GngConfig::fritzke();
+        config.gng.max_units = units;
         let mut rng = ChaCha8Rng::seed_from_u64(2);
         let map = PlaceMap::learn(&table, 0..1000, config, &mut rng).unwrap();
         let scorer = PlaceScorer::of(cells, GOALS, Heading::NORTH);

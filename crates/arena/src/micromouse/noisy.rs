@@ -9,16 +9,17 @@ use tolman_maps::wall_belief::{PoseFilterConfig, RangeModel};
 use tolman_maze::Maze;
 use tolman_robot::Ring;
 use tolman_sim::noise::{Fault, Gaussian};
-use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, MotorNoise, RobotConfigError};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, RobotConfigError};
 use tolman_sim::{CorridorSize, PlaceError, Solo, StepError, World, WorldError};
 use tolman_systems::micromouse::noisy::{
-    MotionSource, NoisyMouse, NoisyMouseConfig, NoisyMouseError, NoisyNext, PoseSource,
+    NoisyMouse, NoisyMouseConfig, NoisyMouseError, NoisyNext, PoseSource,
 };
 
 use super::{MAX_STEPS, RefereeError, brief};
 
 /// Errors of a mouse's wheels and sensors, and its means against them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct NoisyConfig {
     /// Source of the mouse's pose.
     pub localization: PoseSource,
@@ -50,22 +51,17 @@ impl NoisyConfig {
     /// of 20 ms.
     fn robot(&self) -> LaserPioneerConfig {
         let slip = Fault::Slip { share: self.slip };
-        let mut robot = LaserPioneerConfig {
-            radius: 0.04,
-            ring: Ring::fan(3, core::f64::consts::PI, 1.0),
-            turn_per_step: 0.2,
-            translate_per_step: 0.02,
-            motor_noise: MotorNoise {
-                drift_sd: self.drift,
-                ..MotorNoise::default()
-            },
-            scan_noise: Gaussian {
-                absolute_sd: self.range,
-                relative_sd: self.relative_range,
-            },
-            step_us: 20_000,
-            ..LaserPioneerConfig::noiseless()
+        let mut robot = LaserPioneerConfig::noiseless();
+        robot.radius = 0.04;
+        robot.ring = Ring::fan(3, core::f64::consts::PI, 1.0);
+        robot.turn_per_step = 0.2;
+        robot.translate_per_step = 0.02;
+        robot.motor_noise.drift_sd = self.drift;
+        robot.scan_noise = Gaussian {
+            absolute_sd: self.range,
+            relative_sd: self.relative_range,
         };
+        robot.step_us = 20_000;
         robot.faults.motor_turn.push(slip);
         robot.faults.motor_distance.push(slip);
         robot
@@ -73,32 +69,28 @@ impl NoisyConfig {
 
     /// Returns what the mouse knows of its body and its maze.
     fn mouse(&self, robot: &LaserPioneerConfig) -> NoisyMouseConfig {
-        NoisyMouseConfig {
-            localization: self.localization,
-            motion: MotionSource::Commands,
-            filter: self.filter(),
-            pitch: SIZE.pitch(),
-            wall_thickness: SIZE.wall_thickness,
-            turn_per_step: robot.turn_per_step,
-            translate_per_step: robot.translate_per_step,
-        }
+        let mut mouse =
+            NoisyMouseConfig::new(SIZE.pitch(), robot.turn_per_step, robot.translate_per_step);
+        mouse.localization = self.localization;
+        mouse.filter = self.filter();
+        mouse.wall_thickness = SIZE.wall_thickness;
+        mouse
     }
 
     /// Returns the noise model of the filter: the true noise, and a little for what its model
     /// leaves out.
     fn filter(&self) -> PoseFilterConfig {
-        PoseFilterConfig {
-            particles: 200,
-            // The standard deviation of a uniform number in ± 1.
-            slip: 0.577 * self.slip + 0.01,
-            drift: self.drift + 0.02,
-            spread: 0.0005,
-            sensor: RangeModel {
-                absolute: self.range + 0.004,
-                relative: self.relative_range + 0.01,
-                outliers: 0.1,
-            },
-        }
+        let mut filter = PoseFilterConfig::for_pitch(SIZE.pitch());
+        // The standard deviation of a uniform number in ± 1.
+        filter.slip = 0.577 * self.slip + 0.01;
+        filter.drift = self.drift + 0.02;
+        filter.spread = 0.0005;
+        filter.sensor = RangeModel {
+            absolute: self.range + 0.004,
+            relative: self.relative_range + 0.01,
+            outliers: 0.1,
+        };
+        filter
     }
 }
 

@@ -38,12 +38,13 @@ struct Outing {
 }
 
 fn config(robot: &LaserPioneerConfig, thickness: f64) -> MazeMouseConfig {
-    MazeMouseConfig {
-        pitch: CORRIDOR_WIDTH + thickness,
-        wall_thickness: thickness,
-        turn_per_step: robot.turn_per_step,
-        translate_per_step: robot.translate_per_step,
-    }
+    let mut config = MazeMouseConfig::new(
+        CORRIDOR_WIDTH + thickness,
+        robot.turn_per_step,
+        robot.translate_per_step,
+    );
+    config.wall_thickness = thickness;
+    config
 }
 
 /// Lets a mouse pursue its tasks one by one with a robot in a maze.
@@ -131,10 +132,8 @@ fn the_papers_target_search_runs_by_the_fewest_cells() {
 fn a_mouse_that_is_told_the_wrong_pitch_does_not_arrive() {
     let maze = tolman_maze::read(MAZE).unwrap().maze;
     let robot = pioneer::calibrated();
-    let told = MazeMouseConfig {
-        pitch: 0.7,
-        ..config(&robot, 0.0)
-    };
+    let mut told = config(&robot, 0.0);
+    told.pitch = 0.7;
     let mut mouse = MazeMouse::certify(brief(&maze).unwrap(), told).unwrap();
     let outing = send(&maze, 0.0, &robot, &mut mouse, &[Task::Explore]);
     assert!(matches!(outing.cells[0].1, TaskEnd::GaveUp { .. }));

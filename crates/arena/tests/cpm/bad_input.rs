@@ -284,34 +284,23 @@ fn dictionaries_of_another_robot_or_version() {
 #[test]
 fn drawings_and_mazes_that_are_none() {
     let mut rng = ChaCha8Rng::seed_from_u64(0);
-    for maze in [
-        MazeConfig {
-            columns: 1,
-            ..MazeConfig::small()
-        },
-        MazeConfig {
-            loops: f64::NAN,
-            ..MazeConfig::small()
-        },
-        MazeConfig {
-            patterns: 0,
-            ..MazeConfig::small()
-        },
-        MazeConfig {
-            observations_per_cell: f64::INFINITY,
-            ..MazeConfig::small()
-        },
-    ] {
+    let wrong: [fn(&mut MazeConfig); 4] = [
+        |maze| maze.columns = 1,
+        |maze| maze.loops = f64::NAN,
+        |maze| maze.patterns = 0,
+        |maze| maze.observations_per_cell = f64::INFINITY,
+    ];
+    for spoil in wrong {
+        let mut maze = MazeConfig::small();
+        spoil(&mut maze);
         assert!(matches!(
             PlaneMaze::random(&maze, &mut rng),
             Err(MazeConfigError::OutOfRange { .. })
         ));
     }
-    let alike = MazeConfig {
-        patterns: 2,
-        observations_per_cell: 1.0,
-        ..MazeConfig::small()
-    };
+    let mut alike = MazeConfig::small();
+    alike.patterns = 2;
+    alike.observations_per_cell = 1.0;
     assert!(matches!(
         PlaneMaze::random(&alike, &mut rng),
         Err(MazeConfigError::NotDistinctive { .. })

@@ -30,17 +30,12 @@ pub(crate) fn pursue(
 fn mazes() -> impl Strategy<Value = (MazeConfig, u64)> {
     (2_u32..6, 2_u32..6, 0.0..1.0, 0.0..1.0, any::<u64>()).prop_map(
         |(columns, rows, loops, diagonals, seed)| {
-            let small = MazeConfig::small();
-            (
-                MazeConfig {
-                    columns,
-                    rows,
-                    loops,
-                    diagonals,
-                    ..small
-                },
-                seed,
-            )
+            let mut config = MazeConfig::small();
+            config.columns = columns;
+            config.rows = rows;
+            config.loops = loops;
+            config.diagonals = diagonals;
+            (config, seed)
         },
     )
 }
@@ -61,12 +56,12 @@ proptest! {
     #[test]
     fn online_every_maze_is_explored_rightly_and_within_theorem_1(maze in mazes()) {
         let (world, rng) = drawn(maze);
-        for (config, reckoning) in [
+        for (mut config, reckoning) in [
             (CpmConfig::online(), Reckoning::None),
             (CpmConfig::robust(), Reckoning::Bounded),
         ] {
             // Several times what any of these mazes needs: who goes round forever is told soon.
-            let config = CpmConfig { most_traversals: 400, ..config };
+            config.most_traversals = 400;
             let mut rng = rng.clone();
             let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, reckoning);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
@@ -98,7 +93,8 @@ proptest! {
     #[test]
     fn offline_the_goal_is_found_and_the_map_is_right(maze in mazes()) {
         let (world, mut rng) = drawn(maze);
-        let config = CpmConfig { mapping: Mapping::Offline { patience: 100 }, ..CpmConfig::online() };
+        let mut config = CpmConfig::online();
+        config.mapping = Mapping::Offline { patience: 100 };
         let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
         let done = pursue(&mut explorer, &mut rover, Aim::Find(Landmark::Goal), &mut rng);
@@ -140,11 +136,16 @@ proptest! {
     fn nothing_runs_for_ever(kinds in 1_u32..4, symmetrical in 0.0..1.0, noise in 0.0..1.0, slip in 0.0..0.99, seed in any::<u64>()) {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let likeness = Likeness::Kinds(kinds);
-        let maze = MazeConfig { likeness, symmetrical, diagonals: 0.5, ..MazeConfig::small() };
+        let mut maze = MazeConfig::small();
+        maze.likeness = likeness;
+        maze.symmetrical = symmetrical;
+        maze.diagonals = 0.5;
         let world = PlaneMaze::random(&maze, &mut rng).unwrap();
         let noise = WalkerNoise { substitution: noise, insertion: noise / 2.0, deletion: noise / 2.0, slip, heading: 0.1 };
         for onward in [Onward::ShortestKnownWay, Onward::GoOn] {
-            let config = CpmConfig { onward, most_traversals: 60, ..CpmConfig::online() };
+            let mut config = CpmConfig::online();
+            config.onward = onward;
+            config.most_traversals = 60;
             let mut rover = PlaneWalker::new(&world, noise, Reckoning::None);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
             for aim in [Aim::Find(Landmark::Goal), Aim::WayBack, Aim::Shortest, Aim::Explore] {
@@ -161,19 +162,15 @@ fn the_truth_is_found_again() {
     let mut revised = 0;
     for seed in 0..100 {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let maze = MazeConfig {
-            columns: 4,
-            rows: 4,
-            loops: 0.9,
-            diagonals: 0.9,
-            ..MazeConfig::small()
-        };
+        let mut maze = MazeConfig::small();
+        maze.columns = 4;
+        maze.rows = 4;
+        maze.loops = 0.9;
+        maze.diagonals = 0.9;
         let world = PlaneMaze::random(&maze, &mut rng).unwrap();
-        let config = CpmConfig {
-            mapping: Mapping::Hypotheses { width: 1 },
-            most_traversals: 400,
-            ..CpmConfig::robust()
-        };
+        let mut config = CpmConfig::robust();
+        config.mapping = Mapping::Hypotheses { width: 1 };
+        config.most_traversals = 400;
         let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::Bounded);
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
         let see = |_: &PlaneWalker<'_>, _: &Explorer, _: &Leg, arrival| {
@@ -193,19 +190,15 @@ fn the_truth_is_found_again() {
 #[test]
 fn a_large_maze_needs_few_comparisons() {
     let mut rng = ChaCha8Rng::seed_from_u64(7);
-    let maze = MazeConfig {
-        columns: 14,
-        rows: 14,
-        diagonals: 0.3,
-        ..MazeConfig::small()
-    };
+    let mut maze = MazeConfig::small();
+    maze.columns = 14;
+    maze.rows = 14;
+    maze.diagonals = 0.3;
     let world = PlaneMaze::random(&maze, &mut rng).unwrap();
     assert!(world.corridors().len() > 100);
     let explore = |candidates| {
-        let config = CpmConfig {
-            candidates,
-            ..CpmConfig::online()
-        };
+        let mut config = CpmConfig::online();
+        config.candidates = candidates;
         let mut rng = ChaCha8Rng::seed_from_u64(8);
         let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();

@@ -127,10 +127,8 @@ fn where_ways_lead_tells_fragments_apart_that_look_alike() {
         heading: 0.1,
         ..WalkerNoise::NONE
     };
-    let maze = MazeConfig {
-        likeness: Likeness::Kinds(2),
-        ..MazeConfig::small()
-    };
+    let mut maze = MazeConfig::small();
+    maze.likeness = Likeness::Kinds(2);
     let mut rng = ChaCha8Rng::seed_from_u64(9);
     // Without bearings, by a glimpse of them, by a look, and the number of starts.
     let (mut blind, mut glimpsed, mut seen, mut starts) = (0, 0, 0, 0);
@@ -170,11 +168,9 @@ fn before_the_first_observation_each_map_is_as_likely_however_large() {
     let mut rng = ChaCha8Rng::seed_from_u64(7);
     let small = explored(&MazeConfig::small(), WalkerNoise::NONE, &mut rng);
     let dictionary = small.world.dictionary().clone();
-    let maze = MazeConfig {
-        columns: 6,
-        rows: 6,
-        ..MazeConfig::small()
-    };
+    let mut maze = MazeConfig::small();
+    maze.columns = 6;
+    maze.rows = 6;
     let world = PlaneMaze::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
     let large = explored_of(world, WalkerNoise::NONE, &mut rng);
     let nothing = CpMap::default();
@@ -228,10 +224,8 @@ fn which_environment_and_within_one_further_fragment() {
         let dictionary = first.world.dictionary().clone();
         let mut known = vec![first];
         for loops in [0.0, 0.5, 1.0] {
-            let maze = MazeConfig {
-                loops,
-                ..MazeConfig::small()
-            };
+            let mut maze = MazeConfig::small();
+            maze.loops = loops;
             let world = PlaneMaze::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
             known.push(explored_of(world, WalkerNoise::NONE, &mut rng));
         }
@@ -291,10 +285,8 @@ fn bad_input_is_refused() {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let known = explored(&MazeConfig::small(), WalkerNoise::NONE, &mut rng);
     let maps = core::slice::from_ref(&known.map);
-    let config = LocalizerConfig {
-        slip: f64::NAN,
-        ..LocalizerConfig::usual()
-    };
+    let mut config = LocalizerConfig::usual();
+    config.slip = f64::NAN;
     assert!(Localizer::new(maps, known.world.dictionary(), config).is_err());
     let mut localizer =
         Localizer::new(maps, known.world.dictionary(), LocalizerConfig::usual()).unwrap();
@@ -324,12 +316,10 @@ fn one_sequence_recalls_its_path_and_environment() {
     let mut environments = Environments::new(&dictionary).unwrap();
     let mut paths: Vec<(u32, PlaneMaze, Vec<End>, Vec<CorridorEnd>)> = Vec::new();
     for number in 0..4 {
-        let maze = MazeConfig {
-            columns: 6,
-            rows: 6,
-            loops: 0.0,
-            ..MazeConfig::small()
-        };
+        let mut maze = MazeConfig::small();
+        maze.columns = 6;
+        maze.rows = 6;
+        maze.loops = 0.0;
         let world = PlaneMaze::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
         let known = explored_of(world, WalkerNoise::NONE, &mut rng);
         let goal = known.map.landmarks(Landmark::Goal).next().unwrap();

@@ -82,11 +82,9 @@ fn alignment_tells_fragments_apart_better_than_positions() {
             heading: 0.0,
         };
         let mut rng = ChaCha8Rng::seed_from_u64(1);
-        let maze = MazeConfig {
-            columns: 6,
-            rows: 6,
-            ..MazeConfig::small()
-        };
+        let mut maze = MazeConfig::small();
+        maze.columns = 6;
+        maze.rows = 6;
         let mut areas = [0.0; 3];
         for _ in 0..MAZES {
             let world = PlaneMaze::random(&maze, &mut rng).unwrap();
@@ -120,9 +118,11 @@ proptest! {
         let dictionary = some_dictionary();
         let inverse = |sequence: &[PatternId]| dictionary.inverse(sequence).unwrap();
         prop_assert_eq!(&inverse(&inverse(&a)), &a);
+        let mut similarity = Similarity::paper();
+        similarity.sum = Sum::Euclidean;
         for matching in [
             FragmentMatching::Positions(Similarity::paper()),
-            FragmentMatching::Positions(Similarity { sum: Sum::Euclidean, ..Similarity::paper() }),
+            FragmentMatching::Positions(similarity),
             FragmentMatching::Alignment(Alignment::tuned()),
         ] {
             let score = matching.score(&dictionary, &a, &b);

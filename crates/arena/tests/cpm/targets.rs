@@ -26,16 +26,12 @@ impl Tally {
         maze: &MazeConfig,
         noise: WalkerNoise,
         reckoning: Reckoning,
-        config: CpmConfig,
+        mut config: CpmConfig,
         rng: &mut ChaCha8Rng,
     ) {
         let world = PlaneMaze::random(maze, rng).unwrap();
         let mut rover = PlaneWalker::new(&world, noise, reckoning);
-        let most_traversals = 8 * world.corridors().len() as u32;
-        let config = CpmConfig {
-            most_traversals,
-            ..config
-        };
+        config.most_traversals = 8 * world.corridors().len() as u32;
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
         let done = pursue(&mut explorer, &mut rover, Aim::Explore, rng);
         let check = world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at());

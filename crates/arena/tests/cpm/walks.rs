@@ -59,10 +59,8 @@ fn figure_1() {
     let [a, b, c, d] =
         [(0, 5), (1, 10), (2, 4), (3, 3)].map(|(name, length)| fragment(name, length));
     // A ends at a fork with B and D; C lies between the far ends of B and D, in a fork each.
-    let config = CpmConfig {
-        mapping: Mapping::Offline { patience: u32::MAX },
-        ..CpmConfig::online()
-    };
+    let mut config = CpmConfig::online();
+    config.mapping = Mapping::Offline { patience: u32::MAX };
     let start = Sighting {
         degree: 1,
         landmark: Some(Landmark::Start),
@@ -314,10 +312,8 @@ fn to_go_on_takes_longer_than_the_shortest_known_way() {
     let mean = |onward: Onward| {
         let walked = (0..200).map(|seed| {
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
-            let config = CpmConfig {
-                onward,
-                ..CpmConfig::online()
-            };
+            let mut config = CpmConfig::online();
+            config.onward = onward;
             let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
             pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng);

@@ -29,6 +29,7 @@ enum Side {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct ForwardConfig {
     /// Speed of driving, m/s.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]

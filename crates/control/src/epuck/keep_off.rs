@@ -10,6 +10,7 @@ use super::Echoes;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Unchecked"))]
+#[non_exhaustive]
 pub struct KeepOff {
     /// Between body and wall, m: where slowing down begins.
     pub margin: f64,

@@ -8,6 +8,7 @@ use super::{Profile, RangeCurve};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Unchecked"))]
+#[non_exhaustive]
 pub struct MeetPointConfig {
     /// Maximum distance of the middle from the robot, m.
     pub reach: f64,

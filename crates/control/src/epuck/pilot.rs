@@ -3,7 +3,9 @@ use core::f64::consts::TAU;
 use thiserror::Error;
 use tolman_geom::{Point, Twist};
 use tolman_robot::Robot;
-use tolman_robot::epuck::{ENCODER_STEP, EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds};
+use tolman_robot::epuck::{
+    ENCODER_STEP, EpuckSensing, MOST_WHEEL_SPEED, TRACK, WHEEL_RADIUS, WheelSpeeds,
+};
 
 use super::{Echoes, Forward, ForwardConfig, KeepOff, RangeCurve, Sweep};
 
@@ -27,6 +29,7 @@ const PATIENCE: u32 = 10;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct PilotConfig {
     /// Length of the robot's time step, µs.
     #[cfg_attr(
@@ -61,6 +64,38 @@ pub struct PilotConfig {
     pub forward: ForwardConfig,
     /// Layer 0.
     pub keep_off: KeepOff,
+}
+
+/// "The robot samples the sensor value … 100 times" (section 4.1).
+const SAMPLES: u32 = 100;
+
+/// Smallest turn that continuous encoders distinguish, rad.
+const EXACT: f64 = 1e-9;
+
+impl PilotConfig {
+    /// Returns how the paper's robot drives in corridors `width` m wide, with encoders that are
+    /// exact. A sample of a sweep takes one time step, so the time step sets the speed of a sweep.
+    ///
+    /// ```
+    /// use tolman_control::epuck::{PilotConfig, RangeCurve, TURN_STEP};
+    ///
+    /// let mut config = PilotConfig::paper(RangeCurve::cpm(), 13_000, 0.1);
+    /// config.turn_tolerance = TURN_STEP; // on the real robot
+    /// assert_eq!(config.samples, 100);
+    /// ```
+    #[must_use]
+    pub fn paper(curve: RangeCurve, step_us: u64, width: f64) -> Self {
+        Self {
+            step_us,
+            samples: SAMPLES,
+            sweep_speed: TAU / f64::from(SAMPLES) / (step_us as f64 * 1e-6),
+            most_wheel_speed: MOST_WHEEL_SPEED,
+            turn_tolerance: EXACT,
+            curve,
+            forward: ForwardConfig::for_width(width),
+            keep_off: KeepOff::ours(),
+        }
+    }
 }
 
 impl<R> Pilot<R>

@@ -47,6 +47,7 @@ pub struct Segment {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct SegmentConfig {
     /// δ: over how many samples a change is averaged, at least 1. The paper calls it the estimated
     /// error and gives no value.

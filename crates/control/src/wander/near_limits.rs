@@ -26,6 +26,7 @@ use tolman_robot::Sounding;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct NearLimits {
     /// Threshold of a sensor that looks ahead, m. Paper: 1.1.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]

@@ -50,14 +50,6 @@ impl UntilNearConfig {
             longest_turn: 200,
         }
     }
-
-    /// Returns this configuration with other fractions of the robot's full rates.
-    #[must_use]
-    pub const fn with_rates(mut self, translate: f64, turn: f64) -> Self {
-        self.translate = translate;
-        self.turn = turn;
-        self
-    }
 }
 
 /// Drives a robot straight on until something is near, and turns it to where the way is clear.

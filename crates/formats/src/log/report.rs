@@ -5,6 +5,19 @@ use std::path::Path;
 use super::LogError;
 
 /// Report on reading a log: its contents, what was left out, and where.
+///
+/// ```
+/// use tolman_formats::{LogReader, LogTrouble};
+///
+/// let log = "ODOM 0 0 0 0 0 0 1.5 mine 1.5\nFLASER 3 1.0\n";
+/// let mut reader = LogReader::new(log.as_bytes());
+/// assert_eq!(reader.by_ref().count(), 1);
+/// let report = reader.report();
+/// assert_eq!((report.lines, report.count(LogTrouble::Cut)), (2, 1));
+/// for sentence in report.sentences() {
+///     println!("{sentence}");
+/// }
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LogReport {
     /// Number of lines, including empty ones and comments.

@@ -35,6 +35,15 @@ pub fn tum(trajectory: &Trajectory) -> String {
 }
 
 /// A trajectory that was read from such lines.
+///
+/// ```
+/// use tolman_formats::ReadTrajectory;
+///
+/// let text = "# time x y z qx qy qz qw\n1.0 2.0 3.0 0 0 0 0 1\nnot a pose\n";
+/// let read = ReadTrajectory::from_lines(text.as_bytes());
+/// assert_eq!(read.trajectory.poses()[0].pose.position.y, 3.0);
+/// assert!(!read.report.sentences().is_empty());
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadTrajectory {
     /// The trajectory.

@@ -43,13 +43,6 @@ impl AuditConfig {
         }
     }
 
-    /// Multiplies every stated standard deviation.
-    #[must_use]
-    pub const fn with_sigma_scale(mut self, scale: f64) -> Self {
-        self.sigma_scale = scale;
-        self
-    }
-
     /// Returns the greatest χ² within the bound: k².
     pub(super) const fn most_chi2(&self) -> f64 {
         self.bound * self.bound

@@ -7,6 +7,7 @@ use super::similarity::{FragmentMatching, Similarity};
 /// Parameters of a [`CpMapper`](super::CpMapper).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct CpMapperConfig {
     /// When the map is optimized.
     pub mapping: Mapping,

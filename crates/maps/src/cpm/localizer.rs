@@ -59,6 +59,7 @@ pub struct Localizer {
 
 /// Parameters of a [`Localizer`]; probabilities.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LocalizerConfig {
     /// That an observation is another pattern than the map's; above 0, less than 1.
     pub mistake: f64,

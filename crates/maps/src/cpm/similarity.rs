@@ -176,6 +176,7 @@ impl FragmentMatching {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Similarity {
     /// Measure of aⱼ − a'ⱼ.
     pub difference: PatternDifference,

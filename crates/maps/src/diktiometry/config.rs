@@ -14,6 +14,7 @@ use super::Action;
 /// metres of the odometry.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Config {
     /// The robot's control routines.
     pub actions: Vec<ActionKind>,
@@ -64,6 +65,7 @@ pub struct Config {
 /// Prior knowledge of an action.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct ActionKind {
     /// The action that usually leads back. Advice uses it. The map trusts what it saw instead,
     /// unless the world is [static](WorldKind::Static).
@@ -174,6 +176,7 @@ pub enum ViewRotation {
 /// Limits of a search of the reference graph from a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct SearchLimits {
     /// Maximum uncertainty of a frame that is reached: the longer side of its box, m, > 0.
     pub width: f64,
@@ -195,6 +198,7 @@ impl SearchLimits {
 /// Modules that propose candidates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Indexing {
     /// Places predicted by the last action.
     pub expectational: Use,
@@ -232,6 +236,7 @@ pub enum GeometricIndexing {
 /// Rules for matching places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Matching {
     /// Evidence that an unexpected place needs.
     pub identity: Identity,
@@ -281,6 +286,7 @@ pub enum Precedence {
 /// Number of hypotheses followed, and when one is dropped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Tracking {
     /// Tracks at most, ≥ 1.
     pub cap: usize,
@@ -297,6 +303,7 @@ pub struct Tracking {
 /// When links and places count as hallucinations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Transients {
     /// Whether they are elided.
     pub elision: Use,
@@ -310,6 +317,7 @@ pub struct Transients {
 /// The three restructurers and the veto among them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Restructuring {
     /// Geometric constraints on merging.
     pub geometric_merge: GeometricMerge,
@@ -364,6 +372,7 @@ impl GeometricMerge {
 /// Kinds of advice that are given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Opportunities {
     /// Going where no robot has gone before.
     pub unknown: Use,

@@ -6,6 +6,18 @@ use tolman_maze::Direction;
 use super::graph::{ActionEdge, MslstGraph, Node, NodeZone, follow};
 
 /// Builds the graph while the robot wanders (Phase II).
+///
+/// ```
+/// use tolman_maps::mslst_graph::{GraphMapper, NodeZone};
+/// use tolman_maze::Direction::{East, West};
+///
+/// // East from state 4 to the destination in state 9, and back.
+/// let mut mapper = GraphMapper::new(4, NodeZone::Elsewhere);
+/// let there = mapper.succeeded(East, 9, NodeZone::Destination);
+/// let back = mapper.succeeded(West, 4, NodeZone::Elsewhere);
+/// assert_eq!((there, back, mapper.at()), (1, 0, 0));
+/// assert_eq!(mapper.finish().nodes().len(), 2);
+/// ```
 #[derive(Clone, Debug)]
 pub struct GraphMapper {
     nodes: Vec<Node>,

@@ -3,6 +3,7 @@ use crate::pose_graph::OptimizerConfig;
 /// Parameters by which places are kept and recognized.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct PlaceGraphConfig {
     /// A place is new if it lies at least this far from all others, m, …
     pub place_distance: f64,

@@ -28,16 +28,14 @@ impl PlaceMapConfig {
     /// ```
     #[must_use]
     pub fn paper() -> Self {
-        let gng = GngConfig {
-            max_age: 103,
-            growth_period: 575,
-            split_factor: 0.5,
-            decay: 0.6,
-            max_units: 2125,
-            winner_rate: 0.66,
-            neighbour_rate: 0.046,
-            ..GngConfig::fritzke()
-        };
+        let mut gng = GngConfig::fritzke();
+        gng.max_age = 103;
+        gng.growth_period = 575;
+        gng.split_factor = 0.5;
+        gng.decay = 0.6;
+        gng.max_units = 2125;
+        gng.winner_rate = 0.66;
+        gng.neighbour_rate = 0.046;
         Self::new(gng, FeatureWeights::paper())
     }
 
@@ -49,27 +47,6 @@ impl PlaceMapConfig {
             weights,
             passes: 3,
         }
-    }
-
-    /// Sets the parameters of the growing neural gas.
-    #[must_use]
-    pub const fn with_gng(mut self, gng: GngConfig) -> Self {
-        self.gng = gng;
-        self
-    }
-
-    /// Sets what each group of features counts for.
-    #[must_use]
-    pub const fn with_weights(mut self, weights: FeatureWeights) -> Self {
-        self.weights = weights;
-        self
-    }
-
-    /// Sets the number of times that all records are learned.
-    #[must_use]
-    pub const fn with_passes(mut self, passes: u32) -> Self {
-        self.passes = passes;
-        self
     }
 }
 

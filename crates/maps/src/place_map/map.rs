@@ -32,7 +32,9 @@ use super::{FeatureSpace, FeatureTable, PlaceMapConfig, PlaceMapError, PlaceReco
 /// let records: Vec<PlaceRecord> = (0..300).map(|i| record(7 * i)).collect();
 /// let choice = FeatureChoice { groups: vec![FeatureGroup::Odometry], scaling: FeatureScaling::Group };
 /// let table = FeatureTable::of(&records, &choice, ImageForm::Pixels)?;
-/// let config = PlaceMapConfig::paper().with_gng(GngConfig { max_units: 10, ..GngConfig::fritzke() });
+/// let mut config = PlaceMapConfig::paper();
+/// config.gng = GngConfig::fritzke();
+/// config.gng.max_units = 10;
 /// let map = PlaceMap::learn(&table, 0..300, config, &mut ChaCha8Rng::seed_from_u64(1))?;
 /// let node = map.nearest(&record(15))?;
 /// let position = map.position(node).ok_or("no odometry")?;

@@ -9,6 +9,7 @@ use crate::tangent::moved;
 /// Parameters of the optimization of a graph of poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct OptimizerConfig {
     /// Most steps of Levenberg and Marquardt, at least 1.
     pub most_steps: u32,

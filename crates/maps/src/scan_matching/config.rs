@@ -121,21 +121,12 @@ impl ScanMatchingConfig {
         }
     }
 
-    /// Returns the configuration with closures at places that the caller names.
+    /// Returns the same values, but closures at places that the caller names.
     #[must_use]
-    pub fn with_places(self) -> Self {
+    pub fn places() -> Self {
         Self {
             closures: Some(ClosureConfig::places()),
-            ..self
-        }
-    }
-
-    /// Returns this configuration without closures.
-    #[must_use]
-    pub fn without_closures(self) -> Self {
-        Self {
-            closures: None,
-            ..self
+            ..Self::indoor()
         }
     }
 }

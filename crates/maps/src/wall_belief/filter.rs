@@ -12,6 +12,7 @@ use super::{RangeModel, RangeReading, WallBelief};
 
 /// How a [`PoseFilter`] models wheels and sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PoseFilterConfig {
     /// Number of particles, at least 1.
     pub particles: u32,
@@ -24,6 +25,25 @@ pub struct PoseFilterConfig {
     pub spread: f64,
     /// How the range sensors err.
     pub sensor: RangeModel,
+}
+
+impl PoseFilterConfig {
+    /// Returns the values for cells `pitch` m apart, and wheels and range sensors that err by a few
+    /// percent.
+    #[must_use]
+    pub const fn for_pitch(pitch: f64) -> Self {
+        Self {
+            particles: 200,
+            slip: 0.05,
+            drift: 0.05,
+            spread: 0.01 * pitch,
+            sensor: RangeModel {
+                absolute: 0.05 * pitch,
+                relative: 0.03,
+                outliers: 0.1,
+            },
+        }
+    }
 }
 
 /// A number of the configuration out of its range.

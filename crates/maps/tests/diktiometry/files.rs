@@ -1,16 +1,14 @@
 //! Diktiometries in files, whole and spoiled.
 
 use serde_json::{Value, json};
-use tolman_maps::diktiometry::{Config, JournalLength, MapFile, MapFileError};
+use tolman_maps::diktiometry::{JournalLength, MapFile, MapFileError};
 
 use super::walk::{ODOMETRY, Walk, open, painted};
 
 /// Among walls of chance colours, so that views are indexed.
 fn walked() -> Walk {
-    let config = Config {
-        journal: JournalLength::All,
-        ..painted()
-    };
+    let mut config = painted();
+    config.journal = JournalLength::All;
     let world = open(4).painted(5, 1);
     let mut walk = Walk::new(world, ODOMETRY, config, 1);
     walk.wander(100);

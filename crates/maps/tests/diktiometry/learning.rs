@@ -64,11 +64,9 @@ fn boxes_that_merely_meet_confuse_places() {
 
 #[test]
 fn a_matcher_that_is_off_matches_nothing() {
-    let errors = MoveNoise {
-        outliers: 0.05,
-        outlier_factor: 3.0,
-        ..ODOMETRY
-    };
+    let mut errors = ODOMETRY;
+    errors.outliers = 0.05;
+    errors.outlier_factor = 3.0;
     type Change = fn(&mut Config);
     let used = |change: Change, wanted: Matcher| {
         let mut config = alike();
@@ -120,14 +118,10 @@ fn scripts_teach_corridors_in_which_a_robot_stops_only_roughly() {
             assert_eq!(world.neighbour(there, direction.opposite()), Some(place));
         }
     }
-    let errors = MoveNoise {
-        stop: 0.0175,
-        ..ODOMETRY
-    };
-    let config = Config {
-        place_radius: errors.stop,
-        ..alike()
-    };
+    let mut errors = ODOMETRY;
+    errors.stop = 0.0175;
+    let mut config = alike();
+    config.place_radius = errors.stop;
     let places = world.places().len();
     let mut walk = Walk::new(world, errors, config, 1);
     walk.heed(1.0, 1200);
@@ -135,11 +129,12 @@ fn scripts_teach_corridors_in_which_a_robot_stops_only_roughly() {
 }
 
 /// Boxes so wide that geometry cannot close the loops of the world.
-const ROUGH: MoveNoise = MoveNoise {
-    distance: 0.2,
-    compass: 2.0 * COMPASS,
-    look: 0.2,
-    ..ODOMETRY
+const ROUGH: MoveNoise = {
+    let mut errors = ODOMETRY;
+    errors.distance = 0.2;
+    errors.compass = 2.0 * COMPASS;
+    errors.look = 0.2;
+    errors
 };
 
 fn looked_at(world: AbstractWorld, look_merge: Use, moves: usize) -> Walk {
@@ -197,10 +192,8 @@ fn looks_that_deceive_confuse_no_places() {
 /// A wall is painted again: the place is still where it was, and is known by either look.
 #[test]
 fn the_view_set_of_a_place_that_looks_new_grows() {
-    let errors = MoveNoise {
-        look: 0.2,
-        ..ODOMETRY
-    };
+    let mut errors = ODOMETRY;
+    errors.look = 0.2;
     let mut walk = Walk::new(open(5).painted(5, 1), errors, painted(), 1);
     walk.heed(1.0, 400);
     assert_eq!(walk.score(), perfect(25));
@@ -344,15 +337,11 @@ fn a_place_that_appears_hides_none_behind_it() {
 
 #[test]
 fn an_error_of_scale_shared_by_all_moves_does_no_harm() {
-    let errors = MoveNoise {
-        distance: 0.02,
-        shared_scale: 0.1,
-        ..ODOMETRY
-    };
-    let config = Config {
-        shared_scale: 0.1,
-        ..alike()
-    };
+    let mut errors = ODOMETRY;
+    errors.distance = 0.02;
+    errors.shared_scale = 0.1;
+    let mut config = alike();
+    config.shared_scale = 0.1;
     for seed in 0..3 {
         let mut walk = Walk::new(open(8), errors, config.clone(), seed);
         walk.heed(1.0, 1000);
@@ -362,11 +351,9 @@ fn an_error_of_scale_shared_by_all_moves_does_no_harm() {
 
 #[test]
 fn moves_that_break_their_bounds_are_told_and_confuse_no_places() {
-    let errors = MoveNoise {
-        outliers: 0.01,
-        outlier_factor: 4.0,
-        ..ODOMETRY
-    };
+    let mut errors = ODOMETRY;
+    errors.outliers = 0.01;
+    errors.outlier_factor = 4.0;
     let mut contradictions = 0;
     for seed in 0..4 {
         let mut walk = Walk::new(open(5), errors, alike(), seed);
@@ -384,10 +371,8 @@ fn moves_that_break_their_bounds_are_told_and_confuse_no_places() {
 
 #[test]
 fn a_kidnapped_robot_is_found_again_by_what_it_sees() {
-    let errors = MoveNoise {
-        look: 0.2,
-        ..ODOMETRY
-    };
+    let mut errors = ODOMETRY;
+    errors.look = 0.2;
     for indexing in [PerceptualIndexing::Columns, PerceptualIndexing::Triangles] {
         let mut config = painted();
         config.indexing.perceptual = indexing;

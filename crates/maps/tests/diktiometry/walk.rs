@@ -14,18 +14,20 @@ use tolman_sim::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, Mov
 pub(crate) const COMPASS: f64 = 4.0 * core::f64::consts::PI / 180.0;
 
 /// 10 % of the distance, and a compass of ± 4°.
-pub(crate) const ODOMETRY: MoveNoise = MoveNoise {
-    distance: 0.1,
-    compass: COMPASS,
-    ..MoveNoise::NONE
+pub(crate) const ODOMETRY: MoveNoise = {
+    let mut errors = MoveNoise::NONE;
+    errors.distance = 0.1;
+    errors.compass = COMPASS;
+    errors
 };
 
 /// The simulated robot of the offices goes past the middle of an opening and back: on 4 m it drives
 /// a good metre more.
-pub(crate) const ROUGH: MoveNoise = MoveNoise {
-    distance: 0.13,
-    compass: 1.3 * ODOMETRY.compass,
-    ..ODOMETRY
+pub(crate) const ROUGH: MoveNoise = {
+    let mut errors = ODOMETRY;
+    errors.distance = 0.13;
+    errors.compass = 1.3 * ODOMETRY.compass;
+    errors
 };
 
 /// Returns a mapper of places a metre apart that all look alike.
@@ -35,17 +37,16 @@ pub(crate) fn alike() -> Config {
 
 /// Places with a colour to each side, seen with an error of 0.2.
 pub(crate) fn painted() -> Config {
-    Config {
-        percepts: Percepts::Signatures(SignatureKind {
-            rows: 1,
-            columns: 4,
-            tolerance: 0.4,
-            share: 1.0,
-            rotation: ViewRotation::Aligned,
-            views: 2,
-        }),
-        ..alike()
-    }
+    let mut config = alike();
+    config.percepts = Percepts::Signatures(SignatureKind {
+        rows: 1,
+        columns: 4,
+        tolerance: 0.4,
+        share: 1.0,
+        rotation: ViewRotation::Aligned,
+        views: 2,
+    });
+    config
 }
 
 pub(crate) fn open(side: u16) -> AbstractWorld {
@@ -280,11 +281,9 @@ pub(crate) fn braided_corridors(colours: u32, seed: u64) -> Walk {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let maze = shape.generate(&mut rng).unwrap();
     let world = AbstractWorld::from_corridors(&maze, 1.0).painted(colours, seed);
-    let errors = MoveNoise {
-        stop: 0.0175,
-        look: 0.2,
-        ..ROUGH
-    };
+    let mut errors = ROUGH;
+    errors.stop = 0.0175;
+    errors.look = 0.2;
     let mut config = painted();
     config.place_radius = errors.stop;
     config.restructuring.look_merge = Use::On;

@@ -73,6 +73,7 @@ pub(super) fn table(courses: &[Course]) -> Table {
         learning_rate,
         discount,
         exploration,
+        ..
     } = QLearningConfig::usual();
     table.note(format!(
         "Number of episodes before a way is as short as the one that CPM (faithful, online) drives \

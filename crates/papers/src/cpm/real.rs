@@ -51,10 +51,9 @@ pub(super) fn config() -> impl Serialize {
 
 /// Returns how it observes in the corridors of a course.
 fn walker(course: &Course) -> Result<WalkerConfig, BoxError> {
-    Ok(WalkerConfig {
-        stride_s: STRIDE_S,
-        ..walker_config(&slow_epuck(), course.corridor_width)?
-    })
+    let mut config = walker_config(&slow_epuck(), course.corridor_width)?;
+    config.stride_s = STRIDE_S;
+    Ok(config)
 }
 
 impl Real {

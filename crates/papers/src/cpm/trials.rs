@@ -76,10 +76,9 @@ pub(super) fn faithful() -> Mode {
 
 /// Returns the mode of the paper's own trials, with its equations taken literally.
 fn papers_rule() -> Mode {
-    Mode::Paper(CpmConfig {
-        matching: FragmentMatching::Positions(Similarity::literal()),
-        ..CpmConfig::offline()
-    })
+    let mut config = CpmConfig::offline();
+    config.matching = FragmentMatching::Positions(Similarity::literal());
+    Mode::Paper(config)
 }
 
 /// Returns the mode of our own version: dead reckoning beside the patterns.
@@ -203,10 +202,8 @@ pub(super) fn unlearned(courses: &[Course]) -> Trials {
 
 /// Returns the trials in mazes that the paper excludes.
 pub(super) fn aliased(options: &Options) -> Trials {
-    let patient = CpmConfig {
-        most_traversals: ALIASED_PATIENCE,
-        ..CpmConfig::online()
-    };
+    let mut patient = CpmConfig::online();
+    patient.most_traversals = ALIASED_PATIENCE;
     let rows = [("Better", better()), ("Faithful", Mode::Paper(patient))];
     let settings = Vec::from(rows.map(|(row, mode)| Setting::aliased(row, mode)));
     let table = Table::of::<AliasedRun>("aliased", "Mazes with fragments that look alike")

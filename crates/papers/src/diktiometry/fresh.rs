@@ -36,7 +36,11 @@ const QUICK: u32 = 2;
 const WORLD_STREAM: u64 = 20;
 
 /// Walls of eight colours, without doorways.
-const PAINTED: OfficeConfig = OfficeConfig { colours: 8, ..BARE };
+const PAINTED: OfficeConfig = {
+    let mut config = BARE;
+    config.colours = 8;
+    config
+};
 
 /// Generator of a row's worlds.
 type Draw = fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>;
@@ -301,10 +305,8 @@ impl FreshRow {
     pub(super) fn draw(&self, seed: u64) -> Result<(Arc<Office>, SurveyConfig), BoxError> {
         let mut rng = stream(seed, WORLD_STREAM);
         let maze = (self.draw)(&mut rng)?;
-        let furniture = OfficeConfig {
-            seed,
-            ..self.furniture
-        };
+        let mut furniture = self.furniture;
+        furniture.seed = seed;
         let office = Arc::new(Office::new(&maze, &furniture)?);
         let mut config = SurveyConfig::of(&office, self.surveyor(), self.moves);
         config.heed = self.heed;

@@ -45,14 +45,12 @@ pub(super) struct Setting {
 
 impl Setting {
     /// Returns a row that measures the map of a survey that follows scripts.
-    fn scripted(row: &'static str, office: &Arc<Office>, config: SurveyConfig) -> Self {
+    fn scripted(row: &'static str, office: &Arc<Office>, mut config: SurveyConfig) -> Self {
+        config.heed = HEED;
         Self {
             row,
             office: Arc::clone(office),
-            config: SurveyConfig {
-                heed: HEED,
-                ..config
-            },
+            config,
             subject: Subject::Map,
         }
     }
@@ -97,10 +95,11 @@ pub(super) const WALLED_UP: f64 = 0.25;
 pub(super) const BARE: OfficeConfig = OfficeConfig::bare();
 
 /// An office with doorways, and with walls of many colours.
-pub(super) const FURNISHED: OfficeConfig = OfficeConfig {
-    doorway_share: 0.2,
-    colours: 8,
-    ..OfficeConfig::bare()
+pub(super) const FURNISHED: OfficeConfig = {
+    let mut config = OfficeConfig::bare();
+    config.doorway_share = 0.2;
+    config.colours = 8;
+    config
 };
 
 pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
@@ -190,11 +189,9 @@ fn ablations(office: &Arc<Office>) -> Vec<Setting> {
 /// Returns a row with a maze of MSLST, and with the robot of that paper.
 fn mslst(row: &'static str, text: &str) -> Result<Setting, BoxError> {
     let file = tolman_maze::read(text)?;
-    let furniture = OfficeConfig {
-        corridor_width: file.corridor_width.unwrap_or(pioneer::CORRIDOR_WIDTH),
-        wall_thickness: 0.0,
-        ..OfficeConfig::bare()
-    };
+    let mut furniture = OfficeConfig::bare();
+    furniture.corridor_width = file.corridor_width.unwrap_or(pioneer::CORRIDOR_WIDTH);
+    furniture.wall_thickness = 0.0;
     let office = Arc::new(Office::new(&file.maze, &furniture)?);
     let mut config = SurveyConfig::of(&office, SurveyorConfig::mslst(), 300);
     // Corridors of thirteen cells leave room for several places: geometry alone proves no loop.

@@ -91,16 +91,14 @@ impl Parameters {
             sonar,
         ] = self.0;
         let count = |value: f64| libm::round(value) as u32;
-        let gng = GngConfig {
-            max_age: count(age),
-            growth_period: count(lambda),
-            split_factor: alpha,
-            decay,
-            max_units: count(units) as usize,
-            winner_rate: winner,
-            neighbour_rate: neighbour,
-            ..GngConfig::fritzke()
-        };
+        let mut gng = GngConfig::fritzke();
+        gng.max_age = count(age);
+        gng.growth_period = count(lambda);
+        gng.split_factor = alpha;
+        gng.decay = decay;
+        gng.max_units = count(units) as usize;
+        gng.winner_rate = winner;
+        gng.neighbour_rate = neighbour;
         let weights = FeatureWeights {
             image,
             odometry,

@@ -53,10 +53,8 @@ pub(super) fn run(set: &MazeSet, until: Until, job: &Job<'_>) -> Result<Fields, 
 fn judged(maze: &Maze, until: Until, seed: u64) -> Result<Judgement, BoxError> {
     let brief = brief(maze)?;
     let explorer = MoveExplorerConfig::tuned();
-    let rollouts = RolloutConfig {
-        seed,
-        ..RolloutConfig::tuned()
-    };
+    let mut rollouts = RolloutConfig::tuned();
+    rollouts.seed = seed;
     let (grid, start) = (brief.grid, brief.start);
     let search = match until {
         Until::Worth => {

@@ -135,16 +135,26 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
         settings,
         note: "Large maze, threshold 50.",
     };
-    let threshold = |threshold| at(threshold, MslstConfig { threshold, ..base });
+    let threshold = |threshold| {
+        let mut config = base;
+        config.threshold = threshold;
+        at(threshold, config)
+    };
     let graph = |graph_actions| {
-        let config = MslstConfig {
-            graph_actions,
-            ..base
-        };
+        let mut config = base;
+        config.graph_actions = graph_actions;
         at(f64::from(graph_actions), config)
     };
-    let scans = |scan_steps| at(f64::from(scan_steps), MslstConfig { scan_steps, ..base });
-    let memory = |memory| at(f64::from(memory), MslstConfig { memory, ..base });
+    let scans = |scan_steps| {
+        let mut config = base;
+        config.scan_steps = scan_steps;
+        at(f64::from(scan_steps), config)
+    };
+    let memory = |memory| {
+        let mut config = base;
+        config.memory = memory;
+        at(f64::from(memory), config)
+    };
     let noise = |times| Setting {
         robot: noisy(times),
         ..at(times, base)
@@ -249,11 +259,9 @@ fn worlds(j: World, large: &World) -> Result<Vec<Setting>, BoxError> {
 /// Returns a robot with a ring of eight beams instead of the laser's 72, like the sonars of a
 /// Khepera.
 fn with_sonars() -> LaserPioneerConfig {
-    let laser = pioneer::calibrated();
-    LaserPioneerConfig {
-        ring: Ring::full(8, laser.ring.max_range),
-        ..laser
-    }
+    let mut robot = pioneer::calibrated();
+    robot.ring = Ring::full(8, robot.ring.max_range);
+    robot
 }
 
 /// Returns the same maze with corridors `units` robot units wide.

@@ -17,24 +17,20 @@ pub(super) fn quantizer(
     units: usize,
     threshold: f64,
 ) -> Result<Box<dyn Quantizer<f64>>, BoxError> {
-    let fritzke = GngConfig {
-        max_units: units,
-        ..GngConfig::fritzke()
-    };
+    let mut fritzke = GngConfig::fritzke();
+    fritzke.max_units = units;
+    let mut useful = fritzke;
+    useful.utility = Some(Utility {
+        threshold: 10.0,
+        removal: Removal::EveryInput,
+    });
+    let mut gated = GngConfig::fritzke();
+    gated.gate = GrowthGate::MeanError { threshold };
     let gng = |config| Gng::new(dimension, config);
     Ok(match row {
         "GNG" => Box::new(gng(fritzke)?),
-        "GNG-U" => Box::new(gng(GngConfig {
-            utility: Some(Utility {
-                threshold: 10.0,
-                removal: Removal::EveryInput,
-            }),
-            ..fritzke
-        })?),
-        "equilibrium GNG" => Box::new(gng(GngConfig {
-            gate: GrowthGate::MeanError { threshold },
-            ..GngConfig::fritzke()
-        })?),
+        "GNG-U" => Box::new(gng(useful)?),
+        "equilibrium GNG" => Box::new(gng(gated)?),
         _ => Box::new(Soinn::new(dimension, SoinnConfig::noisy())?),
     })
 }

@@ -65,12 +65,9 @@ struct Parameters {
 }
 
 /// Returns the same configuration. A number of units without bound becomes TOML's largest integer.
-fn unbounded(config: GngConfig) -> GngConfig {
-    let max_units = config.max_units.min(i64::MAX as usize);
-    GngConfig {
-        max_units,
-        ..config
-    }
+fn unbounded(mut config: GngConfig) -> GngConfig {
+    config.max_units = config.max_units.min(i64::MAX as usize);
+    config
 }
 
 /// Returns the experiment with its data and tables.

@@ -67,10 +67,8 @@ pub(super) fn run(mazes: &Mazes, job: &Job<'_>) -> Result<Fields, BoxError> {
             &scans,
         )?
     } else {
-        let config = GngConfig {
-            max_units: UNITS,
-            ..GngConfig::fritzke()
-        };
+        let mut config = GngConfig::fritzke();
+        config.max_units = UNITS;
         learn(Gng::<f64>::new(features, config)?, stream(), &scans)?
     };
     Ok(fields)

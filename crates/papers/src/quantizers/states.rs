@@ -136,10 +136,8 @@ impl Mazes {
 
 /// Returns the number of states that are learned from scans.
 fn states(scans: &[Vec<f64>], threshold: f64, decay: f64) -> Result<usize, BoxError> {
-    let config = GngConfig {
-        decay,
-        ..GngConfig::mslst(threshold)
-    };
+    let mut config = GngConfig::mslst(threshold);
+    config.decay = decay;
     let mut gng = Gng::new(pioneer::ring().beams as usize, config)?;
     for scan in scans {
         gng.observe(scan)?;

@@ -201,7 +201,8 @@ impl Graphs {
         kind: Kind,
         job: &Job<'_>,
     ) -> Result<AuditRun, BoxError> {
-        let config = AuditConfig::standard().with_sigma_scale(known.scale);
+        let mut config = AuditConfig::standard();
+        config.sigma_scale = known.scale;
         let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
         let added = Spoiler::new(&file.graph, truth).draw(kind, known.false_closures, &mut rng);
         let mut graph = file.graph.clone();

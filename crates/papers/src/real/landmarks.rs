@@ -83,11 +83,10 @@ impl LandmarkMap {
 
 /// Returns the configuration of the optimizer while poses are still added; it is less exact.
 const fn on_the_way() -> OptimizerConfig {
-    OptimizerConfig {
-        most_steps: 4,
-        most_iterations: 100,
-        ..OptimizerConfig::robust()
-    }
+    let mut config = OptimizerConfig::robust();
+    config.most_steps = 4;
+    config.most_iterations = 100;
+    config
 }
 
 /// Returns the times of the poses that are kept, s.

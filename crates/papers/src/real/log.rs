@@ -193,7 +193,7 @@ impl RobotLog {
         see: impl FnMut(usize),
     ) -> Result<MappedLog, BoxError> {
         let corridors = PlacesConfig::indoor().corridor_width;
-        let config = ScanMatchingConfig::indoor();
+        let mut config = ScanMatchingConfig::indoor();
         let mut mapper = match system {
             LogSystem::Odometry => {
                 return Ok(MappedLog {
@@ -222,7 +222,10 @@ impl RobotLog {
             LogSystem::PlaceGraph => {
                 return self.map_sites(PlaceGraphOfSites::indoor(), odometry, see);
             }
-            LogSystem::Matching => ScanMatching::new(config.without_closures()),
+            LogSystem::Matching => {
+                config.closures = None;
+                ScanMatching::new(config)
+            }
             LogSystem::ScanMatching => ScanMatching::new(config),
         };
         self.show(&mut mapper, odometry, see)?;

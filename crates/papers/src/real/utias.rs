@@ -160,12 +160,11 @@ fn place_map(known: &LandmarkMap, rng: &mut ChaCha8Rng) -> Result<PlaceMap, BoxE
         odometry: 1.0,
         sonar: 1.0,
     };
-    let gng = GngConfig {
-        max_units: NODES,
-        growth_period: 30,
-        ..GngConfig::fritzke()
-    };
-    let config = PlaceMapConfig::new(gng, weights).with_passes(10);
+    let mut gng = GngConfig::fritzke();
+    gng.max_units = NODES;
+    gng.growth_period = 30;
+    let mut config = PlaceMapConfig::new(gng, weights);
+    config.passes = 10;
     Ok(PlaceMap::learn(&table, 0..table.len(), config, rng)?)
 }
 

@@ -7,6 +7,7 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct MoveExplorerConfig {
     /// Weight of a step on known ground, relative to a step on the possible way beyond it; above 0.
     /// It applies while no way to the goal is known.

@@ -15,6 +15,7 @@ use crate::TooLarge;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct RolloutConfig {
     /// Maximum number of mazes drawn for a decision. ≥ 1.
     pub completions: u16,

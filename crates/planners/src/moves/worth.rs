@@ -18,6 +18,7 @@ use super::{MoveExplorerConfigError, Rollouts};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct WorthConfig {
     /// Number of mazes drawn for a decision, in place of
     /// [`RolloutConfig::completions`](super::RolloutConfig::completions). ≥ 1.

@@ -7,6 +7,7 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct SpeedRunConfig {
     /// Distance between the middles of two neighbouring cells. Millimetres, above 0. Rules of the
     /// competitions: 180 (classic), 90 (half-size).
@@ -27,6 +28,7 @@ pub struct SpeedRunConfig {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct SpeedProfile {
     /// mm/s², above 0.
     pub acceleration_mm_s2: f64,
@@ -39,6 +41,7 @@ pub struct SpeedProfile {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct SlalomTimes {
     /// 45° from a straight into a diagonal, or out of one.
     pub f45_ms: u16,

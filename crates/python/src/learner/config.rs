@@ -39,29 +39,29 @@ pub(super) fn gng_config(params: &Params<'_, '_>) -> PyResult<GngConfig> {
         }),
     };
     let max_units = params.optional_count("max_units")?;
-    Ok(GngConfig {
-        winner_rate: params.number("winner_rate")?,
-        neighbour_rate: params.number("neighbour_rate")?,
-        max_age: params.count("max_age")?,
-        growth_period: params.count("growth_period")?,
-        split_factor: params.number("split_factor")?,
-        decay: params.number("decay")?,
-        max_units: max_units.map_or(usize::MAX, |units| units as usize),
-        order: params.choice(
-            "order",
-            &[("fritzke", StepOrder::Fritzke), ("mslst", StepOrder::Mslst)],
-        )?,
-        error: params.choice(
-            "error",
-            &[
-                ("squared", ErrorKind::Squared),
-                ("absolute", ErrorKind::Absolute),
-                ("relative", ErrorKind::Relative),
-            ],
-        )?,
-        gate,
-        utility,
-    })
+    let mut config = GngConfig::fritzke();
+    config.winner_rate = params.number("winner_rate")?;
+    config.neighbour_rate = params.number("neighbour_rate")?;
+    config.max_age = params.count("max_age")?;
+    config.growth_period = params.count("growth_period")?;
+    config.split_factor = params.number("split_factor")?;
+    config.decay = params.number("decay")?;
+    config.max_units = max_units.map_or(usize::MAX, |units| units as usize);
+    config.order = params.choice(
+        "order",
+        &[("fritzke", StepOrder::Fritzke), ("mslst", StepOrder::Mslst)],
+    )?;
+    config.error = params.choice(
+        "error",
+        &[
+            ("squared", ErrorKind::Squared),
+            ("absolute", ErrorKind::Absolute),
+            ("relative", ErrorKind::Relative),
+        ],
+    )?;
+    config.gate = gate;
+    config.utility = utility;
+    Ok(config)
 }
 
 /// Returns the configuration of a SOINN from Python's parameters.
@@ -71,27 +71,27 @@ pub(super) fn soinn_config(params: &Params<'_, '_>) -> PyResult<SoinnConfig> {
         None => SimilarityThreshold::Adaptive,
         Some(distance) => SimilarityThreshold::Constant(distance),
     };
-    Ok(SoinnConfig {
-        max_age: params.count("max_age")?,
-        period: params.count("period")?,
-        insertion: params.choice(
-            "insertion",
-            &[
-                ("unless_one_grew", ErrorInsertion::UnlessOneGrew),
-                ("unless_all_grew", ErrorInsertion::UnlessAllGrew),
-                ("off", ErrorInsertion::Off),
-            ],
-        )?,
-        denoising: params.choice(
-            "denoising",
-            &[
-                ("few_wins", Denoising::FewWins { c }),
-                ("low_rate", Denoising::LowRate { c }),
-                ("off", Denoising::Off),
-            ],
-        )?,
-        threshold,
-    })
+    let mut config = SoinnConfig::shen_hasegawa();
+    config.max_age = params.count("max_age")?;
+    config.period = params.count("period")?;
+    config.insertion = params.choice(
+        "insertion",
+        &[
+            ("unless_one_grew", ErrorInsertion::UnlessOneGrew),
+            ("unless_all_grew", ErrorInsertion::UnlessAllGrew),
+            ("off", ErrorInsertion::Off),
+        ],
+    )?;
+    config.denoising = params.choice(
+        "denoising",
+        &[
+            ("few_wins", Denoising::FewWins { c }),
+            ("low_rate", Denoising::LowRate { c }),
+            ("off", Denoising::Off),
+        ],
+    )?;
+    config.threshold = threshold;
+    Ok(config)
 }
 
 /// Returns a `ValueError` that names the parameter instead of the field.

@@ -6,6 +6,7 @@ use crate::error::{AT_LEAST_1, NOT_NEGATIVE, SHARE, within};
 /// The parameters of a growing neural gas. Its `Default` is [`fritzke`](Self::fritzke).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct GngConfig {
     /// ε_b: the part of the way to the input that the nearest unit moves; 0 to 1.
     pub winner_rate: f64,

@@ -8,6 +8,25 @@ use crate::{Scalar, UnitId, UnknownUnit};
 
 /// Cluster of each unit. A *cluster* is a connected component of the graph. Clusters are numbered
 /// from 0 in the order of their smallest ids.
+///
+/// ```
+/// use tolman_quantizers::{Gng, GngConfig, Quantizer};
+///
+/// // Points on two rings.
+/// let mut config = GngConfig::default();
+/// config.max_units = 40;
+/// let mut gng = Gng::<f64>::new(2, config)?;
+/// for step in 0..20_000_u32 {
+///     let angle = f64::from(step) * 0.7;
+///     let centre = if step % 2 == 0 { -2.0 } else { 2.0 };
+///     gng.observe(&[centre + angle.cos(), angle.sin()])?;
+/// }
+/// let clusters = gng.network().clusters();
+/// let [left, right] = [[-3.0, 0.0], [3.0, 0.0]].map(|point| gng.nearest(&point).unwrap().id);
+/// assert_eq!(clusters.count(), 2);
+/// assert_ne!(clusters.label(left)?, clusters.label(right)?);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clusters {
     /// Ascending by id.

@@ -6,6 +6,7 @@ use crate::error::{AT_LEAST_1, NOT_NEGATIVE, SHARE, within};
 /// The parameters of one layer of a SOINN. Its `Default` is [`shen_hasegawa`](Self::shen_hasegawa).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct SoinnConfig {
     /// age_dead: age above which edges are removed, in inputs won by one of the edge's ends, at
     /// least 1.

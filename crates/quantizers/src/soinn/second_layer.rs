@@ -13,6 +13,7 @@ use crate::{QuantizerConfigError, Scalar};
 /// Parameters by which the second layer learns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct SecondLayerConfig {
     /// The layer itself; its threshold is computed, so what stands there does not count.
     pub layer: SoinnConfig,

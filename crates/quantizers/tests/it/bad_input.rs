@@ -140,11 +140,9 @@ fn one_point_stays_one_unit() {
 #[test]
 fn a_stream_that_becomes_constant_stays_sound() {
     for error in [ErrorKind::Squared, ErrorKind::Absolute, ErrorKind::Relative] {
-        let config = GngConfig {
-            error,
-            max_units: 50,
-            ..GngConfig::fritzke()
-        };
+        let mut config = GngConfig::fritzke();
+        config.error = error;
+        config.max_units = 50;
         let mut gng = Gng::<f32>::new(2, config).unwrap();
         gng.observe(&[1.0, 0.0]).unwrap();
         for _ in 0..100_000 {
@@ -159,14 +157,9 @@ fn a_stream_that_becomes_constant_stays_sound() {
 #[test]
 fn a_million_units() {
     let count = 1_000_000_u32;
-    let mut gng = Gng::<f32>::new(
-        2,
-        GngConfig {
-            growth_period: 500,
-            ..GngConfig::fritzke()
-        },
-    )
-    .unwrap();
+    let mut config = GngConfig::fritzke();
+    config.growth_period = 500;
+    let mut gng = Gng::<f32>::new(2, config).unwrap();
     let at = |unit: u32| [(unit % 1000) as f32, (unit / 1000) as f32];
     gng.begin_with(&(0..count).map(at).collect::<Vec<_>>())
         .unwrap();
@@ -183,7 +176,9 @@ proptest! {
     /// Any bits at all: refused, or learnt without harm.
     #[test]
     fn no_number_poisons_it(inputs in prop::collection::vec(any::<[f32; 2]>(), 1..200), decay in 0.5..=1.0) {
-        let config = GngConfig { growth_period: 3, decay, ..GngConfig::fritzke() };
+        let mut config = GngConfig::fritzke();
+        config.growth_period = 3;
+        config.decay = decay;
         let mut gng = Gng::<f32>::new(2, config).unwrap();
         for input in &inputs {
             let _ = gng.observe(input);

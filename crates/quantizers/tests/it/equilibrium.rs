@@ -38,7 +38,10 @@ proptest! {
         let decay = 0.995;
         let threshold = mse / units / (1.0 - decay);
         let gate = GrowthGate::MeanError { threshold };
-        let (error, n) = equilibrium(GngConfig { gate, decay, ..GngConfig::fritzke() }, dimension, seed);
+        let mut config = GngConfig::fritzke();
+        config.gate = gate;
+        config.decay = decay;
+        let (error, n) = equilibrium(config, dimension, seed);
         let ratio = error / (n * threshold * (1.0 - decay));
         // The gate sees the errors of some 200 inputs, and these scatter: growth ends a little
         // late.
@@ -50,7 +53,10 @@ proptest! {
     fn the_rate_ends_growth_independently_of_the_decay(decay in 0.99..0.9999_f64, seed: u64) {
         let threshold = 2.0 / 12.0 / 30.0 / 30.0;
         let gate = GrowthGate::Rate { threshold };
-        let (error, n) = equilibrium(GngConfig { gate, decay, ..GngConfig::fritzke() }, 2, seed);
+        let mut config = GngConfig::fritzke();
+        config.gate = gate;
+        config.decay = decay;
+        let (error, n) = equilibrium(config, 2, seed);
         let ratio = error / (n * threshold);
         prop_assert!((0.4..1.1).contains(&ratio), "{ratio} at {n} units");
     }

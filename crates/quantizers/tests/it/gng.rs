@@ -40,18 +40,14 @@ pub(crate) fn configs() -> impl Strategy<Value = GngConfig> {
         prop_oneof![1e-300..1.0, 0.9..=1.0_f64],
         prop_oneof![2..60_usize, Just(usize::MAX)],
     );
-    (rates, kinds, bounds).prop_map(|(rates, (order, error, gate, utility), bounds)| GngConfig {
-        winner_rate: rates.0,
-        neighbour_rate: rates.1,
-        max_age: rates.2,
-        growth_period: rates.3,
-        split_factor: rates.4,
-        decay: bounds.0,
-        max_units: bounds.1,
-        order,
-        error,
-        gate,
-        utility,
+    (rates, kinds, bounds).prop_map(|(rates, (order, error, gate, utility), bounds)| {
+        let mut config = GngConfig::fritzke();
+        (config.winner_rate, config.neighbour_rate) = (rates.0, rates.1);
+        (config.max_age, config.growth_period, config.split_factor) = (rates.2, rates.3, rates.4);
+        (config.decay, config.max_units) = bounds;
+        (config.order, config.error) = (order, error);
+        (config.gate, config.utility) = (gate, utility);
+        config
     })
 }
 
@@ -153,7 +149,10 @@ proptest! {
     /// The algorithm again, as literally as it can be written, held to the real one.
     #[test]
     fn does_what_fritzke_wrote(seed: u64, dimension in 1..4_usize) {
-        let config = GngConfig { growth_period: 7, max_age: 6, max_units: 30, ..GngConfig::fritzke() };
+        let mut config = GngConfig::fritzke();
+        config.growth_period = 7;
+        config.max_age = 6;
+        config.max_units = 30;
         let mut gng = Gng::new(dimension, config).unwrap();
         let inputs = cube(dimension, 600, seed);
         let mut literal = Literal::new(&inputs[0], &inputs[1]);
@@ -268,14 +267,9 @@ impl Literal {
 fn mslst_moves_the_second_unit_it_has_just_linked() {
     let start = [[0.0], [2.0], [8.0], [10.0]];
     let run = |order| {
-        let mut gng = Gng::new(
-            1,
-            GngConfig {
-                order,
-                ..GngConfig::fritzke()
-            },
-        )
-        .unwrap();
+        let mut config = GngConfig::fritzke();
+        config.order = order;
+        let mut gng = Gng::new(1, config).unwrap();
         gng.begin_with(&start).unwrap();
         // Nearest is 2, second 8.
         gng.observe(&[4.9]).unwrap();
@@ -291,14 +285,9 @@ fn mslst_moves_the_second_unit_it_has_just_linked() {
     assert_eq!(run(StepOrder::Mslst), (1, true));
 
     let unjoined = |order| {
-        let mut gng = Gng::new(
-            1,
-            GngConfig {
-                order,
-                ..GngConfig::fritzke()
-            },
-        )
-        .unwrap();
+        let mut config = GngConfig::fritzke();
+        config.order = order;
+        let mut gng = Gng::new(1, config).unwrap();
         gng.begin_with(&[[0.0], [5.0], [1.0]]).unwrap();
         gng.observe(&[0.4]).unwrap();
         gng.network().prototype(UnitId(2)).unwrap().next().unwrap()
@@ -311,11 +300,9 @@ fn mslst_moves_the_second_unit_it_has_just_linked() {
 fn utility_follows_a_jump() {
     // All inputs move to another place: GNG leaves units behind, GNG-U brings them along.
     let left_behind = |utility| {
-        let config = GngConfig {
-            max_units: 20,
-            utility,
-            ..GngConfig::fritzke()
-        };
+        let mut config = GngConfig::fritzke();
+        config.max_units = 20;
+        config.utility = utility;
         let mut gng = Gng::new(2, config).unwrap();
         for input in cube(2, 10_000, 1) {
             gng.observe(&input).unwrap();

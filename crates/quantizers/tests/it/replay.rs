@@ -114,15 +114,11 @@ fn the_order_of_a_stream_does_not_matter() {
             let stream = stream(4000, seed);
             let mut shuffled = stream.clone();
             shuffled.shuffle(&mut ChaCha8Rng::seed_from_u64(seed));
-            let fritzke = GngConfig {
-                max_units: UNITS,
-                growth_period: 20,
-                ..GngConfig::fritzke()
-            };
-            let in_order = GngConfig {
-                growth_period: 20,
-                ..GngConfig::in_order(UNITS)
-            };
+            let mut fritzke = GngConfig::fritzke();
+            fritzke.max_units = UNITS;
+            fritzke.growth_period = 20;
+            let mut in_order = GngConfig::in_order(UNITS);
+            in_order.growth_period = 20;
             let new = |config| Gng::new(FEATURES, config).unwrap();
             // Whichever way of learning does better with the shuffled stream.
             let best = mse(&learnt(new(fritzke), &shuffled), &stream)
@@ -143,12 +139,10 @@ fn the_order_of_a_stream_does_not_matter() {
 #[test]
 fn remembers_what_it_is_told_to() {
     let remembered = |memory| {
-        let config = ReplayConfig {
-            capacity: 50,
-            per_input: 1,
-            memory,
-            seed: 1,
-        };
+        let mut config = ReplayConfig::measured(1);
+        config.capacity = 50;
+        config.per_input = 1;
+        config.memory = memory;
         let gng = Gng::new(1, GngConfig::fritzke()).unwrap();
         let stream: Vec<_> = (0..1000).map(|step| vec![f64::from(step)]).collect();
         let replay = learnt(ReplayQuantizer::new(gng, config).unwrap(), &stream);
@@ -167,10 +161,8 @@ fn remembers_what_it_is_told_to() {
 
 #[test]
 fn a_resumed_memory_goes_on_as_if_nothing_were() {
-    let config = ReplayConfig {
-        capacity: 100,
-        ..ReplayConfig::measured(3)
-    };
+    let mut config = ReplayConfig::measured(3);
+    config.capacity = 100;
     let stream = rooms(600, 1);
     let gng = Gng::new(FEATURES, GngConfig::in_order(30)).unwrap();
     let replay = learnt(ReplayQuantizer::new(gng, config).unwrap(), &stream[..300]);
@@ -196,11 +188,9 @@ fn a_resumed_memory_goes_on_as_if_nothing_were() {
 fn refuses_what_it_cannot_do() {
     let new = |capacity, per_input| {
         let gng = Gng::<f64>::new(2, GngConfig::fritzke()).unwrap();
-        let config = ReplayConfig {
-            capacity,
-            per_input,
-            ..ReplayConfig::measured(0)
-        };
+        let mut config = ReplayConfig::measured(0);
+        config.capacity = capacity;
+        config.per_input = per_input;
         ReplayQuantizer::new(gng, config)
     };
     assert!(matches!(

@@ -55,7 +55,9 @@ proptest! {
         weighted: bool,
     ) {
         let inputs = if on_grid { grid(dimension, len, seed) } else { cube(dimension, len, seed) };
-        let config = GngConfig { growth_period: 2, max_age: 20, ..GngConfig::fritzke() };
+        let mut config = GngConfig::fritzke();
+        config.growth_period = 2;
+        config.max_age = 20;
         let weights: Vec<f64> = (0..dimension).map(|feature| 0.5 * feature as f64).collect();
         let mask: Vec<bool> = (0..dimension).map(|feature| feature % 2 == (dimension + 1) % 2).collect();
         for (search, lanes) in WAYS {
@@ -84,7 +86,9 @@ proptest! {
         let inputs = if on_grid { grid(dimension, 2500, seed) } else { cube(dimension, 2500, seed) };
         let inputs = narrowed(&inputs);
         let mut results = WAYS.iter().map(|(search, lanes)| {
-            let config = GngConfig { growth_period: 5, max_age: 15, ..GngConfig::fritzke() };
+            let mut config = GngConfig::fritzke();
+            config.growth_period = 5;
+            config.max_age = 15;
             let mut gng = Gng::<f32>::new(dimension, config).unwrap();
             gng.set_search(*search, *lanes);
             for input in &inputs {
@@ -119,10 +123,8 @@ fn many_features_are_no_matter() {
         let inputs = cube(dimension, 400, 1);
         let everything = vec![true; dimension];
         for (search, lanes) in WAYS {
-            let config = GngConfig {
-                growth_period: 5,
-                ..GngConfig::fritzke()
-            };
+            let mut config = GngConfig::fritzke();
+            config.growth_period = 5;
             let mut gng = Gng::new(dimension, config).unwrap();
             gng.set_search(search, lanes);
             for input in &inputs {

@@ -253,12 +253,12 @@ fn configs() -> impl Strategy<Value = SoinnConfig> {
         1 => (0.05..0.5).prop_map(SimilarityThreshold::Constant)
     ];
     (2_u32..40, 5_u32..60, insertion, denoising, threshold).prop_map(
-        |(max_age, period, insertion, denoising, threshold)| SoinnConfig {
-            max_age,
-            period,
-            insertion,
-            denoising,
-            threshold,
+        |(max_age, period, insertion, denoising, threshold)| {
+            let mut config = SoinnConfig::shen_hasegawa();
+            (config.max_age, config.period) = (max_age, period);
+            (config.insertion, config.denoising) = (insertion, denoising);
+            config.threshold = threshold;
+            config
         },
     )
 }
@@ -424,25 +424,20 @@ fn configurations_out_of_range_are_refused() {
         QuantizerConfigError::OutOfRange { field, .. } => field,
         other => panic!("{other}"),
     };
-    let max_age = SoinnConfig {
-        max_age: 0,
-        ..paper
-    };
+    let mut max_age = paper;
+    max_age.max_age = 0;
     assert_eq!(field(refused(max_age)), "max_age");
-    let period = SoinnConfig { period: 0, ..paper };
+    let mut period = paper;
+    period.period = 0;
     assert_eq!(field(refused(period)), "period");
     for c in [-0.1, 1.1, f64::NAN] {
-        let denoising = SoinnConfig {
-            denoising: Denoising::FewWins { c },
-            ..paper
-        };
+        let mut denoising = paper;
+        denoising.denoising = Denoising::FewWins { c };
         assert_eq!(field(refused(denoising)), "denoising.c");
     }
     for distance in [-1.0, f64::NAN, f64::INFINITY] {
-        let threshold = SoinnConfig {
-            threshold: SimilarityThreshold::Constant(distance),
-            ..paper
-        };
+        let mut threshold = paper;
+        threshold.threshold = SimilarityThreshold::Constant(distance);
         assert_eq!(field(refused(threshold)), "threshold");
     }
     assert_eq!(
@@ -465,10 +460,8 @@ fn the_second_layer_s_threshold_is_the_gap_between_clusters() {
     assert_eq!(network.clusters().count(), 2);
     let rng = || ChaCha8Rng::seed_from_u64(0);
     let second = |threshold| {
-        let config = SecondLayerConfig {
-            threshold,
-            ..SecondLayerConfig::shen_hasegawa()
-        };
+        let mut config = SecondLayerConfig::shen_hasegawa();
+        config.threshold = threshold;
         first.second_layer(&config, &mut rng())
     };
     let at = |id| network.prototype(id).unwrap().collect::<Vec<f64>>();

@@ -43,10 +43,8 @@ use crate::Draws;
 ///     }
 /// }
 ///
-/// let outside = LaserPioneerDisturbances {
-///     scan: vec![Box::new(Fog { visibility: 2.0 })],
-///     ..LaserPioneerDisturbances::default()
-/// };
+/// let mut outside = LaserPioneerDisturbances::default();
+/// outside.scan = vec![Box::new(Fog { visibility: 2.0 })];
 /// let robot = LaserPioneer::new(LaserPioneerConfig::noiseless())?.with_disturbances(outside);
 /// # Ok::<(), tolman_sim::robots::RobotConfigError>(())
 /// ```
@@ -94,10 +92,9 @@ pub type Disturbances<V> = Vec<Box<dyn Disturbance<V>>>;
 /// use tolman_sim::noise::Noise;
 /// use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, LaserPioneerDisturbances};
 ///
-/// let outside = LaserPioneerDisturbances {
-///     odometry_distance: vec![Box::new(Noise::Relative(Cauchy::new(0.0, 0.02).unwrap()))],
-///     ..LaserPioneerDisturbances::default()
-/// };
+/// let mut outside = LaserPioneerDisturbances::default();
+/// let slip = Cauchy::new(0.0, 0.02).unwrap();
+/// outside.odometry_distance = vec![Box::new(Noise::Relative(slip))];
 /// let robot = LaserPioneer::new(LaserPioneerConfig::noiseless())?.with_disturbances(outside);
 /// # Ok::<(), tolman_sim::robots::RobotConfigError>(())
 /// ```

@@ -10,6 +10,7 @@ use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 /// A [`LaserPioneer`] with a [`ColumnCamera`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct CameraPioneerConfig {
     /// Number of columns of the camera's image.
     pub columns: u32,
@@ -22,8 +23,23 @@ pub struct CameraPioneerConfig {
     pub pioneer: LaserPioneerConfig,
 }
 
+impl CameraPioneerConfig {
+    /// Returns this Pioneer with a camera of `columns` columns that reaches `reach` m, without
+    /// faults.
+    #[must_use]
+    pub const fn new(pioneer: LaserPioneerConfig, columns: u32, reach: f64) -> Self {
+        Self {
+            columns,
+            reach,
+            image: Vec::new(),
+            pioneer,
+        }
+    }
+}
+
 /// Disturbances, by a crate of your own, of the robot's motors and sensors, after the faults.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct CameraPioneerDisturbances {
     /// Of the camera's image, in shares of full light.
     pub image: Disturbances<ColumnImage>,

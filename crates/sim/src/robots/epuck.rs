@@ -18,6 +18,7 @@ use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 /// simulated e-pucks.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct EpuckConfig {
     /// Response of the proximity sensors, with their noise.
     pub response: ResponseCurve,
@@ -70,6 +71,7 @@ impl EpuckConfig {
 /// order, after the faults. They are not in the configuration, since code cannot be written to a
 /// file.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct EpuckDisturbances {
     /// Of the left wheel's distance over the ground, m; a missing one does not roll.
     pub left_wheel: Disturbances<f64>,

@@ -11,8 +11,25 @@ use crate::{BodyError, Chance, Channel, CommandError, Contact, Model, Motion, Su
 /// The robot of MSLST: a Pioneer-like disc that turns in place, with a laser ring and a compass.
 ///
 /// One "robot unit" of the paper is the diameter of the body.
+///
+/// ```
+/// use tolman_robot::Ring;
+/// use tolman_sim::noise::Gaussian;
+/// use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+///
+/// let mut config = LaserPioneerConfig::noiseless();
+/// config.ring = Ring::fan(180, core::f64::consts::PI, 8.0);
+/// config.scan_noise = Gaussian::absolute(0.01);
+/// LaserPioneer::new(config.clone())?;
+/// // What has no sense is refused by name.
+/// config.radius = -1.0;
+/// let error = LaserPioneer::new(config).unwrap_err();
+/// assert!(error.to_string().contains("radius"));
+/// # Ok::<(), tolman_sim::robots::RobotConfigError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct LaserPioneerConfig {
     /// Radius of the body, m.
     pub radius: f64,
@@ -49,6 +66,7 @@ pub struct LaserPioneerConfig {
 /// still.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct MotorNoise {
     /// Noise of a commanded turn, rad.
     pub turn: Gaussian,
@@ -61,6 +79,7 @@ pub struct MotorNoise {
 /// Faults of a robot beyond plain noise; each list applies in order, after the noise.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct LaserPioneerFaults {
     /// Of the turn the motors make, rad; a drop-out makes none.
     pub motor_turn: Vec<Fault>,
@@ -93,6 +112,7 @@ pub struct StuckBeam {
 /// order, after the faults. They are not in the configuration, since code cannot be written to a
 /// file.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct LaserPioneerDisturbances {
     /// Of the turn the motors make, rad; no error if missing.
     pub motor_turn: Disturbances<f64>,

@@ -92,6 +92,7 @@ impl Default for WheelScale {
 /// Faults of a robot beyond plain noise; each list applies in order, after the noise.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Pioneer2dxFaults {
     /// Of the turn the motors make, rad; a drop-out makes none.
     pub motor_turn: Vec<Fault>,
@@ -110,6 +111,7 @@ pub struct Pioneer2dxFaults {
 /// Disturbances, by a crate of your own, of a robot's motors and sensors. Each list applies in
 /// order, after the faults.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Pioneer2dxDisturbances {
     /// Of the turn the motors make, rad; no error if missing.
     pub motor_turn: Disturbances<f64>,

@@ -12,12 +12,7 @@ const RED: [u8; 3] = [255, 0, 0];
 const BLUE: [u8; 3] = [0, 0, 255];
 
 fn config() -> CameraPioneerConfig {
-    CameraPioneerConfig {
-        columns: 12,
-        reach: 10.0,
-        image: Vec::new(),
-        pioneer: LaserPioneerConfig::noiseless(),
-    }
+    CameraPioneerConfig::new(LaserPioneerConfig::noiseless(), 12, 10.0)
 }
 
 /// Returns a red wall in the east, a blue one in the north.

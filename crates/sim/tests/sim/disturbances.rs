@@ -35,18 +35,16 @@ impl Disturbance<Scan> for Ageing {
 }
 
 fn ageing() -> LaserPioneerDisturbances {
-    LaserPioneerDisturbances {
-        scan: vec![Box::new(Ageing { readings: 0 })],
-        motor_turn: vec![Box::new(Noise::Relative(Normal::new(0.0, 0.2).unwrap()))],
-        ..LaserPioneerDisturbances::default()
-    }
+    let mut outside = LaserPioneerDisturbances::default();
+    outside.scan = vec![Box::new(Ageing { readings: 0 })];
+    outside.motor_turn = vec![Box::new(Noise::Relative(Normal::new(0.0, 0.2).unwrap()))];
+    outside
 }
 
 fn config() -> LaserPioneerConfig {
-    LaserPioneerConfig {
-        scan_noise: Gaussian::absolute(0.01),
-        ..LaserPioneerConfig::noiseless()
-    }
+    let mut config = LaserPioneerConfig::noiseless();
+    config.scan_noise = Gaussian::absolute(0.01);
+    config
 }
 
 fn world() -> World {
@@ -96,10 +94,8 @@ fn a_disturbance_acts_after_the_faults_and_repeats_itself() {
     );
 
     // Without the motors' noise the robot goes the same way and only the scans differ.
-    let blind = LaserPioneerDisturbances {
-        motor_turn: Vec::new(),
-        ..ageing()
-    };
+    let mut blind = ageing();
+    blind.motor_turn = Vec::new();
     let disturbed = drive(config(), blind);
     for (reading, ((truth, sensing), (plain_truth, plain))) in
         (2_u32..).zip(disturbed.iter().zip(&plain))
@@ -155,20 +151,16 @@ fn a_broken_reading_counts_as_missing() {
         |scan| scan.ranges.truncate(5),
     ];
     for breaks in breaks {
-        let outside = LaserPioneerDisturbances {
-            scan: vec![Box::new(Breaks(breaks))],
-            ..LaserPioneerDisturbances::default()
-        };
+        let mut outside = LaserPioneerDisturbances::default();
+        outside.scan = vec![Box::new(Breaks(breaks))];
         let run = drive(config(), outside);
         assert!(run.iter().all(|(_, sensing)| sensing.scan.is_none()));
     }
     // Motors that are told no number stand still; heavy tails end.
-    let outside = LaserPioneerDisturbances {
-        motor_distance: vec![Box::new(Noise::Absolute(Constant(f64::NAN)))],
-        motor_turn: vec![Box::new(Noise::Absolute(Cauchy::new(0.0, 1e12).unwrap()))],
-        compass: vec![Box::new(Noise::Absolute(Constant(f64::INFINITY)))],
-        ..LaserPioneerDisturbances::default()
-    };
+    let mut outside = LaserPioneerDisturbances::default();
+    outside.motor_distance = vec![Box::new(Noise::Absolute(Constant(f64::NAN)))];
+    outside.motor_turn = vec![Box::new(Noise::Absolute(Cauchy::new(0.0, 1e12).unwrap()))];
+    outside.compass = vec![Box::new(Noise::Absolute(Constant(f64::INFINITY)))];
     for (truth, sensing) in drive(config(), outside) {
         assert_eq!(truth.pose.position, start(&world()).position);
         assert!(truth.pose.is_finite());
@@ -188,15 +180,11 @@ impl Distribution<f64> for Constant {
 
 #[test]
 fn each_wheel_of_an_epuck_is_disturbed_by_itself() {
-    let outside = EpuckDisturbances {
-        left_wheel: vec![Box::new(Noise::Relative(Constant(-1.0)))],
-        proximity: vec![Box::new(Noise::Absolute(Constant(1000.0)))],
-        ..EpuckDisturbances::default()
-    };
-    let config = EpuckConfig {
-        wheels: Vec::new(),
-        ..EpuckConfig::cpm()
-    };
+    let mut outside = EpuckDisturbances::default();
+    outside.left_wheel = vec![Box::new(Noise::Relative(Constant(-1.0)))];
+    outside.proximity = vec![Box::new(Noise::Absolute(Constant(1000.0)))];
+    let mut config = EpuckConfig::cpm();
+    config.wheels = Vec::new();
     let robot = Epuck::new(config).unwrap().with_disturbances(outside);
     let world = world();
     let start = start(&world);

@@ -12,10 +12,9 @@ use tolman_sim::trace::{Detail, Recording, replay};
 use tolman_sim::{Contact, Material, Simulation, Solo, WallSegment, World};
 
 fn quiet() -> EpuckConfig {
-    let mut config = EpuckConfig {
-        wheels: Vec::new(),
-        ..EpuckConfig::webots()
-    };
+    let mut robot = EpuckConfig::webots();
+    robot.wheels = Vec::new();
+    let mut config = robot;
     config.response = ResponseCurve::new(
         [(0.0, 4095.0), (0.005, 2133.0), (0.01, 1466.0), (0.07, 67.0)]
             .map(|(range, value)| ResponsePoint {
@@ -73,10 +72,8 @@ fn it_turns_in_place_at_nearly_five_radians_a_second() {
 
 #[test]
 fn wheels_turn_as_fast_as_the_configuration_says() {
-    let ideal = EpuckConfig {
-        most_wheel_speed: 9.0,
-        ..quiet()
-    };
+    let mut ideal = quiet();
+    ideal.most_wheel_speed = 9.0;
     let mut robot = solo(&ideal, 0.0, 0.0);
     let spin = WheelSpeeds {
         left: -8.5,
@@ -86,10 +83,8 @@ fn wheels_turn_as_fast_as_the_configuration_says() {
     let encoders = robot.sensing().encoders.unwrap();
     assert!((encoders.left + 0.085).abs() < 1e-12 && (encoders.right - 0.09).abs() < 1e-12);
     for most in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let none = EpuckConfig {
-            most_wheel_speed: most,
-            ..quiet()
-        };
+        let mut none = quiet();
+        none.most_wheel_speed = most;
         let error = Epuck::new(none).unwrap_err().to_string();
         assert!(error.contains("most_wheel_speed"), "{error}");
     }
@@ -173,7 +168,9 @@ fn e_pucks_see_each_other() {
 #[test]
 fn encoders_tell_what_the_wheels_turned_not_what_the_body_moved() {
     for contact in [Contact::Stop, Contact::Slide] {
-        let mut robot = solo(&EpuckConfig { contact, ..quiet() }, 0.4, 0.0);
+        let mut config = quiet();
+        config.contact = contact;
+        let mut robot = solo(&config, 0.4, 0.0);
         let ahead = WheelSpeeds {
             left: 5.0,
             right: 5.0,
@@ -190,10 +187,8 @@ fn encoders_tell_what_the_wheels_turned_not_what_the_body_moved() {
 
 #[test]
 fn each_wheel_slips_by_itself() {
-    let config = EpuckConfig {
-        wheels: vec![Fault::Slip { share: 0.1 }],
-        ..quiet()
-    };
+    let mut config = quiet();
+    config.wheels = vec![Fault::Slip { share: 0.1 }];
     let ahead = WheelSpeeds {
         left: 1.0,
         right: 1.0,
@@ -214,14 +209,9 @@ fn each_wheel_slips_by_itself() {
 
 #[test]
 fn the_noise_of_a_value_is_the_curves() {
-    let mut robot = solo(
-        &EpuckConfig {
-            wheels: Vec::new(),
-            ..EpuckConfig::webots()
-        },
-        0.5 - 0.041,
-        -90.0,
-    );
+    let mut config = EpuckConfig::webots();
+    config.wheels = Vec::new();
+    let mut robot = solo(&config, 0.5 - 0.041, -90.0);
     let mut values = Vec::new();
     for _ in 0..4000 {
         robot.step(&WheelSpeeds::STOP).unwrap();

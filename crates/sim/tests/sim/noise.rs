@@ -5,7 +5,7 @@ use tolman_maze::{Cell, Grid, Maze};
 use tolman_robot::{LaserSensing, Robot, TurnTranslate};
 use tolman_sim::noise::{Fault, Faults, Gaussian};
 use tolman_sim::robots::{
-    LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, MotorNoise, RobotConfigError, StuckBeam,
+    LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, RobotConfigError, StuckBeam,
 };
 use tolman_sim::{Chance, Channel, CorridorSize, Simulation, Solo, Truth, World};
 
@@ -141,18 +141,15 @@ fn noisy() -> LaserPioneerConfig {
         relative_sd: 0.1,
         absolute_sd: 0.02,
     };
-    LaserPioneerConfig {
-        motor_noise: MotorNoise {
-            turn: noise,
-            translate: noise,
-            drift_sd: 0.2,
-        },
-        scan_noise: noise,
-        compass_noise: noise,
-        odometry_distance_noise: noise,
-        odometry_turn_noise: noise,
-        ..LaserPioneerConfig::noiseless()
-    }
+    let mut config = LaserPioneerConfig::noiseless();
+    config.motor_noise.turn = noise;
+    config.motor_noise.translate = noise;
+    config.motor_noise.drift_sd = 0.2;
+    config.scan_noise = noise;
+    config.compass_noise = noise;
+    config.odometry_distance_noise = noise;
+    config.odometry_turn_noise = noise;
+    config
 }
 
 fn drive(config: LaserPioneerConfig, run: u64) -> Vec<(Truth, LaserSensing)> {
@@ -202,16 +199,12 @@ fn a_stuck_beam_says_the_same_whatever_the_others_meet() {
 fn a_further_consumer_shifts_no_other() {
     let plain = drive(noisy(), 5);
     let dropping = Fault::DropOut { probability: 0.5 };
-    let faults = LaserPioneerFaults {
-        scan: vec![Fault::Gaussian(Gaussian::absolute(0.1)), dropping],
-        ..LaserPioneerFaults::default()
-    };
+    let mut faults = LaserPioneerFaults::default();
+    faults.scan = vec![Fault::Gaussian(Gaussian::absolute(0.1)), dropping];
     let (mut missing, mut changed) = (0, 0);
-    for ((truth, sensing), (plain_truth, plain)) in
-        drive(LaserPioneerConfig { faults, ..noisy() }, 5)
-            .into_iter()
-            .zip(&plain)
-    {
+    let mut robot = noisy();
+    robot.faults = faults;
+    for ((truth, sensing), (plain_truth, plain)) in drive(robot, 5).into_iter().zip(&plain) {
         assert_eq!(truth, *plain_truth);
         assert_eq!(sensing.compass, plain.compass);
         assert_eq!(sensing.odometry, plain.odometry);

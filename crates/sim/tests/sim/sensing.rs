@@ -202,10 +202,8 @@ fn impossible_places_are_refused() {
     let error = sim.place(first, at(0.1, 0.1, 0.0)).unwrap_err();
     assert!(matches!(error, PlaceError::InWall { .. }), "{error}");
     assert_eq!(sim.truth(first).pose, at(0.475, 0.475, 0.0));
-    let config = LaserPioneerConfig {
-        step_us: 50_000,
-        ..LaserPioneerConfig::noiseless()
-    };
+    let mut config = LaserPioneerConfig::noiseless();
+    config.step_us = 50_000;
     let error = sim
         .add(LaserPioneer::new(config).unwrap(), at(2.0, 0.475, 0.0))
         .unwrap_err();

@@ -5,7 +5,7 @@ use tolman_geom::{Heading, Pose};
 use tolman_maze::{Cell, Grid, Maze};
 use tolman_robot::TurnTranslate;
 use tolman_sim::noise::{Fault, Gaussian};
-use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, MotorNoise};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use tolman_sim::trace::{Detail, Recording, ReplayError, replay};
 use tolman_sim::{CorridorSize, Door, DoorState, Material, RobotId, World};
 
@@ -16,25 +16,18 @@ fn robot() -> LaserPioneer {
         relative_sd: 0.1,
         absolute_sd: 0.02,
     };
-    LaserPioneer::new(LaserPioneerConfig {
-        motor_noise: MotorNoise {
-            turn: noise,
-            translate: noise,
-            drift_sd: 0.2,
-        },
-        scan_noise: noise,
-        compass_noise: noise,
-        faults: LaserPioneerFaults {
-            compass: vec![Fault::Delay { steps: 2 }],
-            scan: vec![Fault::Stuck {
-                probability: 0.1,
-                steps: 3,
-            }],
-            ..LaserPioneerFaults::default()
-        },
-        ..LaserPioneerConfig::noiseless()
-    })
-    .unwrap()
+    let mut config = LaserPioneerConfig::noiseless();
+    config.motor_noise.turn = noise;
+    config.motor_noise.translate = noise;
+    config.motor_noise.drift_sd = 0.2;
+    config.scan_noise = noise;
+    config.compass_noise = noise;
+    config.faults.compass = vec![Fault::Delay { steps: 2 }];
+    config.faults.scan = vec![Fault::Stuck {
+        probability: 0.1,
+        steps: 3,
+    }];
+    LaserPioneer::new(config).unwrap()
 }
 
 /// Returns two robots that drive about a room with a door, one of which is lifted.

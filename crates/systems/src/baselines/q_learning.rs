@@ -27,6 +27,7 @@ pub struct Transition {
 
 /// Parameters of learning. Neither paper names any of these values.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
 pub struct QLearningConfig {
     /// α, 0 … 1.
     pub learning_rate: f64,

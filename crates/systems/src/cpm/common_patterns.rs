@@ -33,10 +33,9 @@ const LANDMARK: f64 = 100.0;
 /// neighbour counts as noise.
 #[must_use]
 pub fn soinn() -> SoinnConfig {
-    SoinnConfig {
-        denoising: Denoising::FewWins { c: 0.0 },
-        ..SoinnConfig::cpm()
-    }
+    let mut config = SoinnConfig::cpm();
+    config.denoising = Denoising::FewWins { c: 0.0 };
+    config
 }
 
 /// Length of the walk in which a robot learns its common patterns.

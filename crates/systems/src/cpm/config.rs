@@ -2,6 +2,7 @@ use tolman_maps::cpm::{Candidates, CpMapperConfig, FragmentMatching, Mapping};
 
 /// Parameters by which CPM maps and decides.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
 pub struct CpmConfig {
     /// When the map is compared with a new fragment.
     pub mapping: Mapping,
@@ -41,11 +42,11 @@ impl CpmConfig {
     /// Returns the configuration of the mapper.
     #[must_use]
     pub const fn mapper(&self) -> CpMapperConfig {
-        CpMapperConfig {
-            mapping: self.mapping,
-            matching: self.matching,
-            candidates: self.candidates,
-        }
+        let mut config = CpMapperConfig::online();
+        config.mapping = self.mapping;
+        config.matching = self.matching;
+        config.candidates = self.candidates;
+        config
     }
 
     /// Returns the online CPM of section 6: [`CpMapperConfig::online`]. It gives up after 1000

@@ -10,9 +10,10 @@ use super::walker::{BeforePlace, Prospect, Walk, WalkError, WalkResult, Walker};
 use super::whereabouts::{Approach, SURE, Whereabouts};
 
 /// Walks of one robot along the same fragment differ by less than one stride in twenty.
-const CONFIG: LocalizerConfig = LocalizerConfig {
-    slip: 0.05,
-    ..LocalizerConfig::usual()
+const CONFIG: LocalizerConfig = {
+    let mut config = LocalizerConfig::usual();
+    config.slip = 0.05;
+    config
 };
 
 /// Finds the map that a robot is on, of several, and its place there. The robot was put down

@@ -1,8 +1,5 @@
-use core::f64::consts::TAU;
-
 use tolman_control::epuck::{
-    ForwardConfig, KeepOff, MeetPointConfig, PilotConfig, RangeCurve, SegmentConfig,
-    SensorAlignment,
+    MeetPointConfig, PilotConfig, RangeCurve, SegmentConfig, SensorAlignment,
 };
 
 /// Measures of an e-puck that are needed to drive it.
@@ -18,6 +15,7 @@ pub struct EpuckMeasures {
 
 /// Parameters by which a walker observes.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct WalkerConfig {
     /// The robot's layers.
     pub pilot: PilotConfig,
@@ -48,12 +46,6 @@ pub enum HeadingBy {
     Walls,
 }
 
-/// "The robot samples the sensor value … 100 times" (section 4.1).
-const SAMPLES: u32 = 100;
-
-/// Smallest turn that continuous encoders distinguish, rad.
-const EXACT: f64 = 1e-9;
-
 impl WalkerConfig {
     /// Returns how the paper's robot drives and observes in corridors `width` m wide. A sample of a
     /// sweep takes one time step, so the time step sets the speed of a sweep.
@@ -64,17 +56,10 @@ impl WalkerConfig {
             step_us,
             most_wheel_speed,
         } = epuck;
+        let mut pilot = PilotConfig::paper(curve, step_us, width);
+        pilot.most_wheel_speed = most_wheel_speed;
         Self {
-            pilot: PilotConfig {
-                step_us,
-                samples: SAMPLES,
-                sweep_speed: TAU / f64::from(SAMPLES) / (step_us as f64 * 1e-6),
-                most_wheel_speed,
-                turn_tolerance: EXACT,
-                curve,
-                forward: ForwardConfig::for_width(width),
-                keep_off: KeepOff::ours(),
-            },
+            pilot,
             alignment: SensorAlignment::Mounts,
             segments: SegmentConfig::cut(),
             features: SegmentConfig::joined(),

@@ -9,6 +9,7 @@ use crate::places::{OfSites, Site, SiteWay};
 /// Tells a diktiometry of the places of a log. Its actions are the four ways along the building's
 /// axes, counter-clockwise.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct DiktiometryOfSites {
     /// The mapper.
     pub mapper: Config,
@@ -23,13 +24,11 @@ impl DiktiometryOfSites {
     /// matched to those before.
     #[must_use]
     pub fn indoor(corridor_width: f64) -> Self {
-        let mapper = Config {
-            // A robot that comes from another side finds the middle of a place elsewhere.
-            place_radius: 0.15 * corridor_width,
-            // Two places less than a corridor's width apart, along both axes, would be one room.
-            apart: Apart::Side,
-            ..Config::new(Config::compass_actions(), corridor_width)
-        };
+        let mut mapper = Config::new(Config::compass_actions(), corridor_width);
+        // A robot that comes from another side finds the middle of a place elsewhere.
+        mapper.place_radius = 0.15 * corridor_width;
+        // Two places less than a corridor's width apart, along both axes, would be one room.
+        mapper.apart = Apart::Side;
         Self {
             mapper,
             share: 0.005,

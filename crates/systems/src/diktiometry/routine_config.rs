@@ -51,21 +51,6 @@ impl RoutineConfig {
         }
     }
 
-    /// Sets the width of doorways, m; they become places.
-    #[must_use]
-    pub const fn with_doorways(mut self, width: f64) -> Self {
-        self.doorway_width = Some(width);
-        self
-    }
-
-    /// Sets the bounds on odometry, as a share of the distance, and on the compass, rad.
-    #[must_use]
-    pub const fn with_bounds(mut self, odometry_share: f64, compass_bound: f64) -> Self {
-        self.odometry_share = odometry_share;
-        self.compass_bound = compass_bound;
-        self
-    }
-
     /// Checks that every field is within its range.
     ///
     /// # Errors
@@ -108,7 +93,8 @@ mod tests {
 
     #[test]
     fn a_field_out_of_its_range_is_named() {
-        let sound = RoutineConfig::new(1.2, 1.0, 0.5).with_doorways(0.8);
+        let mut sound = RoutineConfig::new(1.2, 1.0, 0.5);
+        sound.doorway_width = Some(0.8);
         assert_eq!(sound.check(), Ok(()));
         let check = |change: fn(&mut RoutineConfig), expect: &str| {
             let mut config = sound;

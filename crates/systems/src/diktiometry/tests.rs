@@ -137,7 +137,9 @@ fn at_the_end(robot: &Scripted) -> Option<Landmark> {
 }
 
 fn system(seed: u64) -> Diktiometer<LaserEye> {
-    let routines = RoutineConfig::new(1.0, TURN, STRIDE).with_bounds(0.03, 0.01);
+    let mut routines = RoutineConfig::new(1.0, TURN, STRIDE);
+    routines.odometry_share = 0.03;
+    routines.compass_bound = 0.01;
     let mut mapper = Config::new(Config::compass_actions(), 2.0);
     mapper.place_radius = 0.05;
     mapper.percepts = aligned_signatures(1, 24);

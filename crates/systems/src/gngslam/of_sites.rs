@@ -9,6 +9,7 @@ use crate::places::{OfSites, Site, SiteStep, SiteWay};
 /// Tells a place graph of the places of a log: what the laser reads at each, and how the robot came
 /// there.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PlaceGraphOfSites {
     /// The map.
     pub map: PlaceGraphConfig,
@@ -18,14 +19,11 @@ impl PlaceGraphOfSites {
     /// Returns the values for offices, and scans matched to those before.
     #[must_use]
     pub const fn indoor() -> Self {
-        Self {
-            map: PlaceGraphConfig {
-                place_distance: 1.5,
-                scale_deviation: 0.005,
-                curvature_deviation: 0.002,
-                ..PlaceGraphConfig::indoors()
-            },
-        }
+        let mut config = PlaceGraphConfig::indoors();
+        config.place_distance = 1.5;
+        config.scale_deviation = 0.005;
+        config.curvature_deviation = 0.002;
+        Self { map: config }
     }
 }
 

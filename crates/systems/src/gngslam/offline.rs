@@ -40,13 +40,6 @@ impl OfflineSlamConfig {
             map: PlaceMapConfig::paper(),
         }
     }
-
-    /// Sets how many records it learns from.
-    #[must_use]
-    pub const fn with_records(mut self, records: usize) -> Self {
-        self.records = records;
-        self
-    }
 }
 
 /// Reason why the records make no map.

@@ -77,7 +77,8 @@ impl OnlineSlamConfig {
     #[must_use]
     pub const fn all_round(radius: f64, translate: f64, turn: f64) -> Self {
         let mut config = Self::pioneer_2dx();
-        config.drive = config.drive.with_rates(translate, turn);
+        config.drive.translate = translate;
+        config.drive.turn = turn;
         config.explore = ExplorationPolicy::ToTheUnknown;
         config.quiet_looks = 20;
         config.lane = 0.6 * radius;

@@ -55,14 +55,6 @@ impl WandererConfig {
             ..Self::paper()
         }
     }
-
-    /// Returns the same configuration for a robot of other rates: fractions of the full speed and
-    /// of the full turn rate, 0 … 1.
-    #[must_use]
-    pub const fn with_rates(mut self, translate: f64, turn: f64) -> Self {
-        self.drive = self.drive.with_rates(translate, turn);
-        self
-    }
 }
 
 /// Reason why a place has no record.

@@ -4,6 +4,7 @@ use super::ROBOT_UNIT;
 
 /// Parameters of MSLST.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct MslstConfig {
     /// Phase I, the error threshold of the equilibrium GNG: squared robot units, above 0. The paper
     /// has 100 for the J maze, 20 and 50 for the Large one.

@@ -28,7 +28,7 @@ impl PlacesConfig {
     #[must_use]
     pub fn indoor() -> Self {
         Self {
-            matching: ScanMatchingConfig::indoor().with_places(),
+            matching: ScanMatchingConfig::places(),
             corridor_width: 2.0,
             lag: 6,
             least_way: 0.5,

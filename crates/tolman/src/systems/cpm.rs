@@ -147,10 +147,8 @@ impl Ground {
             EPUCK => epuck_course_on(setup.world, setup.terrain)?,
             _ => setup.terrain.course(setup.world, &body())?,
         };
-        let walker = WalkerConfig {
-            heading: mode.heading(),
-            ..walker(robot, course.corridor_width)?
-        };
+        let mut walker = walker(robot, course.corridor_width)?;
+        walker.heading = mode.heading();
         let start = setup.start(&course, usual, || course.anywhere(setup.seed))?;
         Ok(Self {
             robot,

@@ -124,12 +124,10 @@ impl SystemEntry for DiktiometryEntry {
             LASER_PIONEER => SurveyorConfig::mslst(),
             _ => SurveyorConfig::paper(),
         };
-        let furniture = OfficeConfig {
-            doorway_share: learning.doorways,
-            colours: learning.colours,
-            seed: setup.seed,
-            ..OfficeConfig::bare()
-        };
+        let mut furniture = OfficeConfig::bare();
+        furniture.doorway_share = learning.doorways;
+        furniture.colours = learning.colours;
+        furniture.seed = setup.seed;
         let maze = setup.terrain.maze(OFFICE)?;
         let office = Office::new(&maze.maze, &furniture)?;
         let office = Arc::new(office.named(setup.world));
@@ -168,9 +166,8 @@ impl SystemEntry for DiktiometryEntry {
         let office = Office::new(&maze.maze, file.office.config())?;
         let office = office.named(setup.world);
         let robot = &config.robot;
-        let routines = robot
-            .routines(office.config().corridor_width)
-            .with_doorways(office.config().doorway_width());
+        let mut routines = robot.routines(office.config().corridor_width);
+        routines.doorway_width = Some(office.config().doorway_width());
         let steps = setup.steps.unwrap_or(100_000);
         // The place where it sensed the goal when it learned.
         let goal = file.goal();

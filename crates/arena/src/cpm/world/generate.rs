@@ -12,6 +12,7 @@ use tolman_robot::Landmark;
 
 /// Parameters of a random world.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MazeConfig {
     /// Number of cells from west to east, at least 2.
     pub columns: u32,
@@ -368,10 +369,9 @@ impl<'a> Looks<'a> {
         let config = self.config;
         let count = libm::round(length * config.observations_per_cell).max(1.0) as usize;
         let symmetrical = uniform(rng) < config.symmetrical;
-        let matching = FragmentMatching::Positions(Similarity {
-            mu: 0.8,
-            ..Similarity::paper()
-        });
+        let mut similarity = Similarity::paper();
+        similarity.mu = 0.8;
+        let matching = FragmentMatching::Positions(similarity);
         for _ in 0..1000 {
             let mut patterns = match config.likeness {
                 Likeness::Distinctive => random_sequence(config, count, rng),

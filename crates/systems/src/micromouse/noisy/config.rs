@@ -5,6 +5,7 @@ use tolman_planners::moves::MoveExplorerConfigError;
 
 /// What a noisy mouse knows of its body and its maze.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct NoisyMouseConfig {
     /// How it estimates its pose.
     pub localization: PoseSource,
@@ -20,6 +21,24 @@ pub struct NoisyMouseConfig {
     pub turn_per_step: f64,
     /// Distance driven in one time step at the full command, m. > 0.
     pub translate_per_step: f64,
+}
+
+impl NoisyMouseConfig {
+    /// Returns the configuration for cells `pitch` m apart between walls without thickness: a
+    /// particle filter that trusts wheels and sensors to a few percent
+    /// ([`PoseFilterConfig::for_pitch`]), moved by the commands.
+    #[must_use]
+    pub const fn new(pitch: f64, turn_per_step: f64, translate_per_step: f64) -> Self {
+        Self {
+            localization: PoseSource::ParticleFilter,
+            motion: MotionSource::Commands,
+            filter: PoseFilterConfig::for_pitch(pitch),
+            pitch,
+            wall_thickness: 0.0,
+            turn_per_step,
+            translate_per_step,
+        }
+    }
 }
 
 /// How a mouse estimates its pose.

@@ -6,6 +6,7 @@ use super::super::MouseError;
 
 /// What a [`MazeMouse`](super::MazeMouse) knows of the maze and of its own drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MazeMouseConfig {
     /// From the middle of a cell to the next, m. > 0.
     pub pitch: f64,
@@ -37,6 +38,17 @@ pub enum MazeMouseError {
 }
 
 impl MazeMouseConfig {
+    /// Returns the configuration for cells `pitch` m apart between walls without thickness.
+    #[must_use]
+    pub const fn new(pitch: f64, turn_per_step: f64, translate_per_step: f64) -> Self {
+        Self {
+            pitch,
+            wall_thickness: 0.0,
+            turn_per_step,
+            translate_per_step,
+        }
+    }
+
     /// Returns the middle of a cell, in the frame of the maze.
     #[must_use]
     pub fn middle(&self, cell: Cell) -> Point {

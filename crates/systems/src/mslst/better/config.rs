@@ -6,6 +6,7 @@ use crate::mslst::ROBOT_UNIT;
 /// Parameters of the better system.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct BetterConfig {
     /// Diameter of the robot, m.
     pub diameter: f64,
@@ -129,6 +130,7 @@ impl BetterConfig {
 /// Errors of motors, as a plan expects them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Motors {
     /// Turn in a time step of the command 1, rad.
     pub turn_per_command: f64,

@@ -155,7 +155,8 @@ impl CertificateFile {
         &self,
         file: &GraphFile,
     ) -> Result<(Audit, AuditConfig), CertificateFileError> {
-        let config = AuditConfig::standard().with_sigma_scale(self.sigma_scale);
+        let mut config = AuditConfig::standard();
+        config.sigma_scale = self.sigma_scale;
         if (self.k - config.bound).abs() > 0.0 {
             let (told, expected) = (self.k, config.bound);
             return Err(CertificateFileError::Bound { told, expected });

@@ -116,7 +116,8 @@ impl Arguments {
             Scale::By(scale) => scale,
             Scale::Auto => estimate.map_or(1.0, |estimate| estimate.scale()),
         };
-        let config = AuditConfig::standard().with_sigma_scale(scale);
+        let mut config = AuditConfig::standard();
+        config.sigma_scale = scale;
         let bar = ProgressBar::new_spinner().with_message("auditing");
         bar.enable_steady_tick(core::time::Duration::from_millis(100));
         let audit = audit(&file.graph, &config).or_bad_input();

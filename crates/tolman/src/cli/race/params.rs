@@ -57,6 +57,7 @@ pub(super) fn template(config: SpeedRunConfig) -> String {
         straight,
         diagonal,
         slalom,
+        ..
     } = config;
     format!(
         "\

@@ -35,13 +35,11 @@ fn main() -> Result<(), Failure> {
 fn ours(inputs: &[Vec<f64>], units: usize, period: u32, lanes: Lanes) -> Result<Outcome, Failure> {
     let narrow = |input: &Vec<f64>| input.iter().map(|value| *value as f32).collect();
     let inputs: Vec<Vec<f32>> = inputs.iter().map(narrow).collect();
-    let config = GngConfig {
-        max_units: units,
-        growth_period: period,
-        // As MDP sums them.
-        error: ErrorKind::Absolute,
-        ..GngConfig::fritzke()
-    };
+    let mut config = GngConfig::fritzke();
+    config.max_units = units;
+    config.growth_period = period;
+    // As MDP sums them.
+    config.error = ErrorKind::Absolute;
     let mut gng = Gng::<f32>::new(inputs[0].len(), config)?;
     gng.set_search(UnitSearch::Automatic, lanes);
     for input in &inputs {
