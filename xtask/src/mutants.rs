@@ -113,7 +113,7 @@ impl Tried {
         eprintln!("{told}");
         ensure!(
             100 * noticed >= LEAST * all,
-            "{told}, under {LEAST} %: add tests, or give the reason in docs/notebook/mutants.md"
+            "{told}, under {LEAST} %: add tests, or give the reason in docs/notebook/hardening.md"
         );
         Ok(())
     }
