@@ -180,29 +180,29 @@ play() {
 
 /// Name, script, the mouse's exit code, a part of what it complains of.
 const BAD_SIMULATORS: [(&str, &str, i32, &str); 17] = [
-    ("goes-away", "exit 0", 1, "went away"),
-    ("crashes", "kill -SEGV $$", 1, "went away"),
-    ("is-silent", "exec sleep 1000", 1, "went away"),
-    ("stops-itself", "kill -STOP $$", 1, "went away"),
-    ("closes-its-output", "exec >&-; sleep 1000", 1, "went away"),
-    ("never-reads", "exec <&-; sleep 1000", 1, "went away"),
+    ("goes-away", "exit 0", 1, WENT_AWAY),
+    ("crashes", "kill -SEGV $$", 1, WENT_AWAY),
+    ("is-silent", "exec sleep 1000", 1, WENT_AWAY),
+    ("stops-itself", "kill -STOP $$", 1, WENT_AWAY),
+    ("closes-its-output", "exec >&-; sleep 1000", 1, WENT_AWAY),
+    ("never-reads", "exec <&-; sleep 1000", 1, WENT_AWAY),
     (
         "answers-ahead-and-goes",
         "printf '8\\n8\\nfalse\\nfalse\\n'",
         1,
-        "went away",
+        WENT_AWAY,
     ),
     (
         "is-killed-at-work",
         "(sleep 0.02; kill -KILL $$) & play false ack ack true",
         1,
-        "went away",
+        WENT_AWAY,
     ),
     (
         "resets-again-and-again",
         "play false ack ack true",
         1,
-        "went away",
+        WENT_AWAY,
     ),
     ("never-ends-a-line", "cat /dev/zero", 2, "a number of cells"),
     ("floods-with-lines", "yes 16", 2, "true or false"),
@@ -224,8 +224,12 @@ const BAD_SIMULATORS: [(&str, &str, i32, &str); 17] = [
     ),
 ];
 
-/// Time after which a simulator is killed whose mouse has not ended by itself.
+/// What a mouse complains of whose simulator was killed, or left by itself.
+const WENT_AWAY: &str = "went away";
+/// Time after which a simulator is killed for whose end its mouse waits.
 const PATIENCE: Duration = Duration::from_millis(300);
+/// Time after which it is killed if its mouse should have ended by itself.
+const LONG_PATIENCE: Duration = Duration::from_secs(20);
 
 /// Starts a mouse with the bad simulator of this number for the `round`-th time.
 fn try_simulator(number: usize, round: usize) {
@@ -248,7 +252,11 @@ fn try_simulator(number: usize, round: usize) {
         .spawn()
         .unwrap();
     let started = Instant::now();
-    while mouse.try_wait().unwrap().is_none() && started.elapsed() < PATIENCE {
+    let patience = match part {
+        WENT_AWAY => PATIENCE,
+        _ => LONG_PATIENCE,
+    };
+    while mouse.try_wait().unwrap().is_none() && started.elapsed() < patience {
         thread::sleep(Duration::from_millis(2));
     }
     // With all that it started: they hold the pipes, too.
