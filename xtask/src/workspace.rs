@@ -107,7 +107,12 @@ pub(crate) fn output(command: &mut Command) -> Result<String> {
 
 /// Returns whether `program` can be started.
 pub(crate) fn installed(program: &str) -> bool {
-    Command::new(program)
+    // Some of cargo's subcommands know what they are called by alone.
+    let mut command = match program.strip_prefix("cargo-") {
+        Some(subcommand) => cargo(subcommand),
+        None => Command::new(program),
+    };
+    command
         .arg("--version")
         .output()
         .is_ok_and(|output| output.status.success())
