@@ -102,7 +102,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
 }
 
 record! {
-    /// A map, or as many guesses as a map is asked for.
+    /// Scores of one map, or of as many random guesses.
     pub(super) struct MapRun {
         /// Mean score over a random fifth of the records (equation 3.2). A record scores 1 if the
         /// nearest node is in its cell; otherwise 0.5 / distance to the cell's middle, in cells. A

@@ -41,9 +41,9 @@ impl CameraPioneerConfig {
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct CameraPioneerDisturbances {
-    /// Of the camera's image, in shares of full light.
+    /// Errors of the camera's image, in shares of full light.
     pub image: Disturbances<ColumnImage>,
-    /// Of the rest.
+    /// Errors of everything else.
     pub pioneer: LaserPioneerDisturbances,
 }
 

@@ -73,11 +73,11 @@ impl EpuckConfig {
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct EpuckDisturbances {
-    /// Of the left wheel's distance over the ground, m; a missing one does not roll.
+    /// Errors of the left wheel's distance over the ground, m. Without it the wheel does not roll.
     pub left_wheel: Disturbances<f64>,
-    /// Of the right wheel's distance over the ground, m; a missing one does not roll.
+    /// Errors of the right wheel's distance over the ground, m. Without it the wheel does not roll.
     pub right_wheel: Disturbances<f64>,
-    /// Of the raw proximity values.
+    /// Errors of the raw proximity values.
     pub proximity: Disturbances<[f64; PROXIMITY_SENSORS]>,
 }
 

@@ -81,17 +81,17 @@ pub struct MotorNoise {
 #[serde(default, deny_unknown_fields)]
 #[non_exhaustive]
 pub struct LaserPioneerFaults {
-    /// Of the turn the motors make, rad; a drop-out makes none.
+    /// Faults of the turn that the motors make, rad. A drop-out makes none.
     pub motor_turn: Vec<Fault>,
-    /// Of the distance the motors make, m; a drop-out makes none.
+    /// Faults of the distance that the motors make, m. A drop-out makes none.
     pub motor_distance: Vec<Fault>,
-    /// Of each range, m.
+    /// Faults of each range, m.
     pub scan: Vec<Fault>,
-    /// Of the compass, rad.
+    /// Faults of the compass, rad.
     pub compass: Vec<Fault>,
-    /// Of the rolled distance, m; a drop-out takes the whole odometry.
+    /// Faults of the distance that the wheels report, m. A drop-out drops the whole odometry.
     pub odometry_distance: Vec<Fault>,
-    /// Of the rolled turn, rad; a drop-out takes the whole odometry.
+    /// Faults of the turn that the wheels report, rad. A drop-out drops the whole odometry.
     pub odometry_turn: Vec<Fault>,
     /// Beams that always say the same, after all faults of the scan.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -114,17 +114,17 @@ pub struct StuckBeam {
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct LaserPioneerDisturbances {
-    /// Of the turn the motors make, rad; no error if missing.
+    /// Errors of the turn that the motors make, rad.
     pub motor_turn: Disturbances<f64>,
-    /// Of the distance the motors make, m; no error if missing.
+    /// Errors of the distance that the motors make, m.
     pub motor_distance: Disturbances<f64>,
-    /// Of the scan, m.
+    /// Errors of the scan's ranges, m.
     pub scan: Disturbances<Scan>,
-    /// Of the compass, rad.
+    /// Errors of the compass, rad.
     pub compass: Disturbances<Heading>,
-    /// Of the rolled distance, m; a missing one takes the whole odometry.
+    /// Errors of the distance that the wheels report, m. Without it the whole odometry is missing.
     pub odometry_distance: Disturbances<f64>,
-    /// Of the rolled turn, rad; a missing one takes the whole odometry.
+    /// Errors of the turn that the wheels report, rad. Without it the whole odometry is missing.
     pub odometry_turn: Disturbances<f64>,
 }
 
