@@ -1,7 +1,9 @@
 //! Λ1, Λ2 and the geometry of ports they stand for.
 
 use proptest::prelude::*;
-use tolman_maps::cpm::Turn;
+use tolman_maps::cpm::{
+    CpMapper, CpMapperConfig, Dictionary, MapUpdate, Sighting, Traversal, Turn,
+};
 
 fn junction_and_ports() -> impl Strategy<Value = (u32, u32, u32, u32)> {
     (1_u32..12).prop_flat_map(|degree| (Just(degree), 0..degree, 0..degree, 0..degree))
@@ -46,4 +48,25 @@ fn turns_are_counted_from_the_port_of_entry() {
     assert!(Turn::between(4, 0, 4).is_err());
     // No overflow at any degree.
     assert_eq!(Turn(u32::MAX - 1).then(Turn(2), u32::MAX), Ok(Turn(1)));
+}
+
+#[test]
+fn a_place_that_is_not_what_the_map_says_is_counted_as_a_contradiction() {
+    let mut dictionary = Dictionary::new(1);
+    let wall = dictionary.learn(&[1.0], &[1.0], 0.1).unwrap();
+    let door = dictionary.learn(&[0.0], &[0.0], 0.1).unwrap();
+    let mut mapper = CpMapper::new(CpMapperConfig::online(), Sighting::plain(1)).unwrap();
+    let mut walk = |patterns: [_; 3], ports| {
+        let walk = Traversal {
+            patterns: patterns.to_vec(),
+            motion: None,
+            sighting: Sighting::plain(ports),
+            bearings: None,
+        };
+        let update = mapper.arrive(Turn::BACK, &walk, &dictionary).unwrap();
+        (update, mapper.contradictions())
+    };
+    assert_eq!(walk([wall, wall, door], 1), (MapUpdate::New, 0));
+    // It set off at a dead end.
+    assert_eq!(walk([door, wall, wall], 3), (MapUpdate::Contradiction, 1));
 }
