@@ -179,3 +179,25 @@ fn what_is_no_scan_is_refused_and_changes_nothing() {
     }
     assert!((mapper.trajectory()[3].position.x - 1.5).abs() < 1e-9);
 }
+
+#[test]
+fn doubt_of_a_pose_grows_with_the_way_since_the_last_closure() {
+    let world = room();
+    let mut mapper = ScanMatching::new(ScanMatchingConfig::places());
+    assert_eq!(mapper.doubt(0).to_bits(), 0.0_f64.to_bits());
+    let ahead = pose(0.5, 0.0, 0.0);
+    let mut at = pose(1.0, 1.0, 0.0);
+    mapper.observe(&step(&world, Pose::IDENTITY, at)).unwrap();
+    for _ in 0..8 {
+        at = at.compose(ahead);
+        mapper.observe(&step(&world, ahead, at)).unwrap();
+    }
+    let doubts: Vec<f64> = (0..mapper.keyframes().len())
+        .map(|keyframe| mapper.doubt(keyframe))
+        .collect();
+    assert!(doubts.len() > 3, "{doubts:?}");
+    assert!(
+        doubts.is_sorted() && doubts[0] < doubts[doubts.len() - 1],
+        "{doubts:?}"
+    );
+}

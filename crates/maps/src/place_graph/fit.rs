@@ -388,6 +388,31 @@ mod tests {
         }
     }
 
+    #[test]
+    fn what_was_seen_and_what_was_heard_are_not_alike() {
+        let painted = |colour| {
+            let mut outline = room();
+            for point in &mut outline.points {
+                point.colour = colour;
+            }
+            let mut known = Surfaces::default();
+            known.add(0, Pose::IDENTITY, &outline);
+            let point = outline.points[0];
+            (known, point)
+        };
+        let kinds = [None, Some([0.5, 0.3]), Some([0.1, 0.9])];
+        for (one, of_surface) in kinds.iter().enumerate() {
+            for (other, of_point) in kinds.iter().enumerate() {
+                let (known, _) = painted(*of_surface);
+                let (_, point) = painted(*of_point);
+                let surface = known.all().next().unwrap();
+                let alike = is_alike(surface, &point, Some(surface.normal()));
+                assert_eq!(alike, one == other, "{of_surface:?} {of_point:?}");
+                assert!(!is_alike(surface, &point, Some(-surface.normal())));
+            }
+        }
+    }
+
     proptest! {
         #[test]
         fn no_surface_is_missed_that_lies_between_two_bounds(low in -3.0..3.0, width in 0.0..2.0, x in -0.3..0.3, turn in -3.0..3.0) {
