@@ -4,8 +4,11 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::geom::{Heading, Point, Pose};
-use tolman_maps::place_graph::{PlaceGraph, PlaceGraphConfig, PlaceGraphError, SeenThere};
-use tolman_robot::{Mapper, Odometry, Snapshot, Sounding};
+use tolman_maps::place_graph::{
+    Outline, PlaceGraph, PlaceGraphConfig, PlaceGraphError, SeenThere, foot_line,
+};
+use tolman_robot::pioneer_2dx::CAMERA;
+use tolman_robot::{Mapper, Odometry, Picture, Snapshot, Sounding};
 use tolman_sim::{WallSegment, World};
 
 fn room() -> World {
@@ -275,4 +278,49 @@ fn a_file_that_holds_no_map_is_refused() {
         999.into(),
         "names a pose that does not exist",
     );
+}
+
+#[test]
+fn a_sonar_faces_what_both_neighbours_hear_farther_off() {
+    let sonar = |(number, range): (u32, f64)| Sounding {
+        mount: Pose::new(
+            Point::origin(),
+            Heading::from_degrees(30.0 * f64::from(number)),
+        ),
+        half_width: 0.2,
+        max_range: 5.0,
+        range,
+    };
+    let snapshot = Snapshot {
+        soundings: [(0, 1.0), (1, 1.5), (2, 2.0)].map(sonar).to_vec(),
+        picture: None,
+    };
+    let faced = Outline::of(&snapshot).faced;
+    assert_eq!(faced.len(), 1, "{faced:?}");
+    assert!((faced[0].position - Point::new(1.0, 0.0)).norm() < 1e-12);
+}
+
+#[test]
+fn what_stands_on_the_floor_is_where_its_foot_is() {
+    let (width, height, foot) = (40, 30, 22);
+    let pixel = |row: u32| if row < foot { [200, 20, 20] } else { [100; 3] };
+    let picture = Picture {
+        width,
+        height,
+        camera: CAMERA,
+        pixels: (0..width * height)
+            .map(|index| pixel(index / width))
+            .collect(),
+    };
+    let points = foot_line(&picture);
+    assert_eq!(points.len(), 40);
+    let down = (f64::from(foot) - 15.0) / 15.0 * (0.5 * CAMERA.field_down).tan();
+    for point in points {
+        assert!(
+            (point.position.x - CAMERA.height / down).abs() < 1e-9,
+            "{point:?}"
+        );
+        let [red, _] = point.colour.unwrap();
+        assert!((red - 200.0 / 240.0).abs() < 1e-9, "{point:?}");
+    }
 }
