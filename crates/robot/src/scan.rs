@@ -101,6 +101,29 @@ impl Scan {
         }
     }
 
+    /// Returns the range of the beam nearest to a bearing, rad counter-clockwise from ahead, or of
+    /// the `beside`-th beam counter-clockwise from it, m. The ring counts as full; `None` if it has
+    /// no beams. O(1).
+    ///
+    /// ```
+    /// use tolman_robot::{Ring, Scan};
+    ///
+    /// let mut scan = Scan::clear(Ring::full(4, 5.0));
+    /// scan.ranges[3] = 1.0;
+    /// // A right angle to the right, and the beam before the one ahead.
+    /// assert_eq!(scan.range_towards(-1.5, 0), Some(1.0));
+    /// assert_eq!(scan.range_towards(0.1, -1), Some(1.0));
+    /// assert_eq!(scan.range_towards(0.1, 0), Some(5.0));
+    /// ```
+    #[must_use]
+    pub fn range_towards(&self, bearing: f64, beside: i32) -> Option<f64> {
+        let ahead = bearing - self.ring.first_bearing;
+        let beam = libm::round(ahead / self.ring.spacing) as i64;
+        let index = beam.saturating_add(beside.into());
+        let index = index.checked_rem_euclid(self.ranges.len() as i64)?;
+        self.ranges.get(index as usize).copied()
+    }
+
     /// Returns the ranges of a full ring as from a robot that faces north: turned by the compass,
     /// to the nearest beam. Beam 0 looks north, the others follow counter-clockwise. O(beams).
     #[must_use]

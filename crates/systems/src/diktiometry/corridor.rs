@@ -86,12 +86,9 @@ impl<'a> Around<'a> {
 
     /// Returns the range of the beam nearest to `direction`, m.
     fn range(self, direction: Heading) -> f64 {
-        let ring = &self.scan.ring;
-        let bearing = self.heading.turn_to(direction) - ring.first_bearing;
-        let beam = libm::round(bearing / ring.spacing);
-        let beam = beam.rem_euclid(self.scan.ranges.len() as f64) as usize;
-        let range = self.scan.ranges.get(beam);
-        range.copied().unwrap_or(ring.max_range)
+        let bearing = self.heading.turn_to(direction);
+        let range = self.scan.range_towards(bearing, 0);
+        range.unwrap_or(self.scan.ring.max_range)
     }
 
     /// Returns the shortest range within `spread`, rad, of `heading`, m.

@@ -48,8 +48,8 @@ enum Plan {
 /// of the arena.
 const DOUBTFUL: f64 = 0.01;
 const SURE: f64 = 0.98;
-/// Maximum number of maps that it drops because their walls contradict one another. Rooms may look
-/// so without a lift.
+/// Number of dropped maps from which on walls that contradict one another are no sign of a lift:
+/// those of rooms may do so without one.
 const MOST_DROPPED: u32 = 3;
 /// Cost of a quarter turn, in metres of way.
 const TURN: f64 = 0.35;
@@ -190,14 +190,10 @@ impl BetterExplorer {
 
     /// Returns whether the layers will refuse.
     fn is_blocked(&self, action: Direction, scan: &Scan, heading: f64) -> bool {
-        let ahead = heading_of(action).radians() - heading - scan.ring.first_bearing;
-        let beams = scan.ranges.len() as f64;
-        let beam = libm::round(ahead / scan.ring.spacing);
-        [-1.0, 0.0, 1.0].into_iter().any(|offset| {
-            let index = (beam + offset).rem_euclid(beams) as usize;
-            scan.ranges
-                .get(index)
-                .is_some_and(|range| *range < self.config.buffer)
+        let bearing = heading_of(action).radians() - heading;
+        [-1, 0, 1].into_iter().any(|beside| {
+            let range = scan.range_towards(bearing, beside);
+            range.is_some_and(|range| range < self.config.buffer)
         })
     }
 }

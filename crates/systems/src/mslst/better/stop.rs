@@ -70,13 +70,10 @@ fn contradicting(one: (&Scan, Heading), other: (&Scan, Heading), offset: Vector)
 /// Returns whether the beams about the direction of a point, relative to where the scan was taken,
 /// all reach beyond it.
 fn sees_through((scan, heading): (&Scan, Heading), at: Vector) -> bool {
-    let ahead = heading.turn_to(Heading::of(at)) - scan.ring.first_bearing;
-    let beams = scan.ranges.len() as f64;
-    let beam = libm::round(ahead / scan.ring.spacing);
-    [-1.0, 0.0, 1.0].into_iter().all(|beside| {
-        let index = (beam + beside).rem_euclid(beams) as usize;
-        let range = scan.ranges.get(index);
-        range.is_some_and(|range| *range > at.norm() + NEARER)
+    let bearing = heading.turn_to(Heading::of(at));
+    [-1, 0, 1].into_iter().all(|beside| {
+        let range = scan.range_towards(bearing, beside);
+        range.is_some_and(|range| range > at.norm() + NEARER)
     })
 }
 
@@ -90,6 +87,10 @@ mod tests {
     /// Distances of the walls around the robot, to the east, north, west and south, m.
     type Walls = [f64; 4];
 
+    const STILL: Odometry = Odometry {
+        distance: 0.0,
+        turn: 0.0,
+    };
     const DEAD_END: Walls = [0.5, 0.5, 4.0, 0.5];
 
     fn scan([east, north, west, south]: Walls, heading: Heading) -> Scan {
@@ -104,8 +105,8 @@ mod tests {
         Scan { ring, ranges }
     }
 
-    /// Returns whether a robot that stopped amid `before`, looking east, thinks that it was lifted,
-    /// if it then senses `now`, looking `heading`, and its wheels say that it turned and drove.
+    /// Returns whether a robot thinks that it was lifted. It stopped between the walls `before`,
+    /// looking east. Now it senses `now`, looking `heading`, and its wheels say how it moved.
     fn was_lifted(before: Walls, now: Walls, heading: Heading, wheels: Odometry) -> bool {
         let stop = Stop::of(Some(Heading::EAST), Some(&scan(before, Heading::EAST))).unwrap();
         let now = scan(now, heading);
@@ -127,38 +128,23 @@ mod tests {
     fn what_the_wheels_explain_is_no_lift() {
         let back = Odometry {
             distance: -0.25,
-            turn: 0.0,
+            ..STILL
         };
-        assert!(!was_lifted(
-            DEAD_END,
-            [0.75, 0.5, 3.75, 0.5],
-            Heading::EAST,
-            back
-        ));
-        let round = Odometry {
-            distance: 0.0,
-            turn: 1.6,
-        };
+        let farther = [0.75, 0.5, 3.75, 0.5];
+        assert!(!was_lifted(DEAD_END, farther, Heading::EAST, back));
+        let round = Odometry { turn: 1.6, ..STILL };
         assert!(!was_lifted(DEAD_END, DEAD_END, Heading::NORTH, round));
     }
 
     #[test]
     fn a_turn_that_the_wheels_do_not_know_of_is_a_lift() {
-        let still = Odometry {
-            distance: 0.0,
-            turn: 0.0,
-        };
-        assert!(was_lifted(DEAD_END, DEAD_END, Heading::NORTH, still));
+        assert!(was_lifted(DEAD_END, DEAD_END, Heading::NORTH, STILL));
     }
 
     #[test]
     fn walls_where_none_were_are_a_lift() {
-        let still = Odometry {
-            distance: 0.0,
-            turn: 0.0,
-        };
         let elsewhere = [0.5, 4.0, 0.5, 4.0];
-        assert!(was_lifted(DEAD_END, elsewhere, Heading::EAST, still));
-        assert!(was_lifted(elsewhere, DEAD_END, Heading::EAST, still));
+        assert!(was_lifted(DEAD_END, elsewhere, Heading::EAST, STILL));
+        assert!(was_lifted(elsewhere, DEAD_END, Heading::EAST, STILL));
     }
 }
