@@ -7,6 +7,7 @@ use tolman_sim::robots::{
 use tolman_systems::stream;
 
 use crate::diktiometry::SurveyorConfig;
+use crate::pioneer::without_noise;
 
 /// How robot and world differ from how they are made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -122,14 +123,8 @@ impl Condition {
                 faults.odometry_distance.push(MISSES);
             }
             Self::Flawless => {
-                let mut config = LaserPioneerConfig::noiseless();
-                config.radius = robot.radius;
-                config.ring = robot.ring;
-                config.turn_per_step = robot.turn_per_step;
-                config.translate_per_step = robot.translate_per_step;
-                config.contact = robot.contact;
-                config.step_us = robot.step_us;
-                return config;
+                robot = without_noise(&robot);
+                robot.wheel_scale = WheelScale::EXACT;
             }
             Self::AsMade | Self::Doors | Self::Kidnapping => {}
         }
