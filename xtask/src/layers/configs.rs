@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Result;
 
-use crate::workspace::{entries, read};
+use crate::workspace::{entries, read, rust_files};
 
 /// Returns a line for each configuration whose users a new field would break.
 ///
@@ -14,18 +14,12 @@ pub(super) fn faults(crates: &Path) -> Result<Vec<String>> {
     let mut faults = Vec::new();
     for entry in entries(crates)? {
         let source = entry.join("src");
-        if source.is_dir() {
-            collect(&source, &mut faults)?;
-        }
-    }
-    Ok(faults)
-}
-
-fn collect(folder: &Path, faults: &mut Vec<String>) -> Result<()> {
-    for path in entries(folder)? {
-        if path.is_dir() {
-            collect(&path, faults)?;
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
+        let files = if source.is_dir() {
+            rust_files(&source)?
+        } else {
+            Vec::new()
+        };
+        for path in files {
             let text = read(&path)?;
             faults.extend(fixed(&text).into_iter().map(|name| {
                 let path = path.display();
@@ -33,7 +27,7 @@ fn collect(folder: &Path, faults: &mut Vec<String>) -> Result<()> {
             }));
         }
     }
-    Ok(())
+    Ok(faults)
 }
 
 /// Returns the names of the configurations of a text that cannot grow.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Result;
 
-use crate::workspace::{entries, read};
+use crate::workspace::{entries, read, rust_files};
 
 /// Maximum share of all lines of `src` that one crate may have.
 const LARGEST_SHARE: f64 = 0.25;
@@ -37,12 +37,8 @@ pub(super) fn faults(crates: &Path) -> Result<Vec<String>> {
 /// Returns the number of lines of all Rust files in a folder and below.
 fn lines_below(folder: &Path) -> Result<usize> {
     let mut lines = 0;
-    for path in entries(folder)? {
-        if path.is_dir() {
-            lines += lines_below(&path)?;
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            lines += read(&path)?.lines().count();
-        }
+    for path in rust_files(folder)? {
+        lines += read(&path)?.lines().count();
     }
     Ok(lines)
 }
