@@ -395,16 +395,14 @@ mod tests {
             for point in &mut outline.points {
                 point.colour = colour;
             }
-            let mut known = Surfaces::default();
-            known.add(0, Pose::IDENTITY, &outline);
-            let point = outline.points[0];
-            (known, point)
+            outline
         };
         let kinds = [None, Some([0.5, 0.3]), Some([0.1, 0.9])];
         for (one, of_surface) in kinds.iter().enumerate() {
             for (other, of_point) in kinds.iter().enumerate() {
-                let (known, _) = painted(*of_surface);
-                let (_, point) = painted(*of_point);
+                let mut known = Surfaces::default();
+                known.add(0, Pose::IDENTITY, &painted(*of_surface));
+                let point = painted(*of_point).points[0];
                 let surface = known.all().next().unwrap();
                 let alike = is_alike(surface, &point, Some(surface.normal()));
                 assert_eq!(alike, one == other, "{of_surface:?} {of_point:?}");

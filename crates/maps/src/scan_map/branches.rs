@@ -173,9 +173,9 @@ impl Branches {
         }
     }
 
-    /// Returns the knot nearest to a cell within `reach` cells among those that `fits`, of their
-    /// numbers and cells. If there is none, makes one on the nearest branch, or takes any if there
-    /// are no branches. `None` if the graph has no knots.
+    /// Returns the knot nearest to `at`, of those within `reach` cells that `fits` by number and
+    /// cell. If there is none, makes one on the nearest branch; without branches, takes the nearest
+    /// knot. `None` if the graph has no knots.
     pub(super) fn knot_at(
         &mut self,
         at: GridIndex,
@@ -185,7 +185,7 @@ impl Branches {
         let far =
             |cell: GridIndex| libm::hypot(f64::from(cell[0] - at[0]), f64::from(cell[1] - at[1]));
         let within =
-            |(number, knot): &(&usize, &Knot)| fits(**number, knot.at) && far(knot.at) <= reach;
+            |(number, knot): &(&usize, &Knot)| far(knot.at) <= reach && fits(**number, knot.at);
         let nearer = |a: &(&usize, &Knot), b: &(&usize, &Knot)| far(a.1.at).total_cmp(&far(b.1.at));
         let fitting = self.knots.iter().filter(within).min_by(nearer);
         if let Some((number, _)) = fitting {
