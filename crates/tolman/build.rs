@@ -5,7 +5,7 @@ use std::process::Command;
 
 /// The history of the project's own repository, from here.
 const REPOSITORY: &str = "../../.git";
-/// What lies beside this crate in that repository alone.
+/// File that lies beside this crate in that repository alone.
 const NEIGHBOUR: &str = "../geom/Cargo.toml";
 
 fn main() {
@@ -35,8 +35,8 @@ fn main() {
     );
 }
 
-/// Whether this crate lies in the project's repository. In a package or in the sources of another
-/// project, the commit would say nothing of it.
+/// Returns whether this crate lies in the project's repository. In a package or in another
+/// project's sources, the commit would be that of other code.
 fn is_checkout() -> bool {
     Path::new(REPOSITORY).exists() && Path::new(NEIGHBOUR).exists()
 }

@@ -13,12 +13,12 @@ use tolman_arena::pioneer::{body, calibrated};
 use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneerConfig;
 
-/// The workspace's folder.
+/// Returns the workspace's folder.
 pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
 }
 
-/// The mazes and logs of others, if they are here; if not, says so.
+/// Returns the folder with the mazes and logs of others. If it is not here, says so.
 pub(crate) fn data_of_others() -> Option<PathBuf> {
     let folder =
         env::var_os("TOLMAN_DATA").map_or_else(|| root().join("../shared/data"), PathBuf::from);
@@ -34,7 +34,7 @@ pub(crate) fn data_of_others() -> Option<PathBuf> {
     None
 }
 
-/// The files in a folder, in alphabetical order.
+/// Returns the files in a folder, in alphabetical order.
 pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
     let mut files: Vec<PathBuf> = fs::read_dir(folder)
         .unwrap()
@@ -45,29 +45,29 @@ pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The course of a maze file for the calibrated robot.
+/// Returns the course of a maze file for the calibrated robot.
 pub(crate) fn course(path: &Path) -> Course {
     course_for(path, &body())
 }
 
-/// The course of a maze file for a robot of this body.
+/// Returns the course of a maze file for a robot of this body.
 pub(crate) fn course_for(path: &Path, body: &Body) -> Course {
     let text = fs::read_to_string(path).unwrap();
     let file = tolman_maze::read(&text).unwrap_or_else(|error| panic!("{path:?}: {error}"));
     Course::for_body(&path.to_string_lossy(), &file, body).unwrap()
 }
 
-/// One of the project's own mazes.
+/// Returns the course of one of the project's own mazes.
 pub(crate) fn own_course(name: &str) -> Course {
     course(&root().join("mazes").join(name))
 }
 
-/// A run of the calibrated robot from the random start of this seed.
+/// Returns a run of the calibrated robot from the random start of this seed.
 pub(crate) fn trial(course: &Course, seed: u64) -> Trial<'_> {
     trial_of(course, calibrated(), seed)
 }
 
-/// A run of `robot` from the random start of this seed.
+/// Returns a run of `robot` from the random start of this seed.
 pub(crate) fn trial_of(course: &Course, robot: LaserPioneerConfig, seed: u64) -> Trial<'_> {
     let start = random_start(course, &body(), seed);
     Trial {
@@ -79,7 +79,7 @@ pub(crate) fn trial_of(course: &Course, robot: LaserPioneerConfig, seed: u64) ->
     }
 }
 
-/// A fresh mind of an agent for the calibrated robot.
+/// Returns a fresh mind of an agent for the calibrated robot.
 pub(crate) fn mind(cast: &Cast, agent: Agent, course: &Course) -> Mind {
     cast.mind(agent, course, &calibrated()).unwrap()
 }

@@ -198,7 +198,7 @@ fn if_installed(program: &str, step: fn() -> Result<Outcome>) -> Result<Outcome>
     }
 }
 
-/// A step that is one cargo command.
+/// Runs a step that is one cargo command.
 fn passes(arguments: &str) -> Result<Outcome> {
     passed(succeed(&mut cargo(arguments)))
 }

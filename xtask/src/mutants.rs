@@ -21,7 +21,7 @@ const LEAST: u64 = 92;
 /// Time that the tests of one change are given, seconds. One that never ends is noticed, too.
 const TIME: &str = "300";
 
-/// Which changes are tried: of all, every `of`-th one from the `first` on.
+/// Choice of the changes that are tried: of all, every `of`-th one from the `first` on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shard {
     pub(crate) first: u32,
@@ -83,7 +83,7 @@ pub(crate) fn check(shard: Shard, packages: &[String]) -> Result<Outcome> {
     Ok(Outcome::Passed)
 }
 
-/// What came of the changes that compile.
+/// Result of the changes that compile.
 #[derive(Debug, PartialEq)]
 struct Tried {
     noticed: u64,

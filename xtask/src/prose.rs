@@ -97,7 +97,7 @@ impl Kind {
 struct Fault {
     /// Line number, counted from 1.
     line: usize,
-    /// What is wrong and what to write.
+    /// Fault and what to write instead.
     what: String,
 }
 

@@ -52,9 +52,11 @@ impl Agent {
     #[must_use]
     pub const fn description(self) -> &'static str {
         match self {
-            Self::Avoid => "MSLST's random wanderer that does not turn back before a dead end",
-            Self::WallFollow => "MSLST's follower of the wall on its right",
-            Self::Random => "Any direction, each time again: the floor",
+            Self::Avoid => {
+                "Wanders at random and turns back only in dead ends, as in the MSLST paper"
+            }
+            Self::WallFollow => "Follows the wall on its right, as in the MSLST paper",
+            Self::Random => "Chooses a random direction for each action: the floor",
             Self::Oracle => "Knows the maze and where it is: the ceiling",
             Self::UnlocalizedOracle => {
                 "Knows the maze but not where it starts: the ceiling of localizing"

@@ -55,9 +55,9 @@ pub enum CourseError {
         "a world of {width} × {height} m is too large for a robot {diameter} m across: cut a part out of it"
     )]
     TooVast {
-        /// From west to east, m.
+        /// Extent from west to east, m.
         width: f64,
-        /// From south to north, m.
+        /// Extent from south to north, m.
         height: f64,
         /// The robot's diameter, m.
         diameter: f64,
@@ -67,7 +67,7 @@ pub enum CourseError {
         "{what} needs a maze of cells, and this is a world whose walls stand anywhere: give a maze, with --maze"
     )]
     NoMaze {
-        /// What needs a maze.
+        /// Name of the thing that needs a maze.
         what: &'static str,
     },
     /// The corridors are too narrow for the robot.
@@ -86,7 +86,7 @@ pub enum CourseError {
          corridor_width to 0.25, or leave it out"
     )]
     Unseen {
-        /// From wall to wall, m.
+        /// Width from wall to wall, m.
         width: f64,
         /// Minimum width, m.
         least: f64,
@@ -117,11 +117,11 @@ pub struct Course {
     pub maze: Maze,
     /// Its walls and zones.
     pub world: Arc<World>,
-    /// From wall to wall, m.
+    /// Width of the corridors from wall to wall, m.
     pub corridor_width: f64,
-    /// By cell index: the number of cells to the destination; `None` where no way leads there.
+    /// Number of cells to the destination, by cell index; `None` where no way leads there.
     steps_to_goal: Vec<Option<u32>>,
-    /// `None` of a maze.
+    /// `None` for a maze.
     free: Option<FreeFloor>,
 }
 
@@ -288,7 +288,7 @@ impl Course {
         cell.is_some_and(|cell| self.steps_from(cell).is_some())
     }
 
-    /// Returns where the robot is to go; `None` if the maze does not say.
+    /// Returns the zone to which the robot has to go; `None` if the maze does not say.
     #[must_use]
     pub fn destination(&self) -> Option<&Zone> {
         self.world.zone("destination")

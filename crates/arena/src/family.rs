@@ -32,7 +32,7 @@ pub type Draw = fn((u16, u16), &mut ChaCha8Rng) -> Result<Maze, BoxError>;
 /// Size of a family's world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FamilySize {
-    /// For a first look.
+    /// A few cells, for a first look.
     Small,
     /// The size of the papers' mazes.
     Middle,

@@ -20,13 +20,13 @@ use crate::{BoxError, Simulated};
 
 /// A system that was sent out with its robot on a course, both of any kind.
 pub trait Outing: InRun {
-    /// Returns where it is.
+    /// Returns the course that the robot is on.
     fn course(&self) -> &Course;
 
     /// Returns the facts of its robot.
     fn robot(&self) -> RobotFacts;
 
-    /// Returns where the robot truly was after every time step.
+    /// Returns the true pose of the robot after every time step.
     fn path(&self) -> &[Pose];
 
     /// Returns the time steps in which the robot touched something.
@@ -35,7 +35,7 @@ pub trait Outing: InRun {
     /// Returns the landmark that the robot senses.
     fn landmark(&self) -> Option<Landmark>;
 
-    /// Returns what its laser sees; `None` of a robot without one.
+    /// Returns the latest scan; `None` for a robot without a laser.
     fn scan(&self) -> Option<&Scan>;
 
     /// Limits the robot to this many further time steps.
@@ -53,25 +53,25 @@ pub trait Outing: InRun {
     /// Returns the map of the system.
     fn map(&self) -> MapView;
 
-    /// Returns where the system believes to be.
+    /// Returns the positions at which the system believes to be.
     fn belief(&self) -> Vec<Guess>;
 
     /// Returns the places that the system came to, in order, as it understands them now; empty if
     /// its places keep their names.
     fn visits(&self) -> Vec<Option<u32>>;
 
-    /// Returns how many places the system came to: as many as [`visits`](Self::visits) names.
+    /// Returns the number of places the system came to: as many as [`visits`](Self::visits) names.
     fn visit_count(&self) -> usize {
         self.visits().len()
     }
 
-    /// Returns how likely the system takes its map to be right, 0 … 1; `None` if it does not weigh
-    /// that.
+    /// Returns the probability by the system that its map is right, 0 … 1; `None` if it does not
+    /// weigh that.
     fn certainty(&self) -> Option<f64> {
         None
     }
 
-    /// Returns how many bytes the map of the system takes; `None` if it does not say.
+    /// Returns the size of the system's map, bytes; `None` if it is unknown.
     fn map_bytes(&self) -> Option<usize> {
         None
     }
@@ -120,12 +120,11 @@ pub trait Outing: InRun {
         Err(format!("its door {name} cannot be opened or shut").into())
     }
 
-    /// Returns where the places of the map truly lie, as far as that is known, for pictures.
+    /// Returns the true positions of the map's places, as far as they are known, for pictures.
     /// O(map).
     fn sites(&self) -> BTreeMap<u32, Point>;
 
-    /// Returns which of several maps that it was given it takes for that of the maze, counted from
-    /// 0.
+    /// Returns the number of the map that the system chose from those it was given, counted from 0.
     fn chosen(&self) -> usize {
         0
     }
@@ -173,7 +172,7 @@ impl RobotFacts {
     }
 }
 
-/// How a place of a map was made.
+/// Origin of a place of a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Founding {
     /// True position of the robot, m.
@@ -333,7 +332,7 @@ impl<R: Robot, S> Sent<R, S> {
         Self { count, ..self }
     }
 
-    /// Keeps the map as `keep` writes it, which is called with how each place was made, by id.
+    /// Keeps the map as `keep` writes it. `keep` gets the origin of each place, by id.
     #[must_use]
     pub fn keeping(
         self,

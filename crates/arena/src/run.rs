@@ -46,7 +46,7 @@ impl<R: Robot> Limited<R> {
         }
     }
 
-    /// Limits it to `steps` further time steps.
+    /// Limits the robot to `steps` further time steps.
     pub const fn allow(&mut self, steps: u32) {
         self.step_limit = self.steps.saturating_add(steps);
     }
@@ -131,7 +131,7 @@ impl<R: Robot> InRun for Limited<R> {
     }
 }
 
-/// How a run ended.
+/// End of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ended {
     /// Result of the task.

@@ -13,7 +13,7 @@ use crate::BoxError;
 pub struct Simulated<M: Model> {
     solo: Solo<M>,
     seed: u64,
-    /// With the zones where its centre has to lie.
+    /// Landmarks, with the zones where the robot's centre has to lie.
     landmarks: Vec<(Landmark, Zone)>,
     path: Vec<Pose>,
     commands: Vec<M::Command>,
@@ -53,7 +53,7 @@ impl<M: Model> Simulated<M> {
         self.solo.model()
     }
 
-    /// Returns where it was after every step.
+    /// Returns the true pose after every step.
     #[must_use]
     pub fn path(&self) -> &[Pose] {
         &self.path
@@ -72,7 +72,7 @@ impl<M: Model> Simulated<M> {
         &self.bumped
     }
 
-    /// Lifts it and sets it down elsewhere.
+    /// Lifts the robot and sets it down at `pose`.
     ///
     /// # Errors
     /// If it cannot stand there.

@@ -1,5 +1,5 @@
-//! The better MSLST's map of the Large maze: its memory, how it comes back from its file, and what
-//! happens in a robot or a world other than the learned one.
+//! The better MSLST's map of the Large maze: its memory, and how it comes back from its file. Also
+//! what happens in a robot or a world other than the learned one.
 #![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 extern crate alloc;

@@ -18,8 +18,8 @@ fn data(pitch: &Pitch) -> DataSet {
     gather(pitch, pitch.robot(4, 0.0).unwrap(), 4, RECORDS).unwrap()
 }
 
-/// Returns the score of a map, and how much farther north, in cells, it has the records that look
-/// at the windows than those that look away.
+/// Returns the score of a map, and a distance in cells. The distance says how much farther north
+/// the map has the records that look at the windows than those that look away.
 fn learned(data: &DataSet, pitch: &Pitch) -> (PlaceScore, f64) {
     let records = data.records.iter().map(|record| record.record.clone());
     let records: Vec<PlaceRecord> = records.collect();

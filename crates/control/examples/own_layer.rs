@@ -11,7 +11,7 @@ use tolman_robot::{Ring, Scan};
 
 #[derive(Debug)]
 struct Caution {
-    /// What is nearer than this is near, m.
+    /// Distance below which a thing is near, m.
     near: f64,
 }
 

@@ -7,7 +7,7 @@ use crate::{Layer, Outcome, Proposal, Situation};
 /// - **Turn**: adds 0.04 for each beam between the robot's heading and the corridor's axis.
 /// - **Contradiction**: the paper lets the action fail when that turn "contradicts the rotation
 ///   Move requested". Here that has two cases. The two have opposite signs. Or the robot is aligned
-///   to the nearest beam, and Move asks for more than an eighth of a circle, which in a corridor
+///   to the nearest beam, and Move asks for more than an eighth of a circle. In a corridor, that
 ///   leads to the wall. So a robot told to go across the corridor fails in its first step wherever
 ///   it looks. The step that fails carries out Orient's own turn.
 /// - **Stuck**: where the walls are noticeably nearer than the corridor is wide, the robot stands

@@ -100,9 +100,9 @@ impl Stack {
         }
     }
 
-    /// Returns what to do in this time step, and whether the action ends with it. A view that
-    /// cannot be [read](CorridorDetector::reads), such as a scan of another ring or a compass that
-    /// says NaN, fails the action with the robot at rest. O(beams).
+    /// Returns the command for this time step, and the outcome of the action if it ends with it. If
+    /// the view cannot be [read](CorridorDetector::reads), the action fails with the robot at rest.
+    /// Such views are a scan of another ring or a compass that reads NaN. O(beams).
     pub fn correct(&mut self, view: View<'_>, rng: &mut dyn Rng) -> Proposal {
         if !self.detector.reads(view) {
             return Proposal {

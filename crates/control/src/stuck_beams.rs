@@ -24,7 +24,7 @@ use tolman_robot::Scan;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StuckBeams {
-    /// By beam.
+    /// State of each beam.
     beams: Vec<Beam>,
 }
 

@@ -48,7 +48,7 @@ pub struct PaperMark {
 pub struct BoxGroup {
     /// The row it shows, written below the box and kept with the dots as `data-row`.
     pub row: String,
-    /// The colour.
+    /// Series whose colour the box has.
     pub series: Series,
     /// The runs; non-finite values are left out.
     pub dots: Vec<Dot>,

@@ -28,7 +28,7 @@ pub struct Axis {
     ticks: Ticks,
 }
 
-/// How the labels of an axis are chosen.
+/// Rule for the labels of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ticks {
     Anywhere,
@@ -162,7 +162,7 @@ enum Layer {
 pub struct Line {
     /// Label for the legend; empty for none.
     pub label: String,
-    /// The colour.
+    /// Series whose colour it is drawn in.
     pub series: Series,
     /// The values, from left to right.
     pub points: Vec<LinePoint>,
@@ -213,12 +213,12 @@ struct Pinned {
     note: String,
 }
 
-/// Points without order.
+/// Points that no line joins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Points {
     /// Label for the legend; empty for none.
     pub label: String,
-    /// The colour.
+    /// Series whose colour it is drawn in.
     pub series: Series,
     /// Positions.
     pub positions: Vec<Point>,

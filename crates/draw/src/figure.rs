@@ -52,7 +52,7 @@ pub struct Figure {
     pub name: String,
     /// Title, in a few words.
     pub title: String,
-    /// How to read it; empty if that is clear.
+    /// Explanation of the picture; empty if it is clear without.
     pub caption: String,
     /// Table that it belongs to; `None` puts it after all tables.
     pub table: Option<String>,

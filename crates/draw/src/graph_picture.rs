@@ -44,7 +44,7 @@ pub struct GraphPicture {
 /// One node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GraphNode {
-    /// Position.
+    /// Position on the picture.
     pub position: Point,
     /// Its class by colour.
     pub series: Series,

@@ -23,11 +23,11 @@ use super::number::{NOTHING, extent, tenths};
 pub struct Shade {
     /// Quantity of the values, with its unit.
     pub title: String,
-    /// Value without colour.
+    /// Value that is drawn without colour.
     pub low: f64,
     /// Value with the full colour.
     pub high: f64,
-    /// The colour.
+    /// Series whose colour the values are shades of.
     pub series: Series,
     /// Number of decimals of values.
     pub decimals: u8,

@@ -20,7 +20,7 @@ pub(super) fn at<T>(action: &'static str, path: &Path, result: io::Result<T>) ->
     })
 }
 
-/// Like [`at`], for a path that may be missing: `None` if nothing is there.
+/// Returns the same as [`at`], or `None` if there is nothing at the path.
 pub(super) fn if_there<T>(
     action: &'static str,
     path: &Path,

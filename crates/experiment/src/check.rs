@@ -197,7 +197,7 @@ fn figure_names(names: &[String]) -> Result<(), String> {
     };
     match names.iter().find(|name| !serves(name)) {
         Some(name) => Err(format!(
-            "{name:?} is no name of a figure; use lower-case letters, digits and hyphens, at most \
+            "{name:?} cannot name a figure; use lower-case letters, digits and hyphens, at most \
              {LONGEST_NAME}"
         )),
         None => Ok(()),

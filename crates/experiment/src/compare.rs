@@ -50,7 +50,7 @@ pub struct Differences {
     first: PathBuf,
     second: PathBuf,
     runs: usize,
-    /// By table, row and field.
+    /// Differences by table, row and field.
     rows: BTreeMap<(String, String, String), Found>,
 }
 

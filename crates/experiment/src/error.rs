@@ -141,7 +141,9 @@ pub enum Error {
         source: BoxError,
     },
     /// The runs of a table cannot be replayed.
-    #[error("the runs of table {table} are not recorded, so there is nothing to replay")]
+    #[error(
+        "the runs of table {table} are not recorded, so there is nothing to replay; choose another table"
+    )]
     NoReplay {
         /// The table.
         table: String,

@@ -66,7 +66,7 @@ pub struct Experiment {
     in_part: bool,
 }
 
-/// How the runs of an experiment are played and drawn.
+/// Procedure that plays and draws the runs of an experiment.
 pub trait Procedure: Sync + core::fmt::Debug {
     /// Plays one run and returns its fields. It is a pure function of the job and the
     /// configuration: the same job gives the same fields on every thread, in any order.

@@ -23,14 +23,14 @@ pub struct RowPair {
     pub first: String,
     /// The other row.
     pub second: String,
-    /// Number of runs of both.
+    /// Number of runs of both rows together.
     pub n: u64,
     /// Difference of the first row from the second; its p-value is corrected for the number of
     /// pairs.
     pub contrast: Contrast,
     /// The paper's p-value.
     pub paper: Option<f64>,
-    /// Reason why the paper's p-value is not judged; `None` if it has none.
+    /// Verdict on the paper's p-value, which is never judged; `None` if the paper has none.
     pub verdict: Option<Verdict>,
 }
 

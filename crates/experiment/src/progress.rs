@@ -75,7 +75,7 @@ pub trait Progress: Sync {
     }
 }
 
-/// Shows nothing.
+/// Progress that is not shown.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 

@@ -31,7 +31,7 @@ pub struct Run {
     pub run: u32,
     /// The seed of the run.
     pub seed: u64,
-    /// Measurements.
+    /// Measurements of the run.
     #[serde(flatten)]
     pub fields: Fields,
 }

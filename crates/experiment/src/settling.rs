@@ -27,9 +27,9 @@ pub struct Settling {
 /// Whether the event that a metric waits for happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reached {
-    /// It did.
+    /// The event happened.
     Yes,
-    /// It did not happen before the end: the value is a lower bound.
+    /// The event did not happen before the end: the value is a lower bound.
     No,
 }
 

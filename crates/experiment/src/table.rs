@@ -329,7 +329,7 @@ impl Row {
         self.runs(0)
     }
 
-    /// Marks it as our own system, which may be better than the paper's.
+    /// Marks the row as our own system, which may be better than the paper's.
     #[must_use]
     pub fn own(mut self) -> Self {
         self.own = true;
@@ -523,8 +523,8 @@ impl Metric {
         Self::new(name, Statistic::RatioOfSpreads { over, under })
     }
 
-    /// Returns the sum of a numeric field over all runs, divided by its sum over the runs with the
-    /// same indices in the row named `of`.
+    /// Returns the ratio of two sums of a numeric field. The first is over all runs, the second
+    /// over the runs with the same indices in the row named `of`.
     pub fn multiple(
         name: impl Into<String>,
         field: impl Into<String>,

@@ -28,11 +28,11 @@ pub struct Verdict {
 /// Result of comparing a value with the paper's.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
-    /// It matches the paper's.
+    /// The value matches the paper's.
     Matches,
-    /// It is better than the paper's. Only rows of our own systems can be.
+    /// The value is better than the paper's. Only rows of our own systems can be.
     Better,
-    /// It differs from the paper's.
+    /// The value differs from the paper's.
     Differs,
     /// The runs cannot tell, for this reason.
     CannotTell(Doubt),

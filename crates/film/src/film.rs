@@ -40,7 +40,7 @@ pub struct Film {
     world_from_map: Pose,
 }
 
-/// What a system knows at one moment, in the world's frame.
+/// Knowledge of a system at one moment, in the world's frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Glimpse {
     /// Positions of the places of its map.
@@ -207,7 +207,7 @@ impl Film {
         }
     }
 
-    /// Returns what the system knew after its last action. O(map).
+    /// Returns the knowledge of the system after its last action. O(map).
     #[must_use]
     pub fn glimpse(&self) -> Glimpse {
         let places: BTreeMap<u32, Point> = self

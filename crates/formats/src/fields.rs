@@ -4,7 +4,7 @@ use tolman_geom::{Heading, Point, Pose};
 
 use crate::log::LogTrouble;
 
-/// What is wrong with a line.
+/// Fault of a line.
 pub(crate) type Wrong = (LogTrouble, String);
 
 /// The fields of a line, taken one by one.

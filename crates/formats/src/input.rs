@@ -21,22 +21,22 @@ pub enum SourceError {
     /// The system cannot read it.
     #[error(transparent)]
     System(#[from] io::Error),
-    /// It goes on for too long.
+    /// The file goes on for too long.
     #[error("it has more than {most} bytes; give a file that ends before")]
     TooLong {
         /// Maximum number of bytes that are read.
         most: u64,
     },
-    /// It has a byte order mark.
+    /// The file has a byte order mark.
     #[error("it begins with a byte order mark of {encoding}; save it as UTF-8 text without one")]
     ByteOrderMark {
         /// `UTF-8` or `UTF-16`.
         encoding: &'static str,
     },
-    /// It is packed by gzip.
+    /// The file is packed by gzip.
     #[error("it is packed by gzip; unpack it with `gunzip`")]
     Packed,
-    /// It is no UTF-8 text.
+    /// The file is not UTF-8 text.
     #[error("line {line}: byte {byte} of the file is not UTF-8; save it as UTF-8 text")]
     NoText {
         /// The line, from 1.

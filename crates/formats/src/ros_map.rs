@@ -37,7 +37,7 @@ pub enum MapCell {
     Free,
     /// A wall, or a thing.
     Occupied,
-    /// It is unknown.
+    /// The cell is unknown.
     Unknown,
 }
 
@@ -66,7 +66,7 @@ pub enum RosMapError {
     Header {
         /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it, and where.
+        /// Fault of the file, with its place.
         source: RosMapHeaderError,
     },
     /// The picture is not one.
@@ -74,7 +74,7 @@ pub enum RosMapError {
     Picture {
         /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it, and where.
+        /// Fault of the picture, with its place.
         source: GreyMapError,
     },
 }
@@ -101,7 +101,8 @@ impl RosMap {
         Ok(Self::of(&header, &picture))
     }
 
-    /// Returns what `header` makes of `picture`, whose first row is the northernmost. O(pixels).
+    /// Returns the occupancy grid of a `header` and its `picture`, whose first row is the
+    /// northernmost. O(pixels).
     #[must_use]
     pub fn of(header: &RosMapHeader, picture: &GreyMap) -> Self {
         let most = f64::from(picture.most);

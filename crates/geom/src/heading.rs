@@ -25,9 +25,9 @@ impl Heading {
     pub const EAST: Self = Self(0.0);
     /// π/2 rad: along the y axis.
     pub const NORTH: Self = Self(FRAC_PI_2);
-    /// π rad.
+    /// West, π rad.
     pub const WEST: Self = Self(PI);
-    /// −π/2 rad.
+    /// South, −π/2 rad.
     pub const SOUTH: Self = Self(-FRAC_PI_2);
 
     /// Wraps any angle in radians into (−π, π].

@@ -19,9 +19,9 @@ use crate::{Interval, IntervalError, Point};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PointBox {
-    /// From west to east, m.
+    /// Bounds from west to east, m.
     pub x: Interval,
-    /// From south to north, m.
+    /// Bounds from south to north, m.
     pub y: Interval,
 }
 
@@ -29,7 +29,7 @@ impl PointBox {
     /// The origin alone.
     pub const ORIGIN: Self = Self::new(Interval::ZERO, Interval::ZERO);
 
-    /// Nothing is known.
+    /// The whole plane: nothing is known.
     pub const UNBOUNDED: Self = Self::new(Interval::UNBOUNDED, Interval::UNBOUNDED);
 
     /// Returns a box from its sides.
@@ -97,7 +97,7 @@ impl PointBox {
         self.x.meets(other.x) && self.y.meets(other.y)
     }
 
-    /// Returns what both allow, or `None` if they contradict each other.
+    /// Returns the box of all points that both allow, or `None` if they contradict each other.
     #[must_use]
     #[inline]
     pub fn intersection(self, other: Self) -> Option<Self> {

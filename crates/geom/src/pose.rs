@@ -18,7 +18,7 @@ use crate::{Heading, Point, Twist, Vector};
 pub struct Pose {
     /// Position, m.
     pub position: Point,
-    /// Heading.
+    /// Heading, rad counter-clockwise from east.
     pub heading: Heading,
 }
 
@@ -64,15 +64,15 @@ impl Pose {
         self.position + self.heading.rotate(point.coords)
     }
 
-    /// Returns where a body that starts here and keeps `twist` for `seconds` arrives: the exact
-    /// arc.
+    /// Returns the pose at which a body arrives that starts here and keeps `twist` for `seconds`,
+    /// s: the exact arc.
     #[must_use]
     pub fn moved(self, twist: Twist, seconds: f64) -> Self {
         self.displaced(twist.linear * seconds, twist.angular * seconds)
     }
 
-    /// Returns where a body arrives that covers `distance` metres of path while it turns by `turn`
-    /// radians: a circular arc, straight when `turn` is 0.
+    /// Returns the pose at which a body arrives that covers `distance`, m, while it turns by
+    /// `turn`, rad, counter-clockwise. The path is a circular arc, straight when `turn` is 0.
     ///
     /// ```
     /// use core::f64::consts::PI;

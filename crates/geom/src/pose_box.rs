@@ -106,9 +106,10 @@ impl PoseBox {
             && heading.is_ok_and(|heading| self.heading.meets(nearest(heading, self.heading)))
     }
 
-    /// Returns what both allow, with headings up to full circles. `None` if they contradict each
-    /// other: then a bound was broken, or the two are not estimates of the same pose. Where wide
-    /// headings agree in two parts of the circle, what lies between them is in the result as well.
+    /// Returns the box of all poses that both allow, with headings up to full circles. `None` if
+    /// they contradict each other: then a bound was broken, or the two are not estimates of the
+    /// same pose. Where wide headings agree in two parts of the circle, what lies between them is
+    /// in the result as well.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         Some(Self::new(

@@ -11,7 +11,7 @@ pub struct Twist {
 }
 
 impl Twist {
-    /// Standing still.
+    /// Twist of a body that stands still.
     pub const ZERO: Self = Self::new(0.0, 0.0);
 
     /// Returns a twist of `linear` m/s and `angular` rad/s.

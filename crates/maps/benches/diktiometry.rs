@@ -1,6 +1,6 @@
 //! Times how the observer of a diktiometry takes in moves, on open worlds of places that all look
-//! alike: while the world is being learned, and once it is known. Another world has places with
-//! many looks.
+//! alike. It times moves while the world is being learned, and moves once it is known. Another
+//! world has places with many looks.
 //!
 //! Criterion measures moves on known maps. The table is of single moves, because percentiles say
 //! more on a busy machine.
@@ -30,7 +30,7 @@ use walk::{ODOMETRY, Scripted, Walk, open, painted};
 const LOOKED_AT: usize = 8000;
 const ROW: usize = 1000;
 
-/// How often these moves are made: the least time of each counts.
+/// Number of times that these moves are made. The least time of each counts.
 const AGAIN: usize = 3;
 
 fn main() {
@@ -75,8 +75,8 @@ fn main() {
     criterion.final_summary();
 }
 
-/// Walls of eight colours, and merges by looks: on a map that is being learned they are weighed
-/// with every move.
+/// Times walks among walls of eight colours, with merges by looks. On a map that is being learned,
+/// each move weighs these merges.
 fn by_looks() {
     for (name, look_merge) in [("off", Use::Off), ("on", Use::On)] {
         let mut config = painted();

@@ -27,7 +27,7 @@ use tolman_planners::speed_run::{
 };
 use tolman_planners::{Passages, StepMap, Unknown};
 
-/// How often each maze has its turn.
+/// Number of turns of each maze.
 const ROUNDS: usize = 15;
 
 fn main() {
@@ -100,9 +100,9 @@ fn line(name: &str, side: usize, number: usize, all: &[(&str, Timed)]) -> String
 
 /// Microseconds of the same work in all mazes.
 struct Timed {
-    /// By maze: a time for each round.
+    /// Times of each round, by maze.
     in_turn: Vec<Vec<f64>>,
-    /// By maze: the least of as many repetitions at once.
+    /// Least time of as many repetitions at once, by maze.
     repeated: Vec<f64>,
 }
 
@@ -151,7 +151,7 @@ fn median(times: &[f64]) -> f64 {
     sorted[sorted.len() / 2]
 }
 
-/// To hundredths, which is more than a clock tells.
+/// Rounds to hundredths, which is finer than the clock.
 fn rounded(time: f64) -> f64 {
     (100.0 * time).round() / 100.0
 }

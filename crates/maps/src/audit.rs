@@ -3,7 +3,7 @@
 //!
 //! [`audit`] finds each closure *supported* by independent cycles, *refuted* by a cycle that can be
 //! measured again, or *undecided*, with the reason. Nothing is optimized: a false closure bends a
-//! map, and the errors of a bent map are no evidence.
+//! map, and the errors of a bent map are not evidence.
 //!
 //! - **Cycle**: a closure with a way back over odometry and other closures. Its error is χ² of the
 //!   logarithm of its product, with 3 degrees of freedom, by first-order propagation of its edges'

@@ -2,8 +2,8 @@
 //!
 //! "The world is modelled as a set of places with relative positions and known actions that get the
 //! robot from place to place." An [`Observer`] watches the moves of any robot and keeps a
-//! [`Diktiometry`]. That is a *path graph* of places and actions, a *reference graph* of local
-//! frames with bounds on their positions, and reference links between the two.
+//! [`Diktiometry`]. It consists of two graphs, with reference links between them. The *path graph*
+//! has places and actions. The *reference graph* has local frames with bounds on their positions.
 //!
 //! In the order data flows (the paper's figure 1):
 //!

@@ -1,7 +1,8 @@
 //! MSLST's map: a graph of sensory states and the actions that lead from one to the next.
 //!
-//! Tingle, Ball, Augat: "Maze Solving by Learning State Topologies", Phase II (*Mapping the
-//! Topology Into a Graph*) and, of Phase III, *Localization* and the search of *Path-Finding*.
+//! Phase II and parts of Phase III of Tingle, Ball, Augat: "Maze Solving by Learning State
+//! Topologies". Phase II is *Mapping the Topology Into a Graph*. Of Phase III, it is *Localization*
+//! and the search of *Path-Finding*.
 //!
 //! A [`GraphMapper`] builds the [`MslstGraph`] while the robot wanders. [`localize`] finds the node
 //! that fits what the robot has sensed and done lately. [`MslstGraph::path_to_destination`] returns

@@ -1,9 +1,9 @@
 //! A map of places and their positions, learned while the robot moves. The map corrects the robot's
 //! pose.
 //!
-//! It follows the paper's list of future work (section 6): displacement "relative to the previous
-//! point", features in place of pixels, and a map that corrects the odometry. In the order data
-//! flows:
+//! It follows the paper's list of future work (section 6). That list asks for displacement
+//! "relative to the previous point", features in place of pixels, and a map that corrects the
+//! odometry. In the order data flows:
 //!
 //! 1. An [`Outline`] is what a snapshot shows of the things round the robot. It has the points
 //!    where they stand on the floor, with their colours, and the arcs on which sonars heard them.

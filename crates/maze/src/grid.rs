@@ -78,13 +78,13 @@ impl Grid {
         self.height
     }
 
-    /// Returns how many cells.
+    /// Returns the number of cells.
     #[must_use]
     pub const fn cell_count(self) -> usize {
         self.width as usize * self.height as usize
     }
 
-    /// Returns how many walls could stand, the border's included.
+    /// Returns the number of walls that could stand, the border's included.
     #[must_use]
     pub const fn wall_count(self) -> usize {
         self.vertical_count() + self.width as usize * (self.height as usize + 1)

@@ -13,7 +13,7 @@ use crate::{Cell, Direction, Grid};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Knowledge {
-    /// It has not been seen yet.
+    /// The wall has not been seen yet.
     #[default]
     Unknown,
     /// No wall stands here.

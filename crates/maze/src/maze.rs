@@ -182,9 +182,9 @@ impl Maze {
             .filter(move |cell| steps[self.grid.index(*cell)].is_none() && self.degree(*cell) > 0)
     }
 
-    /// Returns how many inner edges no wall stands on. A maze is perfect (every two cells are
-    /// joined by exactly one way) if all its cells are connected and this is their number minus
-    /// one.
+    /// Returns the number of inner edges without a wall. In a perfect maze, exactly one way joins
+    /// every two cells. A maze is perfect if all its cells are connected and this is their number
+    /// minus one.
     #[must_use]
     pub fn opening_count(&self) -> usize {
         self.grid
@@ -194,7 +194,7 @@ impl Maze {
             / 2
     }
 
-    /// Returns where runs begin and which way the robot looks, if the maze says so.
+    /// Returns the start cell and the heading of the robot there, if the maze has a start.
     #[must_use]
     pub const fn start(&self) -> Option<(Cell, Direction)> {
         self.start

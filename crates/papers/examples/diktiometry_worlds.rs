@@ -28,10 +28,10 @@ use walk::{
     COMPASS, ODOMETRY, ROUGH, Scripted, Walk, alike, blocks, braided_corridors, open, painted,
 };
 
-/// What can be asked for.
+/// A table that can be asked for.
 struct Table {
     name: &'static str,
-    /// How many runs a row has unless told.
+    /// Number of runs of a row unless told otherwise.
     runs: u64,
     print: fn(u64),
 }
@@ -89,7 +89,7 @@ fn main() {
     }
 }
 
-/// How many moves it takes until the map is the world, without advice and with.
+/// Counts the moves until the map is the world, with and without advice.
 fn growth(runs: u64) {
     println!(
         "| world | heed | moves until it is the world: least, quartiles, most | never | places at last per true one | least purity |"
@@ -152,8 +152,8 @@ fn growth(runs: u64) {
     }
 }
 
-/// What becomes of the map without each part of the mapper, where everything is as the mapper is
-/// told and where it is not.
+/// Shows the map without each part of the mapper, where the mapper's assumptions hold and where
+/// they do not.
 fn parts(runs: u64) {
     let outliers = |share: f64, factor: f64| {
         let mut errors = ODOMETRY;
@@ -229,7 +229,7 @@ fn parts(runs: u64) {
     }
 }
 
-/// A world that changes: after a number of moves a random door is shut or opened.
+/// Shows a world that changes: after a number of moves a random door is shut or opened.
 fn doors(runs: u64) {
     println!(
         "| moves between changes | fading | link precision | of links not seen shut | plans that work |"
@@ -362,8 +362,8 @@ fn braided(runs: u64) {
     }
 }
 
-/// How soon a robot that was carried off is found again, by each form of perceptual indexing.
-/// Carried off after every hundred moves on a map that is known.
+/// Measures how soon a kidnapped robot localizes, with each form of perceptual indexing. It is
+/// kidnapped after every hundred moves on a map that is known.
 fn kidnapped(runs: u64) {
     const SIDE: u16 = 8;
     const AFTER: [usize; 3] = [2, 4, 8];

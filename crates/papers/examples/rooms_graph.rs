@@ -137,7 +137,7 @@ fn drive() -> Result<(Vec<Pose>, Vec<G2oEdge>), Box<dyn Error>> {
     Ok((truth, edges))
 }
 
-/// Places seen again, matched nearly right.
+/// Returns closures at places seen again, matched nearly right.
 fn closures(truth: &[Pose], rng: &mut ChaCha8Rng) -> Vec<G2oEdge> {
     let mut closures = Vec::new();
     for to in AGO..truth.len() {

@@ -9,7 +9,7 @@ use crate::path::trace_back;
 /// A path to a goal, and what it took to find it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Found {
-    /// From the source to a goal, both ends included.
+    /// Nodes from the source to a goal, both ends included.
     pub path: Vec<u32>,
     /// The sum of arc costs along it.
     pub cost: u32,
@@ -73,7 +73,7 @@ pub fn best_first(
 
 /// Result of a search.
 pub(crate) struct Searched {
-    /// By node: the least cost so far, and the node before it on that way. A source comes from
+    /// Least cost so far of each node, and the node before it on that way. A source comes from
     /// itself.
     pub(crate) reached: Vec<Option<(u32, u32)>>,
     /// The first goal that was expanded, and what it cost.

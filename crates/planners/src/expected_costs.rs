@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use crate::{Arcs, costs_from};
 
-/// Decisions whose ends are a matter of chance: from each state some actions, each with what it
+/// Decisions whose results are random: from each state some actions, each with what it
 /// costs and where it may lead.
 #[derive(Clone, Debug, Default)]
 pub struct Decisions {

@@ -44,7 +44,7 @@ use crate::TooLarge;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PoseSet<const N: usize> {
     grid: Grid,
-    /// By heading, then y; bit x.
+    /// Possible cells by heading, then y; bit x.
     cells: [[u32; N]; 4],
     /// The pose from whose point of view the next drive is planned, as long as it is one of the
     /// set. Sticking to it keeps the mouse from driving to and fro.
@@ -80,8 +80,8 @@ impl<const N: usize> PoseSet<N> {
         Self::among(grid, grid.cells().flat_map(headings))
     }
 
-    /// Returns the set of these poses: of the cells it has been in, say, or with the heading that
-    /// its compass tells.
+    /// Returns the set of these poses, such as those in the cells the mouse has been in, or with
+    /// the heading of its compass.
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
@@ -132,7 +132,7 @@ impl<const N: usize> PoseSet<N> {
         *self = Self::of(grid, self.iter().filter_map(driven), guess);
     }
 
-    /// Returns what is known of the pose of the mouse.
+    /// Returns the knowledge of the mouse's pose.
     #[must_use]
     pub fn location(&self) -> PoseKnowledge {
         let mut poses = self.iter();

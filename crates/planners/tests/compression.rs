@@ -82,7 +82,7 @@ fn detours_end_one_in_another() {
         // A side way with an uneven way back.
         ("nneeewwss", ""),
         ("nneeewwssse", "e"),
-        // Strings are taken as long as they are: four against two is no string of ours.
+        // Strings are taken as long as they are: four against two is not one of our strings.
         ("nnnnss", "nn"),
         // The first string first: nn ss leaves nn.
         ("nnssnn", "nn"),

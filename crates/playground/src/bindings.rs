@@ -16,7 +16,7 @@ fn told<T>(done: Result<T, PlaygroundError>) -> Result<T, String> {
     done.map_err(|error| error.to_string())
 }
 
-/// What is under the reader's hand: a maze, and a session in it once one has begun.
+/// State of the page: a maze, and a session in it once one has begun.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct PlaygroundPage {
@@ -91,7 +91,7 @@ impl PlaygroundPage {
         self.sketch.text()
     }
 
-    /// Returns what is drawn of the maze.
+    /// Returns the drawing of the maze.
     pub fn plan(&self) -> String {
         json(&self.sketch.plan())
     }
@@ -104,7 +104,7 @@ impl PlaygroundPage {
         Ok(state)
     }
 
-    /// Lets it act.
+    /// Lets the system act for `steps` time steps.
     pub fn advance(&mut self, steps: u32) -> Result<String, String> {
         Ok(json(&self.session()?.advance(steps as usize)))
     }

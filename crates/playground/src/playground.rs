@@ -13,8 +13,8 @@ use crate::{Session, Sketch};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PlaygroundError {
-    /// The text is no maze that can be solved.
-    #[error("this is no maze that a robot can be sent into: {0}")]
+    /// The text is not a maze that can be solved.
+    #[error("no robot can be sent into this maze: {0}")]
     Maze(#[from] MazeError),
     /// The maze that is drawn cannot be solved.
     #[error("no robot can be sent into this maze: {0}")]
@@ -28,7 +28,7 @@ pub enum PlaygroundError {
         source: BoxError,
     },
     /// There is no such system.
-    #[error("there is no system {name}")]
+    #[error("there is no system {name}; choose one of the list")]
     System {
         /// The name that was given.
         name: String,
@@ -58,7 +58,7 @@ fn root(error: &dyn core::error::Error) -> String {
 pub struct SystemChoice {
     /// Its name in tables.
     pub name: &'static str,
-    /// What it does, in one line.
+    /// Task of the system, in one line.
     pub about: &'static str,
     /// Whether it is as its paper has it.
     pub is_paper: bool,

@@ -24,11 +24,11 @@ pub struct Session {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SessionTask {
-    /// It learns the maze.
+    /// The system learns the maze.
     Explore,
-    /// It finds out where it was put down.
+    /// The system finds out where it was put down.
     Localize,
-    /// It drives to the goal.
+    /// The system drives to the goal.
     Home,
 }
 
@@ -113,7 +113,7 @@ impl Session {
         self.state()
     }
 
-    /// Returns what it has come to.
+    /// Returns the state of the session.
     #[must_use]
     pub fn state(&self) -> SessionState {
         let (places, guesses) = (self.film.place_count(), self.film.guess_count());

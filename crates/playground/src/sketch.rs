@@ -150,7 +150,7 @@ impl Sketch {
         self.maze.check().err().map(|error| error.to_string())
     }
 
-    /// Returns what is drawn of it. O(cells).
+    /// Returns the drawing of the sketch. O(cells).
     #[must_use]
     pub fn plan(&self) -> SketchPlan {
         let grid = self.maze.grid();

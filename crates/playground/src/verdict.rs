@@ -19,9 +19,9 @@ pub struct TaskVerdict {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Tone {
-    /// It went well.
+    /// The run went well.
     Good,
-    /// It went wrong.
+    /// The run went wrong.
     Bad,
     /// Neither.
     Neutral,

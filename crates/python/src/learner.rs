@@ -209,7 +209,7 @@ impl PyLearner {
 fn kind_of(name: &str) -> PyResult<Kind> {
     let found = KINDS.iter().find(|(known, _)| *known == name);
     let kind = found.map(|(_, kind)| *kind);
-    kind.ok_or_else(|| wrong(format!("kind is '{name}', which is no quantizer")))
+    kind.ok_or_else(|| wrong(format!("kind is '{name}', which is not a quantizer")))
 }
 
 fn read<'a, Q: serde::Deserialize<'a>>(saved: &'a str) -> PyResult<Q> {

@@ -17,7 +17,7 @@ pub(crate) struct PyMap {
     /// Name of its system.
     #[pyo3(get)]
     pub(crate) system: String,
-    /// How learning ended, in words.
+    /// End of the learning, in words.
     #[pyo3(get)]
     pub(crate) outcome: String,
     /// Probability that the map is right, by the system's own estimate, 0 … 1; `None` if it has

@@ -22,7 +22,7 @@ pub(crate) fn cheapest_path(
         .find(|(tail, head, _)| (*tail).max(*head) as usize >= nodes)
     {
         return Err(wrong(format!(
-            "arcs: {tail} to {head} is no arc between {nodes} nodes, which are numbered from 0"
+            "arcs: {tail} to {head} is not an arc between {nodes} nodes, which are numbered from 0"
         )));
     }
     py.detach(|| {

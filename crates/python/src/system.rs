@@ -59,7 +59,7 @@ pub(crate) fn learn(
     py.detach(|| learned(&contest))
 }
 
-/// What systems learn before they are sent out; learned once.
+/// Knowledge that systems learn once, before they are sent out.
 static SCHOOLING: OnceLock<Schooling> = OnceLock::new();
 
 fn learned(contest: &Contest<'_>) -> PyResult<PyMap> {

@@ -108,7 +108,7 @@ class TestAll:
         units = fitted.units_
         with pytest.raises(ValueError, match="X, row 499"):
             fitted.partial_fit(np.vstack([x[:499], [[np.inf, 0.0]]]))
-        with pytest.raises(ValueError, match="X, row 0: the input has 3 features where the network has 2"):
+        with pytest.raises(ValueError, match="X, row 0: the input has 3 features; give 2, as the network has"):
             fitted.predict(np.zeros((1, 3)))
         assert (fitted.units_ == units).all()
 

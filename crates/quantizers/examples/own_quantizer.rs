@@ -9,7 +9,7 @@ struct Wary {
     gas: Gng<f64>,
     /// Inputs from which it learns whatever they are.
     trusting: u32,
-    /// How far from its nearest unit an input may lie.
+    /// Maximum distance of an input from its nearest unit.
     limit: f64,
 }
 

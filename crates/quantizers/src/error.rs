@@ -11,7 +11,7 @@ use crate::UnitId;
 #[non_exhaustive]
 pub enum InputError {
     /// The input has another number of features than the network.
-    #[error("the input has {found} features where the network has {expected}")]
+    #[error("the input has {found} features; give {expected}, as the network has")]
     WrongDimension {
         /// Number of features of the network.
         expected: usize,
@@ -39,7 +39,7 @@ pub enum InputError {
         limit: f64,
     },
     /// The mask of a query has another number of features than the network.
-    #[error("the mask has {found} features where the network has {expected}")]
+    #[error("the mask has {found} features; give {expected}, as the network has")]
     WrongMask {
         /// Number of features of the network.
         expected: usize,
@@ -74,7 +74,7 @@ impl InputError {
 #[non_exhaustive]
 pub enum QuantizerConfigError {
     /// Inputs must have features.
-    #[error("a network needs inputs of at least one feature")]
+    #[error("the inputs have no features; give at least one")]
     NoFeatures,
     /// A field, or a number that was saved, is outside its range.
     #[error("{field} is {value} but has to be {range}")]
@@ -106,14 +106,14 @@ pub enum QuantizerConfigError {
         source: InputError,
     },
     /// A network begins with two units or finds its own.
-    #[error("a network begins with none or at least two units, not {found}")]
+    #[error("a network cannot begin with {found} units; give none, or at least two")]
     TooFewUnits {
         /// Number given.
         found: usize,
     },
 }
 
-/// What a number may be: the test, and in words.
+/// Test of a number's range, and the range in words.
 pub(crate) type Range = (fn(f64) -> bool, &'static str);
 
 pub(crate) const SHARE: Range = (|value| (0.0..=1.0).contains(&value), "between 0 and 1");
@@ -155,7 +155,7 @@ pub struct UnknownUnit(pub UnitId);
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SnapshotError {
-    /// It is something else.
+    /// The file is something else.
     #[error("this is {found:?} where {expected:?} was expected")]
     WrongFormat {
         /// Format that is read here.
@@ -163,7 +163,7 @@ pub enum SnapshotError {
         /// Format that the text names.
         found: String,
     },
-    /// It was saved in a version that is not known, most likely by a later program.
+    /// The file was saved in a version that is not known, most likely by a later program.
     #[error(
         "version {found} is newer than {newest}, the newest this program reads: use a newer program"
     )]

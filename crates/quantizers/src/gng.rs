@@ -45,13 +45,13 @@ use crate::{
 pub struct Gng<S: Scalar> {
     config: GngConfig,
     network: Network<S>,
-    /// By slot.
+    /// Sums by slot.
     sums: Vec<Sums>,
     decay: Decay,
     steps: u64,
 }
 
-/// What is summed over the inputs a unit wins, as [`Decay`] keeps it.
+/// Sums over the inputs a unit wins, as [`Decay`] keeps them.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     error: f64,
@@ -120,12 +120,12 @@ impl<S: Scalar> Gng<S> {
         self.network.set_search(search, lanes);
     }
 
-    /// Returns what was chosen.
+    /// Returns the configuration.
     pub fn config(&self) -> &GngConfig {
         &self.config
     }
 
-    /// Returns how many inputs were learnt, not counting those before there were two units.
+    /// Returns the number of learnt inputs, not counting those before there were two units.
     pub fn steps(&self) -> u64 {
         self.steps
     }
@@ -211,7 +211,7 @@ impl<S: Scalar> Gng<S> {
         }
     }
 
-    /// One step with the two nearest units.
+    /// Learns from one input, given its two nearest units.
     fn step(&mut self, input: &[S], best: Best<S>) {
         let (first, second) = (best.first.slot as usize, best.second.slot as usize);
         let max_age = self.config.max_age;
@@ -319,7 +319,7 @@ impl<S: Scalar> Gng<S> {
         });
     }
 
-    /// GNG-U: takes the unit of least utility away if the largest error is many times that.
+    /// Removes the unit of least utility if the largest error is many times that utility (GNG-U).
     fn drop_useless(&mut self, utility: Utility) {
         let mut most_error = 0.0_f64;
         let mut least: Option<(usize, f64)> = None;
@@ -353,7 +353,7 @@ impl<S: Scalar> Gng<S> {
     }
 }
 
-/// ‖x − w‖ / ‖x‖ of squares.
+/// Returns ‖x − w‖ / ‖x‖, given both squared.
 fn relative_error(squared_distance: f64, squared_length: f64) -> f64 {
     if squared_distance <= 0.0 {
         0.0

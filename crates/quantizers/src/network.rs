@@ -100,7 +100,7 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// Returns how many features an input has.
+    /// Returns the number of features of an input.
     pub fn dimension(&self) -> usize {
         self.prototypes.dimension()
     }
@@ -110,7 +110,7 @@ impl<S: Scalar> Network<S> {
         self.metric.weights()
     }
 
-    /// Returns how many units there are.
+    /// Returns the number of units.
     pub fn len(&self) -> usize {
         self.len
     }
@@ -321,7 +321,7 @@ impl<S: Scalar> Network<S> {
         sum
     }
 
-    /// ‖x‖² of an input, as the distance measures it.
+    /// Returns ‖x‖² of an input, as the distance measures it.
     pub(crate) fn squared_length(&self, input: &[S]) -> f64 {
         let squares = input.iter().enumerate().map(|(feature, value)| {
             let weight = self
@@ -442,7 +442,7 @@ impl<S: Scalar> Network<S> {
         self.len -= 1;
     }
 
-    /// An edge of the given age between two units, new or not.
+    /// Sets the age of the edge between two units; makes the edge if there is none.
     #[inline]
     pub(crate) fn link(&mut self, a: usize, b: usize, age: u32) {
         if self.links.renew(a, b, age) {
@@ -516,9 +516,9 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// To be called when a quantizer is done with an input. Builds the index once it pays, and
-    /// closes the gaps that removed units left if it is worthwhile. It closes them in `per_unit` as
-    /// well, which has one item per slot. Slots known from before are void.
+    /// Ends the work on an input. Builds the index once it pays, and closes the gaps that removed
+    /// units left if it is worthwhile. It closes them in `per_unit` as well, which has one item per
+    /// slot. Slots known from before are void.
     #[inline]
     pub(crate) fn tidy<T: Copy>(&mut self, per_unit: &mut Vec<T>) {
         let blocks = |units: usize| units.div_ceil(prototypes::LANES);
@@ -563,6 +563,6 @@ impl<S: Scalar> Network<S> {
 pub struct Edge {
     /// The units it joins, the smaller id first.
     pub ends: (UnitId, UnitId),
-    /// In inputs that one of its ends has won.
+    /// Number of inputs that one of the edge's ends has won since it was renewed.
     pub age: u32,
 }

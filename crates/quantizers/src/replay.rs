@@ -60,7 +60,7 @@ pub struct ReplayQuantizer<S, Q> {
     chance: ChaCha8Rng,
 }
 
-/// Which inputs are remembered, and how often they are learnt.
+/// Choice of remembered inputs, and how often they are learnt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -69,13 +69,13 @@ pub struct ReplayConfig {
     pub capacity: u32,
     /// Number of remembered inputs learnt for each new one, at least 1.
     pub per_input: u32,
-    /// Which inputs are remembered.
+    /// Rule for the inputs that are remembered.
     pub memory: ReplayMemory,
     /// Seed of the draws.
     pub seed: u64,
 }
 
-/// Which inputs are kept once there are more than fit.
+/// Rule for the inputs that are kept once there are more than fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -134,7 +134,7 @@ impl<S: Scalar, Q: Quantizer<S>> ReplayQuantizer<S, Q> {
         self.quantizer
     }
 
-    /// Returns how many inputs are remembered.
+    /// Returns the number of remembered inputs.
     pub fn remembered(&self) -> usize {
         self.memory.len() / self.network().dimension()
     }

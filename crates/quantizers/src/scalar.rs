@@ -31,7 +31,7 @@ pub trait Scalar:
     fn from_f64(value: f64) -> Self;
     /// Returns the same value, exactly.
     fn to_f64(self) -> f64;
-    /// Neither infinite nor NaN.
+    /// Returns whether the number is neither infinite nor NaN.
     fn is_finite(self) -> bool {
         self.to_f64().is_finite()
     }

@@ -53,7 +53,7 @@ use crate::{
 pub struct Soinn<S: Scalar> {
     config: SoinnConfig,
     network: Network<S>,
-    /// By slot.
+    /// Tallies by slot.
     tallies: Vec<Tally>,
     steps: u64,
     /// Slots that are to be removed; kept so as not to allocate.
@@ -157,12 +157,12 @@ impl<S: Scalar> Soinn<S> {
         self.network.set_search(search, lanes);
     }
 
-    /// Returns what was chosen.
+    /// Returns the configuration.
     pub fn config(&self) -> &SoinnConfig {
         &self.config
     }
 
-    /// Returns how many inputs were learnt, not counting those before there were two units.
+    /// Returns the number of learnt inputs, not counting those before there were two units.
     pub fn steps(&self) -> u64 {
         self.steps
     }
@@ -271,8 +271,8 @@ impl<S: Scalar> Soinn<S> {
         self.network.cut_old_edges(first, self.config.max_age);
     }
 
-    /// Step 10, its first half. What would be undone is not begun, so the network stays as it was
-    /// to the bit.
+    /// Carries out the first half of step 10. What would be undone is not begun, so the network
+    /// stays as it was to the bit.
     fn insert_where_error_is_large(&mut self) {
         if self.config.insertion == ErrorInsertion::Off || !self.network.has_ids_left() {
             return;

@@ -27,7 +27,7 @@ pub struct Nearest<S> {
 }
 
 impl<S: Scalar> Nearest<S> {
-    /// Returns its distance.
+    /// Returns the distance of the unit from the input.
     pub fn distance(&self) -> S {
         S::from_f64(libm::sqrt(self.squared_distance.to_f64()))
     }

@@ -17,7 +17,7 @@ pub struct Difference {
     pub what: Differs,
 }
 
-/// What differs.
+/// Kind of difference between two traces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Differs {

@@ -29,7 +29,7 @@ pub enum EncodeError {
         step_s: f64,
     },
     /// A number is not finite.
-    #[error("{what} {index} holds a number that is not finite")]
+    #[error("{what} {index} holds a number that is not finite; give finite numbers")]
     NotFinite {
         /// Kind of thing.
         what: String,
@@ -45,7 +45,7 @@ pub enum EncodeError {
         index: usize,
     },
     /// A reading does not have one range per beam.
-    #[error("{what} {index} has {found} ranges for {expected} beams")]
+    #[error("{what} {index} has {found} ranges; give {expected}, one per beam")]
     Ranges {
         /// Kind of thing.
         what: String,
@@ -57,7 +57,9 @@ pub enum EncodeError {
         expected: usize,
     },
     /// An edge ends at a node that does not exist.
-    #[error("edge {index} of the map `{map}` names node {id}, which the map does not have")]
+    #[error(
+        "edge {index} of the map `{map}` names node {id}, which does not exist; add the node or remove the edge"
+    )]
     NoNode {
         /// The map's name.
         map: String,

@@ -13,7 +13,7 @@ pub struct Floor<'a> {
     world: &'a World,
     grid: Grid,
     pitch: f64,
-    /// By cell index.
+    /// Whether each cell can be reached, by cell index.
     reachable: Vec<bool>,
 }
 

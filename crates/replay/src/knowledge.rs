@@ -78,7 +78,7 @@ impl MapNode {
         last.map_or(self.position, |last| last.position)
     }
 
-    /// Moves it from `step` on, if `position` is more than `still` metres away. Of several
+    /// Moves the node from `step` on, if `position` is more than `still` away, m. Of several
     /// positions at one step the last counts.
     pub fn move_to(&mut self, step: u32, position: Point, still: f64) {
         if (self.latest() - position).norm() > still {
@@ -93,7 +93,7 @@ impl MapNode {
 pub struct NodeMove {
     /// The step from which it holds.
     pub step: u32,
-    /// Position.
+    /// Position of the node, m.
     pub position: Point,
 }
 
@@ -221,28 +221,28 @@ pub struct BeliefAt {
 /// A part of a belief, in the world's frame. Weights are from 0 to 1 and are shown as opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// It may be at this position.
+    /// The robot may be at this position.
     Point {
-        /// Position.
+        /// Position of the node, m.
         position: Point,
         /// Probability.
         weight: f64,
     },
-    /// It may have this pose.
+    /// The robot may have this pose.
     Pose {
         /// Pose.
         pose: Pose,
         /// Probability.
         weight: f64,
     },
-    /// It may be at this node of a map.
+    /// The robot may be at this node of a map.
     Node {
         /// The node's id.
         id: u32,
         /// Probability.
         weight: f64,
     },
-    /// It is inside this axis-aligned box.
+    /// The robot is inside this axis-aligned box.
     Box {
         /// South-west corner.
         min: Point,
@@ -251,7 +251,7 @@ pub enum Shape {
         /// Probability.
         weight: f64,
     },
-    /// It is near this position: an ellipse of uncertainty.
+    /// The robot is near this position: an ellipse of uncertainty.
     Ellipse {
         /// Its middle.
         centre: Point,
@@ -305,7 +305,7 @@ pub struct FieldChange {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TimeSeries {
-    /// Name: `coverage`.
+    /// Name of the values, such as `coverage`.
     pub name: String,
     /// Its unit, shown after the number; `%` shows a share in per cent.
     pub unit: String,
@@ -352,7 +352,7 @@ pub struct Sample {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Notes {
-    /// Subject: `action`.
+    /// Subject of the notes, such as `action`.
     pub name: String,
     /// The words, ascending by step; each holds until the next.
     pub notes: Vec<Note>,
@@ -381,7 +381,7 @@ impl Notes {
 pub struct Note {
     /// First step at which it holds.
     pub step: u32,
-    /// Text.
+    /// Text of the note.
     pub text: String,
 }
 
@@ -397,7 +397,7 @@ pub struct Note {
 pub struct Marks {
     /// Kind of event, which sets the colour.
     pub kind: Mark,
-    /// Name: `bump`.
+    /// Name of the events, such as `bump`.
     pub name: String,
     /// Steps of the events, ascending.
     pub steps: Vec<u32>,

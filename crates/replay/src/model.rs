@@ -59,9 +59,9 @@ impl Replay {
 /// A fact about a run, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fact {
-    /// Name: `seed`.
+    /// Name of the fact, such as `seed`.
     pub name: String,
-    /// Value: `7`.
+    /// Value of the fact, such as `7`.
     pub value: String,
 }
 

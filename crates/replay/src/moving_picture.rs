@@ -9,9 +9,9 @@ use super::{Replay, RobotTrack, Shape, ZoneKind};
 /// A stretch of a replay with a caption.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chapter {
-    /// Its first step.
+    /// First step of the part.
     pub from: u32,
-    /// Caption.
+    /// Caption of the part.
     pub caption: String,
     /// Duration, s.
     pub seconds: f64,

@@ -116,7 +116,9 @@ pub enum CompareError {
         second: String,
     },
     /// The time steps have different lengths.
-    #[error("the time steps of {second} last {second_us} µs, those of {first} {first_us} µs")]
+    #[error(
+        "the time steps of {second} last {second_us} µs, those of {first} {first_us} µs; replay each by itself"
+    )]
     Steps {
         /// The first trace's name.
         first: String,

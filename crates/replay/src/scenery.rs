@@ -12,7 +12,7 @@ pub struct Scenery {
     pub walls: Vec<[Point; 2]>,
     /// Parts of the floor.
     pub zones: Vec<SceneryZone>,
-    /// Doors.
+    /// Doors of the world.
     pub doors: Vec<SceneryDoor>,
 }
 
@@ -21,7 +21,7 @@ pub struct Scenery {
 pub struct SceneryZone {
     /// Meaning, which decides the colour.
     pub kind: ZoneKind,
-    /// Name.
+    /// Name of the zone.
     pub name: String,
     /// Its corners in order.
     pub corners: Vec<Point>,
@@ -44,7 +44,7 @@ pub enum ZoneKind {
 /// A wall that opens and shuts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneryDoor {
-    /// Name.
+    /// Name of the door.
     pub name: String,
     /// Its ends.
     pub ends: [Point; 2],

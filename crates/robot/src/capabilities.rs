@@ -1,42 +1,42 @@
-//! What a sensing can tell. A layer or a system names in its bounds what it needs, and so runs on
-//! every robot that senses it.
+//! The capabilities of a robot's sensing. A layer or a system names in its bounds what it needs,
+//! and so runs on every robot that senses it.
 
 use tolman_geom::Heading;
 
 use crate::epuck::{EpuckSensing, TRACK, WHEEL_RADIUS};
 use crate::{CameraSensing, ColumnImage, LaserSensing, Odometry, Scan};
 
-/// Senses how far away the walls are.
+/// Sensing with the ranges to the walls.
 pub trait Ranges {
     /// Returns the ranges of this time step, or `None` for a drop-out.
     fn scan(&self) -> Option<&Scan>;
 }
 
-/// Senses its absolute heading.
+/// Sensing with the absolute heading.
 pub trait Compass {
     /// Returns the heading, or `None` for a drop-out.
     fn heading(&self) -> Option<Heading>;
 }
 
-/// Senses what its wheels rolled.
+/// Sensing with the distances that the wheels rolled.
 pub trait Rolls {
     /// Returns what the wheels rolled since the step before, or `None` for a drop-out.
     fn odometry(&self) -> Option<Odometry>;
 }
 
-/// Sees all round.
+/// Sensing with an image of all that is round the robot.
 pub trait Sees {
     /// Returns the image of this time step, or `None` for a drop-out.
     fn image(&self) -> Option<&ColumnImage>;
 }
 
-/// Feels what it touches.
+/// Sensing with contact.
 pub trait Bumps {
     /// Returns whether the body touched something in this time step, or `None` if nothing tells.
     fn bump(&self) -> Option<bool>;
 }
 
-/// Has a clock.
+/// Sensing with a clock.
 pub trait Clock {
     /// Returns the microseconds since the robot was switched on.
     fn time_us(&self) -> u64;

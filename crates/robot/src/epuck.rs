@@ -10,7 +10,7 @@ pub const BODY_RADIUS: f64 = 0.037;
 /// Radius of a wheel, m.
 pub const WHEEL_RADIUS: f64 = 0.0205;
 
-/// From wheel to wheel, m.
+/// Distance between the wheels, m.
 pub const TRACK: f64 = 0.053;
 
 /// The wheels of the real robot turn no faster, rad/s: about 0.13 m/s, or 4.9 rad/s in place.
@@ -37,7 +37,7 @@ const MOUNTS: [(f64, f64, f64); PROXIMITY_SENSORS] = [
     (17.1, 0.030, 0.010),
 ];
 
-/// Returns where each proximity sensor sits and looks, in the robot's frame.
+/// Returns the pose of each proximity sensor in the robot's frame.
 ///
 /// ```
 /// use tolman_robot::epuck;
@@ -56,18 +56,18 @@ pub fn proximity_mounts() -> [Pose; PROXIMITY_SENSORS] {
     })
 }
 
-/// The command of a robot with two driven wheels: how fast each turns, rad/s.
+/// The command of a robot with two driven wheels: the speed of each, rad/s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelSpeeds {
-    /// The left wheel; positive rolls ahead.
+    /// Speed of the left wheel, rad/s; positive rolls ahead.
     pub left: f64,
-    /// The right wheel.
+    /// Speed of the right wheel, rad/s; positive rolls ahead.
     pub right: f64,
 }
 
 impl WheelSpeeds {
-    /// Stands still.
+    /// Wheel speeds of a robot that stands still.
     pub const STOP: Self = Self {
         left: 0.0,
         right: 0.0,
@@ -106,9 +106,9 @@ impl crate::Standstill for WheelSpeeds {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelTurns {
-    /// The left wheel; positive is ahead.
+    /// Turn of the left wheel, rad; positive is ahead.
     pub left: f64,
-    /// The right wheel.
+    /// Turn of the right wheel, rad; positive is ahead.
     pub right: f64,
 }
 

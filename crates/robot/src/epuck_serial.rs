@@ -7,9 +7,9 @@
 //! (`q,l,r`). Speeds and encoders count thousandths of a turn. Any port that reads and writes bytes
 //! will do; give it a time-out.
 //!
-//! `Q` tells what the wheels do; `E` tells the speeds that the firmware uses. A command that lost a
-//! byte on its way is answered with `d` all the same, and a remote control may set other speeds
-//! without the driver's knowledge. So every `D` is followed by an `E`.
+//! `Q` tells what the wheels do; `E` tells the speeds that the firmware uses. The robot answers `d`
+//! even to a command that lost a byte on its way. A remote control may set other speeds without the
+//! driver's knowledge. So every `D` is followed by an `E`.
 //!
 //! A step is `D`, `E`, the time step, `N`, `Q`. The robot drives on while these lines are
 //! exchanged. So let `wait` return one step after it last returned, as below, rather than sleep for
@@ -243,7 +243,7 @@ impl<P: Read + Write, W: FnMut(Duration)> Robot for SerialEpuck<P, W> {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SerialError {
-    /// It does not answer.
+    /// The e-puck does not answer.
     #[error(
         "the e-puck does not answer in time: check that it is switched on and the port's time-out"
     )]

@@ -126,7 +126,7 @@ pub struct MapLink {
 /// A place where a robot may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guess {
-    /// Position.
+    /// Position of the place.
     pub at: Position,
     /// Probability, 0 to 1.
     pub weight: f64,

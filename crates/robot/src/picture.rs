@@ -6,7 +6,7 @@ use tolman_geom::Point;
 /// A colour picture of what lies ahead.
 ///
 /// Straight lines stay straight: the camera is a pinhole. The left of the picture is on the robot's
-/// left; a map that is made from a mirrored picture is a mirror image of the world.
+/// left. A map made from a mirrored picture is a mirror image of the world.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Picture {
@@ -58,8 +58,8 @@ impl Picture {
         self.pixels.get(index).copied()
     }
 
-    /// Returns how far to the left of the picture's middle the middle of a column looks, as the
-    /// tangent of the angle.
+    /// Returns the tangent of the angle between the picture's middle and the middle of a column,
+    /// positive to the left.
     ///
     /// ```
     /// use tolman_robot::{Picture, pioneer_2dx};
@@ -74,8 +74,8 @@ impl Picture {
         share_before_middle(column, self.width) * 2.0 * libm::tan(0.5 * self.camera.field_across)
     }
 
-    /// Returns how far above the picture's middle the middle of a row looks, as the tangent of the
-    /// angle.
+    /// Returns the tangent of the angle between the picture's middle and the middle of a row,
+    /// positive upwards.
     #[must_use]
     pub fn upward(&self, row: u32) -> f64 {
         share_before_middle(row, self.height) * 2.0 * libm::tan(0.5 * self.camera.field_down)

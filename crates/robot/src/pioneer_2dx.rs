@@ -24,7 +24,7 @@ pub const FRONT: f64 = 0.18;
 /// Radius of a wheel, m.
 pub const WHEEL_RADIUS: f64 = 0.0825;
 
-/// From wheel to wheel, m.
+/// Distance between the wheels, m.
 pub const TRACK: f64 = 0.3206;
 
 /// Number of sonars.
@@ -68,7 +68,7 @@ const MOUNTS: [(f64, f64, f64); SONARS] = [
     (-0.157, 0.136, 90.0),
 ];
 
-/// Returns where each sonar sits and looks, in the robot's frame.
+/// Returns the pose of each sonar in the robot's frame.
 ///
 /// ```
 /// use tolman_robot::pioneer_2dx;

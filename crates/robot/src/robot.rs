@@ -58,7 +58,7 @@ pub trait Standstill {
     const STOP: Self;
 }
 
-/// Standing still is no change.
+/// Standing still does not count as a change.
 impl Standstill for f64 {
     const STOP: Self = 0.0;
 }

@@ -55,9 +55,9 @@ pub enum Goal {
 /// State of a task after an action.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// It goes on.
+    /// The task goes on.
     UnderWay,
-    /// It is done, as far as the system can tell.
+    /// The task is done, as far as the system can tell.
     Done,
     /// The system gave up.
     GaveUp {
@@ -67,7 +67,7 @@ pub enum Standing {
 }
 
 impl Standing {
-    /// Returns that the system gave up, and `why`.
+    /// Returns the standing of a system that gave up, with the reason `why`.
     pub fn gave_up(why: impl Into<String>) -> Self {
         Self::GaveUp { why: why.into() }
     }

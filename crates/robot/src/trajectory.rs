@@ -45,7 +45,7 @@ impl Trajectory {
         &self.poses
     }
 
-    /// Returns where it was at `time`, s, between the poses before and after in proportion; `None`
+    /// Returns the pose at `time`, s, between the poses before and after in proportion; `None`
     /// before the first and after the last. O(log n).
     #[must_use]
     pub fn at(&self, time: f64) -> Option<Pose> {

@@ -131,7 +131,7 @@ fn scan(
     );
 }
 
-/// Poses of a robot that keeps off the walls.
+/// Returns poses of a robot that keeps off the walls.
 fn poses(maze: &Maze, rng: &mut ChaCha8Rng) -> Vec<Pose> {
     let mut along = |count: u16| {
         f64::from(rng.random_range(0..u32::from(count))) + 0.3 + 0.4 * rng.random::<f64>()

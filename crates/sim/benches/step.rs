@@ -85,7 +85,7 @@ fn main() {
     println!("{table}");
 }
 
-/// A hundred e-pucks that see each other.
+/// Times a hundred e-pucks that see each other.
 fn epucks(criterion: &mut Criterion, table: &mut Table) {
     const COUNT: u32 = 100;
     let mut rng = ChaCha8Rng::seed_from_u64(8);
@@ -175,7 +175,7 @@ fn command(rng: &mut ChaCha8Rng) -> TurnTranslate {
     }
 }
 
-/// Robots at random places of the world.
+/// Returns robots at random places of the world.
 fn crowd<M: Model>(
     world: World,
     robot: impl Fn() -> M,

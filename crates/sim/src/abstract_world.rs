@@ -169,14 +169,14 @@ impl AbstractWorld {
         self
     }
 
-    /// Returns where the places are, m, by number.
+    /// Returns the positions of the places, m, by number.
     #[must_use]
     pub fn places(&self) -> &[Point] {
         &self.places
     }
 
-    /// Returns where a direction leads from a place, or `None` where it is blocked or the place
-    /// does not exist.
+    /// Returns the place to which a direction leads from a place. `None` if it is blocked or the
+    /// place does not exist.
     #[must_use]
     pub fn neighbour(&self, place: u32, direction: Direction) -> Option<u32> {
         self.neighbours.get(place as usize)?[direction as usize]
@@ -239,11 +239,11 @@ pub struct AbstractRobot {
 /// A move with its truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbstractMove {
-    /// The place it began at.
+    /// Place where the move began.
     pub from: u32,
     /// The direction that was gone.
     pub direction: Direction,
-    /// The place it ended at.
+    /// Place where the move ended.
     pub to: u32,
     /// True displacement of the robot, m.
     pub truth: Vector,
@@ -252,7 +252,7 @@ pub struct AbstractMove {
     /// Bounds of the move by its measurement, without the shared scale and outliers: the
     /// displacement along the true axes, m, and the heading.
     pub odometry: PoseBox,
-    /// What it sees in each direction, in the order of [`Direction::ALL`].
+    /// Looks of the place in each direction, in the order of [`Direction::ALL`].
     pub look: [f64; 4],
 }
 
@@ -323,7 +323,7 @@ impl AbstractRobot {
         chance.draws(Channel::named(channel))
     }
 
-    /// Returns what it sees now.
+    /// Returns the view of the robot now.
     #[must_use]
     pub fn look(&self) -> [f64; 4] {
         let mut draws = self.draws("abstract look");

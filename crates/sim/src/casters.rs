@@ -9,7 +9,7 @@
 //! A world chooses one of the first two itself. `ParryPolyline` is there to judge them: it shares
 //! no line with them. If you write a caster, or doubt a range in a world of your own, you can
 //! hold one to the other. That is why the feature `parry2d` is on by default. Without it the
-//! simulator computes the same bits, builds 14 crates fewer, and `ParryPolyline` is no name the
+//! simulator computes the same bits, builds 14 crates fewer, and `ParryPolyline` is not a name the
 //! compiler knows.
 //!
 //! **What touching means.** A wall is a closed segment, so a ray into the joint of two walls never

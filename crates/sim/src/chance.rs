@@ -30,7 +30,7 @@ pub struct Chance {
 }
 
 impl Chance {
-    /// Returns the chance of the run seeded by `run`: robot 0 at tick 0.
+    /// Returns the random numbers of the run seeded by `run`: robot 0 at tick 0.
     #[must_use]
     pub const fn of_run(run: u64) -> Self {
         Self {
@@ -67,7 +67,7 @@ impl Chance {
     }
 }
 
-/// Who draws: one consumer of [`Chance`].
+/// Consumer of random numbers from [`Chance`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Channel(u32);
 

@@ -14,7 +14,7 @@ use crate::{Motion, WallSegment, World};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Contact {
-    /// It stays where it touched. A disc still turns.
+    /// The body stays where it touched. A disc still turns.
     Stop,
     /// The rest of its path goes along what it touched.
     Slide,

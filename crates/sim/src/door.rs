@@ -24,12 +24,12 @@ pub struct Door {
     pub start: Point,
     /// The other end, m.
     pub end: Point,
-    /// Material.
+    /// Material of the door.
     #[serde(default)]
     pub material: Material,
     /// State when a run begins.
     pub state: DoorState,
-    /// When it changes by itself, in order of time.
+    /// Changes that the door makes by itself, in order of time.
     #[serde(default)]
     pub schedule: Vec<DoorEvent>,
 }
@@ -49,7 +49,7 @@ impl Door {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DoorEvent {
-    /// Microseconds since the run began.
+    /// Time since the run began, µs.
     pub time_us: u64,
     /// State of the door from then on.
     pub state: DoorState,

@@ -8,7 +8,7 @@
 //! implement [`Disturbance`], and give it to the robot after it was built. [`Noise`] makes one of
 //! any distribution of `rand` or `rand_distr`.
 //!
-//! Kidnapping is no fault of the robot: see
+//! Kidnapping is not a fault of the robot: see
 //! [`Simulation::place`](crate::Simulation::place).
 
 use tolman_geom::Heading;

@@ -266,7 +266,7 @@ impl<M: Model> Simulation<M> {
         Ok(())
     }
 
-    /// Returns what a robot sensed last.
+    /// Returns the latest readings of a robot.
     ///
     /// # Panics
     /// If `robot` is of another simulation.
@@ -310,7 +310,7 @@ impl<M: Model> Simulation<M> {
         self.tick
     }
 
-    /// Microseconds since the run began.
+    /// Returns the simulated time since the run began, µs.
     #[must_use]
     pub fn time_us(&self) -> u64 {
         self.tick * self.step_us

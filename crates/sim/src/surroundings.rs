@@ -22,7 +22,7 @@ pub struct Ray {
     pub direction: Vector,
 }
 
-/// What a ray meets.
+/// Answer to a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Echo {
     /// Distance, m; the ray's whole length if it meets nothing.
@@ -50,8 +50,8 @@ impl<'a> Surroundings<'a> {
         self.scene.world
     }
 
-    /// Returns how far a ray goes before it meets a wall, a shut door or another robot, m;
-    /// `max_range` if it meets nothing before. `direction` is a unit vector in the world.
+    /// Returns the range of a ray up to a wall, a shut door or another robot, m; `max_range` if it
+    /// meets nothing before. `direction` is a unit vector in the world.
     #[must_use]
     pub fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64 {
         let range = self.world().caster().cast(origin, direction, max_range);
@@ -65,8 +65,8 @@ impl<'a> Surroundings<'a> {
         doors.chain(bodies).fold(range, f64::min)
     }
 
-    /// Returns what each ray meets first within `max_range` m: a wall, a shut door or another
-    /// robot.
+    /// Returns the first thing that each ray meets within `max_range`, m: a wall, a shut door or
+    /// another robot.
     #[must_use]
     pub fn echoes<const N: usize>(&self, rays: &[Ray; N], max_range: f64) -> [Echo; N] {
         let caster = self.world().caster();

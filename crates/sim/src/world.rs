@@ -190,7 +190,7 @@ impl World {
         }
     }
 
-    /// This world with a further zone.
+    /// Returns this world with a further zone.
     ///
     /// # Errors
     /// If there is a zone of that name, or a number of it is not one.
@@ -198,7 +198,7 @@ impl World {
         self.with_zones([zone])
     }
 
-    /// This world with further zones. O(n log n).
+    /// Returns this world with further zones. O(n log n).
     ///
     /// # Errors
     /// As [`World::with_zone`], of the first zone that does not fit.
@@ -219,16 +219,16 @@ impl World {
         Ok(self)
     }
 
-    /// This world with a further door.
+    /// Returns this world with a further door.
     ///
     /// # Errors
-    /// If there is already a door of that name, the door has no length, one of its numbers is
-    /// invalid, or its schedule is not in order of time.
+    /// If there is already a door of that name, or the door has no length. Also if one of its
+    /// numbers is invalid, or its schedule is not in order of time.
     pub fn with_door(self, door: Door) -> Result<Self, WorldError> {
         self.with_doors([door])
     }
 
-    /// This world with further doors. O(n log n).
+    /// Returns this world with further doors. O(n log n).
     ///
     /// # Errors
     /// As [`World::with_door`], of the first door that does not fit.
@@ -244,8 +244,9 @@ impl World {
         Ok(self)
     }
 
-    /// This world seen through another ray caster, which must be one of its walls. The built-in
-    /// choice is [`LatticeWalk`] for mazes and occupancy grids, [`WallIndex`] for free walls.
+    /// Returns this world seen through another ray caster, which must be made from the same walls.
+    /// The built-in choice is [`LatticeWalk`] for mazes and occupancy grids, [`WallIndex`] for free
+    /// walls.
     #[must_use]
     pub fn with_caster(mut self, caster: Arc<dyn Caster>) -> Self {
         self.caster = caster;
@@ -345,7 +346,7 @@ impl World {
         Some(Cell::new(along(point.x, width)?, along(point.y, height)?))
     }
 
-    /// Returns how far `point` is from the nearest wall, m. Doors do not count.
+    /// Returns the distance of `point` from the nearest wall, m. Doors do not count.
     #[must_use]
     pub fn nearest_wall_distance(&self, point: Point) -> f64 {
         self.walls

@@ -42,7 +42,7 @@ fn main() -> Result<(), SampleError> {
     );
     assert!(longer > 0.5);
 
-    // Nine of ten against six of ten is no evidence yet.
+    // Nine of ten against six of ten is not evidence yet.
     let more = rate_difference_interval((9, 10), (6, 10), 0.95)?;
     assert!(more.contains(0.0));
     Ok(())

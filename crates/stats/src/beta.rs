@@ -23,7 +23,7 @@ pub(super) fn regularized_incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
 
 /// Returns 1 + d₁/(1 + d₂/(1 + …)).
 fn continued_fraction(a: f64, b: f64, x: f64) -> f64 {
-    /// In place of a zero denominator.
+    /// Denominator in place of zero.
     const TINY: f64 = 1e-300;
     let not_zero = |value: f64| if value.abs() < TINY { TINY } else { value };
     let (mut fraction, mut upper, mut lower) = (1.0, 1.0, 0.0);

@@ -10,9 +10,9 @@ use super::{ConfidenceInterval, SampleError, wilson_interval};
 pub struct SampleSummary {
     /// Number of values.
     pub count: u64,
-    /// Mean.
+    /// Mean of the values.
     pub mean: f64,
-    /// Standard deviation.
+    /// Standard deviation of the values.
     pub sd: f64,
 }
 

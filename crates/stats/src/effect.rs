@@ -4,9 +4,9 @@ use super::SampleError;
 use super::mann_whitney::u_statistic;
 use super::moments::count;
 
-/// Vargha and Delaney's A₁₂ ("A critique and improvement of the CL common language effect size
-/// statistics", 2000). It is the probability that a value of `a` is greater than one of `b`; ties
-/// count half. 0.5 is no difference. O(n log n).
+/// Returns Vargha and Delaney's A₁₂ ("A critique and improvement of the CL common language effect
+/// size statistics", 2000). It is the probability that a value of `a` is greater than one of `b`;
+/// ties count half. 0.5 means no difference. O(n log n).
 ///
 /// ```
 /// use tolman_stats::a12;

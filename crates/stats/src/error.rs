@@ -47,7 +47,7 @@ pub enum SampleError {
         trials: u64,
     },
     /// A probability or confidence level out of range.
-    #[error("{value} is not a probability between 0 and 1")]
+    #[error("{value} is not a probability; give a number between 0 and 1")]
     Probability {
         /// The value.
         value: f64,

@@ -1,8 +1,8 @@
 //! Statistics for comparing samples of runs, held to SciPy's values by golden files.
 //!
-//! Samples are slices of finite numbers; anything else is a [`SampleError`]. p-values are kept as
-//! logarithms ([`PValue`]), so the deep tails of large samples do not underflow. All functions are
-//! deterministic on every platform; the bootstrap draws from the caller's generator.
+//! Samples are slices of finite numbers; anything else is a [`SampleError`]. A [`PValue`] keeps its
+//! logarithm, so the deep tails of large samples do not underflow. All functions are deterministic
+//! on every platform; the bootstrap draws from the caller's generator.
 //!
 //! # Two systems compared
 //!

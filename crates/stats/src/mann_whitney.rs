@@ -16,8 +16,8 @@ pub struct MannWhitney {
     pub method: Method,
 }
 
-/// Mann and Whitney's U test ("On a test of whether one of two random variables is stochastically
-/// larger than the other", 1947), two-sided.
+/// Returns the result of Mann and Whitney's U test, two-sided. Source: "On a test of whether one of
+/// two random variables is stochastically larger than the other" (1947).
 ///
 /// [`Method::Auto`] is exact if one sample has at most 8 values and there are no ties. Otherwise it
 /// is asymptotic with corrections for ties and continuity, as in SciPy. O(N log N), and for the
@@ -69,8 +69,8 @@ pub(super) fn u_statistic(a: &[f64], b: &[f64]) -> Result<(f64, f64), SampleErro
 /// Returns the probability that U is `u` or more under the hypothesis, for samples of `n` and `m`
 /// values without ties.
 ///
-/// N(u; n, m) arrangements have U = u, and N(u; n, m) = N(u; n, m − 1) + N(u − m; n − 1, m): the
-/// greatest value is of the one sample or of the other. Only sums, so nothing cancels.
+/// N(u; n, m) arrangements have U = u. The greatest value is of one sample or of the other, so N(u;
+/// n, m) = N(u; n, m − 1) + N(u − m; n − 1, m). These are sums only, so nothing cancels.
 fn exact_tail(n: usize, m: usize, u: f64) -> f64 {
     let (n, m) = (n.min(m), n.max(m));
     let mut ways = vec![vec![0.0_f64; n * m + 1]; n + 1];

@@ -10,8 +10,8 @@ use super::{ConfidenceInterval, SampleError};
 /// probability `level`, and draws no random numbers. It also suits samples with ties, where a
 /// bootstrap sees only a few values.
 ///
-/// The ends are the kth least and the kth greatest value. k is the greatest for which fewer than k
-/// of n fair coins show heads with a probability of at most (1 − level) / 2.
+/// The ends are the kth least and the kth greatest value. Fewer than k of n fair coins show heads
+/// with a probability of at most (1 − level) / 2. k is as great as this allows.
 ///
 /// O(n log n).
 ///
@@ -26,7 +26,7 @@ use super::{ConfidenceInterval, SampleError};
 /// ```
 ///
 /// # Errors
-/// If the sample is not finite or `level` is not a probability, or if the sample is too small:
+/// If the sample is not finite or `level` is not a probability. Also if the sample is too small:
 /// even its least and greatest value then hold the median less often than `level`. 0.95 needs 6
 /// values.
 pub fn median_interval(sample: &[f64], level: f64) -> Result<ConfidenceInterval, SampleError> {

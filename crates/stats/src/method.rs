@@ -8,9 +8,9 @@ pub enum Method {
     /// Exact for small samples without ties, else asymptotic.
     #[default]
     Auto,
-    /// From the exact distribution; refused if there are ties.
+    /// Computes the exact distribution; refused if there are ties.
     Exact,
-    /// From the normal distribution, with corrections for ties and continuity.
+    /// Uses the normal distribution, with corrections for ties and continuity.
     Asymptotic,
 }
 

@@ -4,8 +4,8 @@ use super::beta::regularized_incomplete_beta;
 use super::error::check_probability;
 use super::{ConfidenceInterval, SampleError, normal};
 
-/// Wilson's score interval of a success rate ("Probable inference, the law of succession, and
-/// statistical inference", 1927), between 0 and 1.
+/// Returns Wilson's score interval of a success rate, between 0 and 1. Source: "Probable inference,
+/// the law of succession, and statistical inference" (1927).
 ///
 /// # Errors
 /// If there are no trials, more successes than trials, or the level is not a probability.
@@ -26,8 +26,9 @@ pub fn wilson_interval(
     ))
 }
 
-/// Returns the exact binomial interval of a success rate (Clopper and Pearson, "The use of
-/// confidence or fiducial limits illustrated in the case of the binomial", 1934), between 0 and 1.
+/// Returns the exact binomial interval of a success rate, between 0 and 1. Source: Clopper and
+/// Pearson, "The use of confidence or fiducial limits illustrated in the case of the binomial"
+/// (1934).
 ///
 /// ```
 /// use tolman_stats::exact_binomial_interval;

@@ -12,12 +12,13 @@ pub struct Wilcoxon {
     pub rank_sum: f64,
     /// The two-sided p-value.
     pub p: PValue,
-    /// How the p-value was found: exact or asymptotic.
+    /// Method of the p-value: exact or asymptotic.
     pub method: Method,
 }
 
-/// Wilcoxon's signed-rank test ("Individual comparisons by ranking methods", 1945) of the
-/// differences `a[i] - b[i]`, two-sided. Pairs without a difference are left out.
+/// Returns the result of Wilcoxon's signed-rank test of the differences `a[i] - b[i]`, two-sided.
+/// Source: "Individual comparisons by ranking methods" (1945). Pairs without a difference are left
+/// out.
 ///
 /// [`Method::Auto`] is exact for at most 50 pairs without ties or zero differences, and otherwise
 /// asymptotic with corrections for ties and continuity. O(n log n), and O(n³) if exact.

@@ -55,7 +55,7 @@ pub enum FileError {
     #[error("this map is cut off: copy it again, or make one with `tolman learn`")]
     CutOff(#[source] serde_json::Error),
     /// The format is that of another kind of file.
-    #[error("its format is {found:?}, expected {FORMAT:?}")]
+    #[error("its format is {found:?}, expected {FORMAT:?}: give a file that `tolman learn` wrote")]
     Format {
         /// Format that the file names.
         found: String,
@@ -71,9 +71,7 @@ pub enum FileError {
         system: &'static str,
     },
     /// The file was written by a later tolman.
-    #[error(
-        "its version is {found}, but this program reads no later one than {VERSION}: update tolman"
-    )]
+    #[error("its version is {found}, but this program reads only up to {VERSION}: update tolman")]
     LaterVersion {
         /// Version that the file names.
         found: u32,

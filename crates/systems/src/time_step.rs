@@ -33,7 +33,7 @@ pub struct RolledStep {
     pub bump: Option<bool>,
 }
 
-/// What a brain can observe of a robot at the end of a time step.
+/// View that a brain has of a robot at the end of a time step.
 pub trait OfStep<R>: Sized {
     /// Returns the observation of `robot` while it is `doing` that.
     fn of_step(robot: &R, doing: Doing) -> Self;
@@ -85,7 +85,7 @@ impl Doing {
 }
 
 impl TimeStep {
-    /// Returns what `robot` senses at the end of a time step in which it was `doing` that.
+    /// Returns the readings of `robot` at the end of a time step in which it was `doing` that.
     pub fn of<R>(robot: &R, doing: Doing) -> Self
     where
         R: SensesLandmarks,

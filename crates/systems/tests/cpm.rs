@@ -1,4 +1,4 @@
-//! CPM on a robot that is no simulator's: proximity by ray casting in a few lines, wheels by plane
+//! CPM on a robot without the simulator: proximity by ray casting in a few lines, wheels by plane
 //! geometry.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 

@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Errors as text, which can change threads.
+/// Explores a maze. Returns an error as text, which can change threads.
 fn explore(path: &Path, config: &SpeedRunConfig) -> Result<SpeedRunExploration, String> {
     let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
     let file = tolman_maze::read(&text).map_err(|error| error.to_string())?;

@@ -143,7 +143,7 @@ pub struct Setup<'a> {
     pub terrain: &'a Terrain,
     /// Seed of all random numbers: the same seed gives the same result.
     pub seed: u64,
-    /// Where the robot starts; `None` for the system's default.
+    /// Start of the robot; `None` for the system's default.
     pub start: Option<Start>,
     /// Number of time steps after which it has failed; `None` for the system's default.
     pub steps: Option<u32>,
@@ -179,7 +179,7 @@ impl Setup<'_> {
         )
     }
 
-    /// Returns where the robot starts on `course`: the start that was given, or else `usual`.
+    /// Returns the start of the robot on `course`: the one that was given, or else `usual`.
     /// `random` is called for a random one.
     ///
     /// # Errors
@@ -330,7 +330,7 @@ pub(crate) fn pioneer_at(course: &Course, start: Pose, seed: u64) -> Result<Cour
     Ok(course.robot_at(start, LaserPioneer::new(calibrated())?, seed)?)
 }
 
-/// Returns where a robot with this body starts on `course`: at the given start, or at random.
+/// Returns the start of a robot with this body on `course`: the given one, or a random one.
 ///
 /// # Errors
 /// As [`Setup::start`].

@@ -106,7 +106,7 @@ fn commands_of_help(verb: &[String]) -> Vec<String> {
     let help = String::from_utf8(help.stdout).unwrap();
     let lines = help.lines().map(str::trim);
     lines
-        // A second line of usage is no command.
+        // A second line of usage is not a command.
         .filter(|line| line.starts_with("tolman ") && !line.ends_with("<COMMAND>"))
         .map(str::to_owned)
         .collect()

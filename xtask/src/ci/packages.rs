@@ -30,7 +30,7 @@ impl Package {
         })
     }
 
-    /// Its name in files.
+    /// Returns the package's name in files.
     fn stem(&self) -> String {
         format!("{}-{}", self.name, self.version)
     }

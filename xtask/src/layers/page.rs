@@ -24,7 +24,7 @@ pub(crate) struct CrateRow {
     pub(super) may_use: Vec<String>,
 }
 
-/// What a crate needs of the standard library with its default features off.
+/// Part of the standard library that a crate needs with its default features off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Library {
     /// Nothing, or an allocator: it builds for bare metal.

@@ -21,7 +21,7 @@ pub(super) fn faults(
         let package = format!("tolman-{name}");
         let Some(package) = packages.iter().find(|other| other.name == package) else {
             faults.push(format!(
-                "`{name}` stands under API boundaries but is no crate of the workspace: remove it"
+                "`{name}` stands under API boundaries but is not a crate of the workspace: remove it"
             ));
             continue;
         };

@@ -77,7 +77,7 @@ fn census(page: &Page, packages: &[Package]) -> Vec<String> {
     for row in &page.crates {
         if !packages.iter().any(|package| package.name == row.name) {
             faults.push(format!(
-                "{} stands in the layer table but is no crate of the workspace: remove its row",
+                "{} stands in the layer table but is not a crate of the workspace: remove its row",
                 row.name
             ));
         }
@@ -300,7 +300,7 @@ mod tests {
         );
         check(
             &faults_of(&page, &[]),
-            &["maps stands in the layer table but is no crate"],
+            &["maps stands in the layer table but is not a crate"],
         );
     }
 }

@@ -9,10 +9,10 @@ use tolman_systems::stream;
 use crate::diktiometry::SurveyorConfig;
 use crate::pioneer::without_noise;
 
-/// How robot and world differ from how they are made.
+/// Change of robot and world, of which the system is not told.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Condition {
-    /// They do not differ.
+    /// Nothing is changed.
     #[default]
     AsMade,
     /// Each wheel is off by a constant of at most this many percent.
@@ -47,7 +47,7 @@ const WHEEL_STREAM: u64 = 32;
 const DOOR_STREAM: u64 = 33;
 
 impl Condition {
-    /// As made, and all conditions that are worse.
+    /// All conditions: as made, then those that are worse.
     pub const ALL: [Self; 10] = [
         Self::AsMade,
         Self::Wheels(1),

@@ -80,7 +80,7 @@ pub(super) struct Entered {
     pub(super) pitch: f64,
 }
 
-/// What contestants learn before they are sent out; learned once.
+/// Knowledge that contestants learn once, before they are sent out.
 #[derive(Debug, Default)]
 pub struct Schooling {
     epuck: OnceLock<CommonPatterns>,
@@ -223,8 +223,8 @@ impl Contestant {
         }
     }
 
-    /// Returns which cells are its places. If it takes another cell with two ways for a place, that
-    /// cell counts as part of a way.
+    /// Returns the rule for the cells that are places of this system. If it takes another cell with
+    /// two ways for a place, that cell counts as part of a way.
     #[must_use]
     pub const fn places(self) -> PlaceRule {
         match self {

@@ -137,7 +137,7 @@ pub(super) fn stands_for(
     (stands_for, (all > 0).then(|| share(pure, all)))
 }
 
-/// What a chain of links on the map matches in truth.
+/// True counterpart of a chain of links on the map.
 enum Matched {
     /// The true way with this index.
     Way(usize),
@@ -157,7 +157,7 @@ struct Chain {
 struct Chart<'a> {
     stands_for: &'a BTreeMap<u32, Cell>,
     truth: &'a TrueGraph,
-    /// By place: its links and where they lead. A link from a place to itself is listed twice.
+    /// Links of each place, and where they lead. A link from a place to itself is listed twice.
     links: BTreeMap<u32, Vec<(usize, u32)>>,
 }
 

@@ -35,7 +35,7 @@ pub struct Contest<'a> {
     pub maze: &'a Maze,
     /// Name of the drawing.
     pub name: &'a str,
-    /// How robot and world differ from how they are made.
+    /// Change of robot and world.
     pub condition: Condition,
     /// Number of times that it is put down to localize, and again to drive to the goal.
     pub starts: u32,
@@ -103,7 +103,7 @@ pub struct ContestRecord {
 /// Result of learning a world.
 #[derive(Clone, Debug)]
 pub struct LearnRecord {
-    /// How learning ended.
+    /// End of the learning.
     pub end: TaskEnd,
     /// The system's verdict on its own map.
     pub claim: Claim,
@@ -179,11 +179,11 @@ impl LearnRecord {
 /// A system's answer to where it was put down.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LocateOutcome {
-    /// It says where it is, and is right.
+    /// The system says where it is, and is right.
     Right,
-    /// It says where it is, and is wrong.
+    /// The system says where it is, and is wrong.
     Wrong,
-    /// It does not answer.
+    /// The system does not answer.
     Abstained {
         /// Reason, as a sentence without a full stop.
         why: String,
@@ -337,8 +337,8 @@ impl<'a> Contest<'a> {
         Ok(Some(informed))
     }
 
-    /// Returns where the robot is put down, to localize and to drive to the goal: random cells and
-    /// ways out of them, never a goal.
+    /// Returns the cells in which the robot is put down, with the direction it looks: to localize
+    /// and to drive to the goal. They are random cells and ways out of them, never a goal.
     #[must_use]
     pub fn put_downs(&self) -> Vec<[(Cell, Direction); 2]> {
         let mut rng = stream(self.seed, START_STREAM);
@@ -478,11 +478,11 @@ pub(super) struct Pursuit {
     idle: u32,
     /// Metres until it first was at the goal that it was sent to.
     arrived: Option<f64>,
-    /// Where it was put, and the pose of its path that came next.
+    /// Position where the robot was put, and the index of the next pose of its path.
     put: Option<(Point, usize)>,
 }
 
-/// How a task went.
+/// Course of a task.
 pub(super) struct Driven {
     pub(super) end: TaskEnd,
     /// Index of its first time step.
@@ -495,12 +495,12 @@ pub(super) struct Driven {
     pub(super) metres: f64,
 }
 
-/// Where a robot truly was while it learned.
+/// True positions of a robot while it learned.
 #[derive(Default)]
 pub(super) struct TrueVisits {
     /// The cell in which it came to each of its places.
     arrivals: Vec<Cell>,
-    /// What it believed after each action.
+    /// Place that the system believed in after each action.
     beliefs: Vec<PlaceVisit>,
 }
 
@@ -920,7 +920,7 @@ mod tests {
         }
     }
 
-    /// A stopwatch that advances by a millisecond with each call.
+    /// Returns the time of a stopwatch that advances by a millisecond with each call.
     fn ticking() -> Duration {
         use core::sync::atomic::{AtomicU64, Ordering};
         static TICKS: AtomicU64 = AtomicU64::new(0);

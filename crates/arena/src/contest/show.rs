@@ -27,7 +27,7 @@ pub struct ShowRecord {
     pub gave_up: String,
 }
 
-/// How a robot localized.
+/// Result of localizing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundOut {
     /// Its answer.

@@ -34,11 +34,11 @@ enum Stage {
 /// Result of a task of a [`SteppedContest`].
 #[derive(Clone, Debug)]
 pub enum TaskRecord {
-    /// It has learned.
+    /// The system has learned.
     Learned(LearnRecord),
-    /// It has found out where it was put down, or not.
+    /// The system has found out where it was put down, or not.
     Found(FoundOut),
-    /// It has gone to the goal, or not.
+    /// The system has gone to the goal, or not.
     Home(WayHome),
 }
 

@@ -3,7 +3,7 @@ use alloc::collections::BTreeSet;
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Landmark;
 
-/// Which cells of a drawing are places, depending on what a system can distinguish.
+/// Rule for the cells of a drawing that are places, depending on what a system can distinguish.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceRule {
     /// Junctions, dead ends, the start and the goals. A bend is part of a way.

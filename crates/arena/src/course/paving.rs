@@ -13,7 +13,7 @@ use super::CourseError;
 pub(super) struct Paving {
     /// The south-west corner of cell (0, 0), m.
     origin: Point,
-    /// From one middle to the next, m.
+    /// Distance between the middles of neighbouring cells, m.
     pub(super) pitch: f64,
     grid: Grid,
     /// Minimum distance of the body's centre from a wall, m.

@@ -5,7 +5,7 @@ use tolman_robot::epuck::BODY_RADIUS;
 use super::robots::epuck;
 use crate::course::{Course, CourseError, Terrain};
 
-/// From wall to wall where nothing else is said, m.
+/// Width of corridors from wall to wall if the maze file gives none, m.
 pub const CORRIDOR_WIDTH: f64 = 0.25;
 
 /// Minimum and maximum width of corridors, m, at which Mazes 1 to 3 are learned correctly. In

@@ -25,11 +25,11 @@ pub struct Distinctness {
 pub struct WalkPair {
     /// One of them, by the places it led from and to.
     pub one: (Cell, Cell),
-    /// The other.
+    /// The other fragment, by the places it led from and to.
     pub other: (Cell, Cell),
     /// Whether the other is compared as it was walked, or inverted.
     pub sense: Sense,
-    /// f_S.
+    /// Similarity f_S of the two, 0 to 1.
     pub score: f64,
 }
 

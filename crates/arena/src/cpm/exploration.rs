@@ -27,7 +27,7 @@ pub struct Exploration {
     /// Number of fragments of the shortest walk from the start through all of them, with full
     /// knowledge of the maze. `None` if it takes too long to find.
     pub best: Option<u32>,
-    /// When the last fragment was walked, s, or `None` if one was not.
+    /// Time when the last fragment was walked, s; `None` if one was not.
     pub seconds: Option<f64>,
     /// Theorem 1's bound of that time, with the times that the robot took, s.
     pub bound: f64,
@@ -91,7 +91,7 @@ impl CpmTrial<'_> {
     }
 }
 
-/// Fragments of the shortest walk that begins at the start and has been through all of a maze.
+/// Returns the number of fragments of the shortest walk from the start through all of a maze.
 fn best_walk(maze: &Maze) -> Option<u32> {
     let (start, _) = maze.start()?;
     let ways = TrueFragments::of(maze).graph(maze, |_| Some(1));

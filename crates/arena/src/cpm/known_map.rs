@@ -21,7 +21,7 @@ pub(super) struct KnownMap<'a> {
     visits: Vec<Visit>,
     /// The first walk along each fragment.
     walks: BTreeMap<u32, Ends>,
-    /// From visit to visit, with its length.
+    /// Fragments from visit to visit, each with its length.
     arcs: Vec<(u32, u32, u32)>,
 }
 

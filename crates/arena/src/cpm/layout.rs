@@ -28,7 +28,7 @@ use super::fragments::{DIRECTIONS, along};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
-    /// With the direction of port 0.
+    /// Cell and direction of port 0 of each junction.
     places: BTreeMap<JunctionId, (Cell, Direction)>,
     fragments: BTreeMap<FragmentId, Lie>,
     open: Vec<OpenPort>,
@@ -48,7 +48,7 @@ pub struct OpenPort {
 /// Position of a fragment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lie {
-    /// From − to +, with the places at both ends.
+    /// Cells from − to +, with the places at both ends.
     pub cells: Vec<Cell>,
     /// Whether the map has both its ends where the maze has them.
     pub fit: Fit,
@@ -57,7 +57,7 @@ pub struct Lie {
 /// Whether map and maze agree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
-    /// They do.
+    /// Map and maze agree.
     Agrees,
     /// The map says that it leads to another place, or another port of it.
     Astray,
@@ -158,7 +158,7 @@ impl Layout {
         self.places.iter().map(|(id, (cell, _))| (*id, *cell))
     }
 
-    /// Returns where a fragment lies.
+    /// Returns the cells in which a fragment lies.
     #[must_use]
     pub fn fragment(&self, fragment: FragmentId) -> Option<&Lie> {
         self.fragments.get(&fragment)

@@ -18,8 +18,7 @@ use crate::course::Course;
 use crate::pioneer::{CORRIDOR_WIDTH, calibrated};
 use crate::run::{Ended, Limited, TaskEnd, run};
 
-/// Who tells the robot what it stands at.
-/// Explorations take 30 000.
+/// Maximum number of time steps. Explorations take 30 000.
 const STEP_LIMIT: u32 = 100_000;
 
 /// A loop with two forks, each with a way to a dead end; one of these is the goal.

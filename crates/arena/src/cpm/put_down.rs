@@ -54,17 +54,17 @@ pub struct PutDownRecord {
     /// Probability that an ideal observer would know maze, fragment and direction before the first
     /// place, by the corridor's bends, 0 to 1.
     pub knowable_by_bends: f64,
-    /// The same if the observer also saw the place ahead, and the ways to the sides of the place
-    /// behind if it stands beside that. No robot knows more on average.
+    /// Probability that the observer would know them if it saw more: the place ahead, and the ways
+    /// to the sides of the place behind, if it stands beside that. No robot knows more on average.
     pub knowable_by_places: f64,
     /// Whether the robot knew them then; not if it had observed nothing.
     pub is_right_under_way: bool,
-    /// The same at that place.
+    /// Whether the robot was right at that place.
     pub is_right_at_first_place: bool,
-    /// The same within one further fragment (section 8): at that place if it was sure there, else
-    /// before it came to the next.
+    /// Whether the robot was right within one further fragment (section 8). That is at that place
+    /// if it was sure there, else before it came to the next.
     pub is_right_within_one_further: bool,
-    /// The same at the last place, where it was sure or gave up.
+    /// Whether the robot was right at the last place, where it was sure or gave up.
     pub is_right_at_last: bool,
     /// Whether SOINN-AM recalled the right maze of the first fragment walked whole, or `None` if
     /// the robot knew before where it was.
@@ -86,8 +86,8 @@ impl KnownMaze<'_> {
 }
 
 impl PutDown<'_> {
-    /// Plays it and returns the record; `None` if the map has no fragment that is long enough to be
-    /// put down in.
+    /// Plays the run and returns the record; `None` if the map has no fragment that is long enough
+    /// to be put down in.
     ///
     /// # Errors
     /// [`CpmTrialError`].

@@ -38,8 +38,8 @@ pub fn slow_epuck() -> EpuckConfig {
     config
 }
 
-/// Returns how the paper's robot drives and observes in corridors of this width, m. It takes one
-/// sample of a sweep per time step, so the time step sets the speed of a sweep.
+/// Returns the configuration of the paper's robot in corridors `width` wide, m. It takes one sample
+/// of a sweep per time step, so the time step sets the speed of a sweep.
 ///
 /// # Errors
 /// If the response curve cannot be inverted.

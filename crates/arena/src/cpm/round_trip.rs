@@ -19,7 +19,7 @@ use super::trial::CpmTrialError;
 /// These are the `observations` of the three episodes.
 #[derive(Clone, Debug)]
 pub struct RoundTrip {
-    /// From the start until the goal was found.
+    /// Way from the start until the goal was found.
     pub there: EpisodeSummary,
     /// Back to the start, or `None` if there was no goal.
     pub back: Option<EpisodeSummary>,
@@ -27,7 +27,7 @@ pub struct RoundTrip {
     pub again: Option<EpisodeSummary>,
     /// Number of unknown fragments it entered on the way back.
     pub tried: u32,
-    /// In how many of them it turned round, as they "will never be shorter".
+    /// Number of these in which the robot turned round, as they "will never be shorter".
     pub given_up: u32,
     /// Common patterns from start to goal on the shortest way of the map before the way back.
     pub length_before: u32,
@@ -37,9 +37,9 @@ pub struct RoundTrip {
     pub map: CpMap,
     /// Pose of the robot after every step.
     pub path: Vec<Pose>,
-    /// When the way back began, steps.
+    /// Step at which the way back began.
     pub back_from: usize,
-    /// When the second way to the goal began, steps.
+    /// Step at which the second way to the goal began.
     pub again_from: usize,
 }
 

@@ -177,9 +177,9 @@ impl<'a> Score<'a> {
     }
 
     /// Retraces the walks on a new map, which has its own names of fragments and places. An arrival
-    /// has closed a loop wrongly if it is the first to make a fragment or a place of the map stand
-    /// for two true ones. Walks of a robot that was lost before do not count, as their errors
-    /// follow from that.
+    /// may make a fragment or a place of the map stand for two true ones. The first that does so
+    /// has closed a loop wrongly. Walks of a robot that was lost before do not count, as their
+    /// errors follow from that.
     fn retrace(&mut self, map: &CpMap) {
         let Some(base) = &self.base else {
             return;

@@ -41,7 +41,7 @@ struct PlaceAtEnd {
 pub(super) enum Looks {
     /// The corridor's bends, and where it begins.
     AtBends,
-    /// Also the place ahead, and whether the one behind has ways to its sides.
+    /// The observer also sees the place ahead, and whether the one behind has ways to its sides.
     AtPlaces,
 }
 
@@ -138,7 +138,7 @@ impl Spot {
 }
 
 /// Returns the probability, 0 to 1, that an ideal observer guesses maze, fragment and direction
-/// correctly, for a robot at a spot of the maze `here`.
+/// correctly. The robot is at a spot of the maze `here`.
 ///
 /// It knows the true mazes, and that each maze, and each spot of it, is equally likely. It
 /// recognizes all it looks at without error, from the cell behind on. The robot sees only a part of

@@ -43,7 +43,7 @@ pub struct CpmTrial<'a> {
 pub struct TrialRecord {
     /// The first episode, if it came to an end.
     pub first: Option<EpisodeSummary>,
-    /// The second.
+    /// The second episode, if it came to an end.
     pub second: Option<EpisodeSummary>,
     /// Whether the second episode's way was the shortest that could be known. The ends of a
     /// fragment that was walked twice are known to be the same places, and start and goal are
@@ -71,7 +71,7 @@ pub struct TrialRecord {
     pub bumps: u32,
     /// Path of the robot, step by step.
     pub path: Vec<Pose>,
-    /// When the second episode began, steps.
+    /// Step at which the second episode began.
     pub second_from: usize,
     /// The map of the end of the first episode.
     pub map: CpMap,
@@ -274,16 +274,16 @@ pub enum CpmTrialError {
     /// The map leads to no goal.
     #[error("the map has no way to a goal: learn until the goal is found")]
     NoPlan,
-    /// It cannot stand at the start.
+    /// The robot cannot stand at the start.
     #[error(transparent)]
     Place(#[from] PlaceError),
-    /// Its sensors cannot be read.
+    /// The robot's sensors cannot be read.
     #[error(transparent)]
     Curve(#[from] RangeCurveError),
-    /// It could not walk.
+    /// The robot could not walk.
     #[error(transparent)]
     Walk(#[from] WalkError<StepError>),
-    /// It learned nothing.
+    /// The robot learned nothing.
     #[error(transparent)]
     Learn(#[from] LearnPatternsError),
     /// The memory of several mazes.

@@ -300,7 +300,7 @@ impl PlaneMaze {
         &self.corridors
     }
 
-    /// Returns where the robot starts.
+    /// Returns the port at which the robot starts.
     #[must_use]
     pub const fn start(&self) -> WorldPort {
         self.start
@@ -325,7 +325,8 @@ impl PlaneMaze {
         place.ports.get(port.number as usize).copied()
     }
 
-    /// Returns where a robot arrives that leaves by a port, or `None` if there is no such port.
+    /// Returns the port at which a robot arrives that leaves by `port`, or `None` if there is no
+    /// such port.
     #[must_use]
     pub fn beyond(&self, port: WorldPort) -> Option<WorldPort> {
         let end = self.end_at(port)?;

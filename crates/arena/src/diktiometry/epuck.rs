@@ -102,13 +102,13 @@ pub enum EpuckSurveyError {
     /// The robot cannot be built.
     #[error(transparent)]
     Epuck(#[from] EpuckError),
-    /// It cannot stand at the start.
+    /// The robot cannot stand at the start.
     #[error(transparent)]
     Place(#[from] PlaceError),
-    /// Its sensors cannot be read.
+    /// The robot's sensors cannot be read.
     #[error(transparent)]
     Curve(#[from] RangeCurveError),
-    /// It finds no first place.
+    /// The robot finds no first place.
     #[error(transparent)]
     Walk(#[from] EpuckRoverError),
     /// Robot or observer cannot begin or go on.

@@ -10,9 +10,10 @@ use tolman_maps::diktiometry::StepReport;
 /// relative motion and predicted relative motion for each track after a move."
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MoveError {
-    /// By the map, the mean over all tracks; of a track that expected nothing, by the odometry.
+    /// Error of the map, the mean over all tracks. A track that expected nothing counts with its
+    /// odometry.
     pub map: f64,
-    /// By the middle of the odometry's box alone.
+    /// Error of the middle of the odometry's box alone.
     pub odometry: f64,
     /// The share of the tracks that expected something.
     pub coverage: f64,
@@ -57,7 +58,7 @@ pub struct ErrorSummary {
     pub moves_to_own: usize,
     /// The mean error by the map over each successive [`WINDOW`] of moves, m².
     pub curve: Vec<f64>,
-    /// The same by odometry.
+    /// Errors of the odometry alone.
     pub odometry_curve: Vec<f64>,
     /// The share of expectations over the last [`TAIL`] of all moves.
     pub coverage: f64,

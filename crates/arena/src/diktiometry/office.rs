@@ -18,7 +18,7 @@ use crate::course::Course;
 /// Depth of the narrow part of a doorway, in the middle of the wall, as a share of the corridor's
 /// width.
 const DOORWAY_DEPTH: f64 = 0.5;
-/// From jamb to jamb of a doorway, as a share of the corridor's width.
+/// Width of a doorway from jamb to jamb, as a share of the corridor's width.
 const DOORWAY_WIDTH: f64 = 2.0 / 3.0;
 
 /// Maximum number of colours: more than a camera tells apart, and few enough for a palette.
@@ -44,7 +44,7 @@ pub struct OfficeConfig {
 }
 
 impl OfficeConfig {
-    /// Corridors 1.2 m wide and 4 m apart, without doorways, all of one colour.
+    /// Returns corridors 1.2 m wide and 4 m apart, without doorways, all of one colour.
     #[must_use]
     pub const fn bare() -> Self {
         Self {
@@ -191,7 +191,7 @@ impl Office {
         })
     }
 
-    /// Returns how it is furnished.
+    /// Returns the office's furnishing.
     #[must_use]
     pub const fn config(&self) -> &OfficeConfig {
         &self.config
@@ -261,7 +261,7 @@ impl Office {
         self.doorways.len()
     }
 
-    /// Returns where a doorway is.
+    /// Returns the position of a doorway, m.
     ///
     /// # Panics
     /// If the office has `number` doorways or fewer.

@@ -32,8 +32,8 @@ pub struct MapScore {
     pub share_once: f64,
     /// Share of the links on the map that lead where their action truly leads.
     pub link_precision: f64,
-    /// The same of the links that the map takes to be there now: of each action the likeliest, if
-    /// it is likelier than not.
+    /// Share of the links that the map believes to be there now and that lead where their action
+    /// truly leads. Of each action, that is the likeliest link, if it is likelier than not.
     pub believed_precision: f64,
     /// Share of the true ways of the whole world that are on the map.
     pub link_recall: f64,

@@ -170,8 +170,8 @@ pub enum RunError {
     /// The robot cannot stand where it is put.
     #[error("the robot cannot stand there")]
     Place(#[from] PlaceError),
-    /// There is no such door.
-    #[error("there is no such door")]
+    /// The world has no such door.
+    #[error("the door cannot be moved")]
     Door(#[from] DoorError),
     /// Robot or observer cannot begin.
     #[error(transparent)]
@@ -191,7 +191,7 @@ pub enum RunError {
         at: Point,
     },
     /// No way leads on.
-    #[error("no way leads on from ({}, {}) m", at.x, at.y)]
+    #[error("no way leads on from ({}, {}) m; open a wall there", at.x, at.y)]
     NoWay {
         /// Position of the robot.
         at: Point,
@@ -357,13 +357,13 @@ impl Survey {
         }
     }
 
-    /// Returns where it is.
+    /// Returns the office of the survey.
     #[must_use]
     pub const fn office(&self) -> &Arc<Office> {
         &self.office
     }
 
-    /// Returns what it depends on but the office and the seed.
+    /// Returns all that the survey depends on except the office and the seed.
     #[must_use]
     pub const fn config(&self) -> &SurveyConfig {
         &self.config
@@ -396,7 +396,7 @@ impl Survey {
         &self.shut
     }
 
-    /// Returns where the robot truly was and where the map had it, from the start on.
+    /// Returns the true places of the robot and those of the map, from the start on.
     #[must_use]
     pub fn visits(&self) -> &[Visit] {
         &self.past.visits
@@ -480,7 +480,7 @@ impl Survey {
         links.map(|(_, link)| (link.from.0, link.to.0)).collect()
     }
 
-    /// Returns how good the map is by now.
+    /// Returns the score of the map as it is now.
     #[must_use]
     pub fn score(&self) -> MapScore {
         let paths = &self.observer().map().paths;

@@ -75,7 +75,7 @@ struct Body {
 }
 
 impl SurveyFile {
-    /// Returns what is to be written of a survey of the maze `world` that began from `seed`.
+    /// Returns the file of a survey of the maze `world` that began from `seed`.
     #[must_use]
     pub fn of(world: &str, seed: u64, survey: &Survey) -> Self {
         let office = survey.office();

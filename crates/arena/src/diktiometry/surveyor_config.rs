@@ -163,8 +163,8 @@ impl SurveyorConfig {
         robot
     }
 
-    /// Returns what the control routines know of this robot in corridors `corridor_width` metres
-    /// wide without doorways.
+    /// Returns the configuration of the control routines for this robot in corridors
+    /// `corridor_width` wide, m, without doorways.
     #[must_use]
     pub fn routines(&self, corridor_width: f64) -> RoutineConfig {
         let LaserPioneerConfig {

@@ -54,8 +54,8 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// Returns where the brain believed the robot to be when it chose the action, the likeliest
-    /// first; empty if it does not ask.
+    /// Returns the positions at which the brain believed the robot to be when it chose the action.
+    /// The likeliest is first; empty if the brain does not ask.
     #[must_use]
     pub fn belief(&self) -> Vec<Guess> {
         match self.brain {

@@ -24,7 +24,7 @@ const GRACE: Duration = Duration::from_secs(5);
 /// Maximum length of a line quoted in an error, characters.
 const QUOTED: usize = 80;
 
-/// What a foreign brain is told before anything else.
+/// First message to a foreign brain.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Hello {
     /// The robot's name.
@@ -60,7 +60,7 @@ pub struct ForeignBrain {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BrainError {
-    /// It does not start.
+    /// The program does not start.
     #[error(transparent)]
     Launch(#[from] LaunchError),
     /// A line from it is not an answer.
@@ -94,7 +94,7 @@ pub enum BrainError {
     },
 }
 
-/// What a brain answers.
+/// Answer of a brain.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Answer<C> {
@@ -110,7 +110,7 @@ struct Greeting<'a> {
     protocol: u32,
 }
 
-/// How a brain ends its task.
+/// Reason for which a brain ends its task.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum End {

@@ -29,7 +29,7 @@ pub struct Launch<'a> {
 /// Whether the stderr of a foreign program is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Log {
-    /// On our stderr.
+    /// Our stderr.
     Shown,
     /// Nowhere.
     Dropped,
@@ -64,29 +64,29 @@ impl Default for Budget {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Overrun {
-    /// Its time is over.
-    #[error("the program is out of time")]
+    /// The program's time is over.
+    #[error("the program is out of time; answer sooner, or raise the limit with --time-limit")]
     Time,
-    /// It wrote more bytes than it may.
-    #[error("the program wrote too many bytes")]
+    /// The program wrote more bytes than it may.
+    #[error("the program wrote too many bytes; write only answers to stdout")]
     Bytes,
-    /// It wrote more lines than it may.
-    #[error("the program wrote too many lines")]
+    /// The program wrote more lines than it may.
+    #[error("the program wrote too many lines; write one line per answer")]
     Lines,
-    /// It wrote a line that is too long.
-    #[error("the program wrote a line that is too long")]
+    /// The program wrote a line that is too long.
+    #[error("the program wrote a line that is too long; end each answer with a line break")]
     LineBytes,
     /// The flag of [`Launch::stop`] was raised.
     #[error("interrupted")]
     Stop,
 }
 
-/// How a foreign program ended that had closed its stdout.
+/// End of a foreign program that had closed its stdout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Left {
-    /// By itself.
+    /// The program ended by itself.
     ByItself(ExitStatus),
-    /// It ran on and was killed.
+    /// The program ran on and was killed.
     Killed,
 }
 
@@ -211,7 +211,8 @@ impl ForeignProgram {
         Ok(Some(line))
     }
 
-    /// Sends it a line, without the line's end. A program that has closed its stdin needs none.
+    /// Sends the program a line, without the line's end. A program that has closed its stdin needs
+    /// none.
     ///
     /// # Errors
     /// [`Overrun`] if it has to be ended, as it does not read and too much is waiting for it.

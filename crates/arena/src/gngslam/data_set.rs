@@ -67,7 +67,7 @@ impl GoalRecords {
 /// Returns the cost of seeing a goal from a pose. It is least if the goal is straight ahead, fills
 /// the picture, is not hidden, and is seen head-on.
 fn cost(pitch: &Pitch, pose: Pose, goal: Pose) -> f64 {
-    /// From here a goal fills the picture: where the paper's limits stop the robot, m.
+    /// Distance at which a goal fills the picture: where the paper's limits stop the robot, m.
     const BEST: f64 = 1.3;
     /// Deviations of equal cost: from that distance, m; to the side, rad; and from head-on, rad.
     const OFF: f64 = 0.5;

@@ -29,7 +29,7 @@ pub struct PlaceDrive {
 }
 
 impl PlaceDrive {
-    /// Returns how far from the goal the robot was at the end, m.
+    /// Returns the distance of the robot from the goal at the end, m.
     #[must_use]
     pub fn error_m(&self) -> f64 {
         self.path
@@ -37,7 +37,7 @@ impl PlaceDrive {
             .map_or(f64::INFINITY, |end| (end - self.goal).norm())
     }
 
-    /// Returns how far from the goal the robot began, m.
+    /// Returns the distance of the robot from the goal at the start, m.
     #[must_use]
     pub fn start_m(&self) -> f64 {
         self.path
@@ -53,7 +53,7 @@ pub struct DrivenMap {
     pub map: PlaceMap,
     /// True pose of its odometry's origin.
     pub world_from_map: Pose,
-    /// In order: each begins where the one before ended.
+    /// Drives in order: each begins where the one before ended.
     pub drives: Vec<PlaceDrive>,
 }
 

@@ -90,7 +90,7 @@ impl FieldFromMap {
         })
     }
 
-    /// Returns where a position of the map lies on the field, in cells.
+    /// Returns the position on the field, in cells, of a position of the map.
     #[must_use]
     pub fn transform(&self, in_map: Point) -> Point {
         let at = turned(self.turn, in_map);

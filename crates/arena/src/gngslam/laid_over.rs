@@ -12,7 +12,7 @@ pub struct LaidOver {
 
 impl LaidOver {
     /// Lays a map over the world so that the squared distances of its places from `sites`, where
-    /// they truly are, are least. `None` of an empty map, or if there are not as many sites as
+    /// they truly are, are least. `None` for an empty map, or if there are not as many sites as
     /// places. O(places).
     #[must_use]
     pub fn of(map: &PlaceGraph, sites: &[Point]) -> Option<Self> {

@@ -67,7 +67,7 @@ impl Pitch {
     /// # Errors
     /// None.
     pub fn paper() -> Result<Self, PitchError> {
-        /// From the boarding to the wall of the room, m. The paper does not say.
+        /// Distance from the boarding to the wall of the room, m. The paper does not say.
         const BEHIND: f64 = 1.2;
         let boarding = Material::painted(WHITE).standing(0.0, BOARDING);
         let corners = [(0.0, 0.0), (4.6, 0.0), (4.6, 4.0), (0.0, 4.0)];

@@ -17,7 +17,7 @@ pub struct PointScore {
 }
 
 impl PointScore {
-    /// Returns how well a position fits a cell.
+    /// Returns the score of a position for a cell.
     ///
     /// ```
     /// use tolman_arena::gngslam::PointScore;

@@ -158,7 +158,7 @@ fn a_fifth(count: usize, rng: &mut impl Rng) -> Vec<usize> {
     drawn.map(|number| number as usize).collect()
 }
 
-/// Returns the mean score of positions; `None` of none.
+/// Returns the mean score of positions; `None` if there are none.
 fn mean(pairs: &[(Cell, Point)]) -> Option<PointScore> {
     let scores = pairs.iter().map(|(cell, at)| PointScore::of(*cell, *at));
     let sum = scores.reduce(|a, b| PointScore {

@@ -14,7 +14,8 @@ pub struct AlignedScore {
 }
 
 impl AlignedScore {
-    /// Returns the score of pairs of a position found and the true one; `None` of none. O(pairs).
+    /// Returns the score of pairs of a position found and the true one; `None` if there are none.
+    /// O(pairs).
     ///
     /// Source: S. Umeyama: Least-Squares Estimation of Transformation Parameters, 1991, in the
     /// plane and without scale.

@@ -10,7 +10,7 @@ pub struct RelationScore {
     pub missed: usize,
     /// Mean distance of where the second pose lies, seen from the first, from where it should, m.
     pub error: f64,
-    /// The same by heading, rad.
+    /// Mean error of the heading, rad.
     pub turn_error: f64,
     /// Relations whose times lie more than [`FAR`](Self::FAR) apart.
     pub far_relations: usize,

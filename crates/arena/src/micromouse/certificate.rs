@@ -3,14 +3,14 @@
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze};
 use tolman_systems::micromouse::Certificate;
 
-/// What is wrong with a certificate.
+/// Reason why a certificate is invalid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CertificateError {
-    /// It is about another maze.
+    /// The certificate is about another maze.
     #[error("the certificate is for a maze with another size, start or goals")]
     OtherMaze,
-    /// It states something false about a wall.
+    /// The certificate states something false about a wall.
     #[error("the certificate says that the {direction} side of {cell} is {known:?}, but it is not")]
     FalseWall {
         /// The cell.
@@ -20,7 +20,7 @@ pub enum CertificateError {
         /// The state that it claims.
         known: Knowledge,
     },
-    /// It lacks a number for some cell, or names a wall that the maze does not have.
+    /// The certificate lacks a number for some cell, or names a wall that the maze does not have.
     #[error("the certificate has {found} numbers where the maze has {cells} cells")]
     Size {
         /// Number of numbers in the certificate.

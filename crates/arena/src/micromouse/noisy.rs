@@ -29,7 +29,7 @@ pub struct NoisyConfig {
     pub drift: f64,
     /// Standard deviation of a range, m. ≥ 0.
     pub range: f64,
-    /// The same as a share of the range. ≥ 0.
+    /// Standard deviation of a range as a share of the range, at least 0.
     pub relative_range: f64,
 }
 
@@ -113,21 +113,21 @@ pub struct NoisyTrial {
     pub mean_error: f64,
 }
 
-/// How the runs of a noisy mouse ended.
+/// End of a noisy mouse's runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoisyEnd {
-    /// It was at the goal in both runs.
+    /// The mouse was at the goal in both runs.
     Arrived {
         /// Number of steps of the first run, the reset included.
         run_1: u32,
         /// Number of steps of the second.
         run_2: u32,
     },
-    /// It said that it was at the goal and was not.
+    /// The mouse said that it was at the goal and was not.
     Mistaken,
-    /// It believes that no way leads to the goal.
+    /// The mouse believes that no way leads to the goal.
     Stuck,
-    /// It had made all its steps.
+    /// The mouse had made all its steps.
     OutOfSteps,
 }
 
@@ -147,10 +147,10 @@ pub enum NoisyError {
     /// The mouse cannot be built.
     #[error(transparent)]
     Robot(#[from] RobotConfigError),
-    /// It cannot be put down at the start.
+    /// The mouse cannot be put down at the start.
     #[error(transparent)]
     Place(#[from] PlaceError),
-    /// It cannot drive.
+    /// The mouse cannot drive.
     #[error(transparent)]
     Step(#[from] StepError),
 }

@@ -98,7 +98,7 @@ pub enum RefereeError {
     Maze(#[from] tolman_maze::CheckError),
 }
 
-/// Returns what a mouse knows of `maze` beforehand: its size, its start and its goals.
+/// Returns the knowledge of a mouse about `maze` beforehand: its size, its start and its goals.
 ///
 /// # Errors
 /// [`RefereeError::NoStart`] if the maze has no start.
@@ -222,7 +222,7 @@ impl<'a> Referee<'a> {
         self.stage == Stage::Over || self.steps >= MAX_STEPS
     }
 
-    /// Returns where the mouse is, and where it looks.
+    /// Returns the cell of the mouse, and its heading.
     #[must_use]
     pub const fn pose(&self) -> (Cell, Direction) {
         (self.cell, self.heading)

@@ -8,7 +8,7 @@ use tolman_maze::Maze;
 use super::{Exchange, Score, Simulator};
 use crate::foreign::{Budget, ForeignProgram, Launch, LaunchError, Left, Overrun};
 
-/// When a mouse is stopped.
+/// Limits at which a mouse is stopped.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// Maximum duration.
@@ -42,24 +42,24 @@ pub struct Hosted {
     pub cells: Score,
 }
 
-/// How a mouse ended.
+/// End of a mouse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum MouseExit {
-    /// By itself, and said that all went well.
+    /// The mouse ended by itself and reported success.
     Done,
-    /// By itself, with a failure.
+    /// The mouse ended by itself and reported a failure.
     Failed,
-    /// It was out of time.
+    /// The mouse was out of time.
     OutOfTime,
-    /// It had made all its movements.
+    /// The mouse had made all its movements.
     OutOfMovements,
-    /// It wrote a line longer than any command.
+    /// The mouse wrote a line longer than any command.
     LineTooLong,
-    /// It wrote more than a mouse ever needs to.
+    /// The mouse wrote more than a mouse ever needs to.
     TooMuchOutput,
-    /// It closed its stdout and ran on.
+    /// The mouse closed its stdout and ran on.
     ClosedOutput,
     /// The caller interrupted it.
     Interrupted,
@@ -121,7 +121,7 @@ pub fn host(
 enum Said {
     /// The mouse closed its stdout.
     AllItWould,
-    /// It has made all its movements.
+    /// The mouse has made all its movements.
     AllItMay,
 }
 

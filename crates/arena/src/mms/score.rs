@@ -5,9 +5,9 @@ use serde::Serialize;
 /// Unit in which a straight is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// As in the code of mms.
+    /// Half-steps, as in the code of mms.
     HalfSteps,
-    /// As in the README of mms.
+    /// Cells, as in the README of mms.
     Cells,
 }
 
@@ -26,7 +26,7 @@ pub struct Score {
     running: bool,
     #[serde(skip)]
     penalty: f32,
-    /// All movements.
+    /// Counts of all movements.
     pub total: Figures,
     /// The run under way, or the last.
     pub current: Figures,
@@ -39,7 +39,8 @@ pub struct Score {
 pub struct Figures {
     /// Distance that the mouse went.
     pub distance: f32,
-    /// The same, with every unit of a straight after the second counted by half.
+    /// Distance that the mouse went, with every unit of a straight after the second counted by
+    /// half.
     pub effective_distance: f32,
     /// Number of turns.
     pub turns: f32,
@@ -195,7 +196,7 @@ fn six_digits(value: f32) -> String {
     format!("{}e{sign}{:02}", trimmed(digits), exponent.abs())
 }
 
-/// Decimals without the zeros at their end.
+/// Returns a decimal number without the zeros at its end.
 fn trimmed(number: &str) -> &str {
     if number.contains('.') {
         number.trim_end_matches('0').trim_end_matches('.')

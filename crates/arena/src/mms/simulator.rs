@@ -237,13 +237,14 @@ impl<'a> Simulator<'a> {
         self.movements
     }
 
-    /// Returns how often the mouse ran against a wall, or asked for a move of no length.
+    /// Returns the number of times that the mouse ran against a wall, or asked for a move of no
+    /// length.
     #[must_use]
     pub const fn crashes(&self) -> u64 {
         self.crashes
     }
 
-    /// Number of lines that were not commands.
+    /// Returns the number of lines that were not commands.
     #[must_use]
     pub const fn invalid(&self) -> u64 {
         self.invalid
@@ -255,7 +256,7 @@ impl<'a> Simulator<'a> {
         self.place
     }
 
-    /// Returns where the mouse looks.
+    /// Returns the heading of the mouse.
     #[must_use]
     pub const fn heading(&self) -> LatticeHeading {
         self.heading

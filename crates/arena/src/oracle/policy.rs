@@ -21,10 +21,9 @@ use crate::episode_error::EpisodeError;
 #[derive(Clone, Debug)]
 pub struct Policy {
     lattice: Lattice,
-    /// For each node and action, the expected steps from there to the destination that begin with
-    /// the action.
+    /// Expected steps to the destination for each node and action, beginning with the action.
     costs: Vec<Costs>,
-    /// For each node and action, the node it leads to without noise, or `None` where it fails.
+    /// Node that each action of each node leads to without noise; `None` where the action fails.
     ends: Vec<[Option<u32>; 4]>,
 }
 

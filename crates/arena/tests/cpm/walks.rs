@@ -50,8 +50,9 @@ fn end(fragment: u32, sign: Sign) -> End {
     }
 }
 
-/// Figure 1: A → B → C → D → A closes a loop round a junction of four ports: B between two, C round
-/// the corner, D from a third. The drawing gives Δ_AB, Δ_BC, Δ_CD, Δ_DA; reasoning gives the rest.
+/// Figure 1: A → B → C → D → A closes a loop round a junction of four ports. B lies between two of
+/// them, C goes round the corner, and D comes from a third. The drawing gives Δ_AB, Δ_BC, Δ_CD,
+/// Δ_DA; reasoning gives the rest.
 #[test]
 fn figure_1() {
     use Sign::{Minus, Plus};

@@ -28,7 +28,7 @@ impl Echoes {
         }
     }
 
-    /// Returns what one sensor meets.
+    /// Returns the point that one sensor meets, in the robot's frame, m.
     #[must_use]
     pub fn of_sensor(&self, sensor: usize) -> Option<Point> {
         self.points.get(sensor).copied().flatten()
@@ -39,7 +39,7 @@ impl Echoes {
         self.points.iter().copied().flatten()
     }
 
-    /// Returns how much room is straight ahead of the robot's middle, m, or `None` if neither
+    /// Returns the free distance straight ahead of the robot's middle, m, or `None` if neither
     /// sensor that looks ahead meets anything.
     #[must_use]
     pub fn ahead(&self) -> Option<f64> {

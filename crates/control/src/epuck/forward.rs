@@ -101,7 +101,7 @@ impl Forward {
         self.way -= radians;
     }
 
-    /// Returns what it would do now.
+    /// Returns the twist that this layer proposes now.
     pub fn propose(&mut self, echoes: &Echoes) -> Twist {
         let (left, right) = (self.beside(echoes, 5, 6), self.beside(echoes, 2, 1));
         let ahead = echoes.ahead().unwrap_or(f64::INFINITY);

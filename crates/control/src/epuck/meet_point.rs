@@ -58,8 +58,8 @@ impl MeetPointConfig {
 
 impl Profile {
     /// Returns the position with the most room round it, in the robot's frame, m. At a junction it
-    /// is as far from one wall or corner as from two others: a meet point of the generalized
-    /// Voronoi graph (Choset and Nagatani 2001).
+    /// is as far from one wall or corner as from two others. That is a meet point of the
+    /// generalized Voronoi graph (Choset and Nagatani 2001).
     ///
     /// What the sensors cannot see counts as walls, so from afar it is a step towards that point.
     ///

@@ -60,9 +60,9 @@ pub struct PilotConfig {
     pub turn_tolerance: f64,
     /// Conversion of the proximity sensors' raw values to distances.
     pub curve: RangeCurve,
-    /// Layer 1.
+    /// Parameters of layer 1, which drives on.
     pub forward: ForwardConfig,
-    /// Layer 0.
+    /// Parameters of layer 0, which keeps off the walls.
     pub keep_off: KeepOff,
 }
 
@@ -73,8 +73,9 @@ const SAMPLES: u32 = 100;
 const EXACT: f64 = 1e-9;
 
 impl PilotConfig {
-    /// Returns how the paper's robot drives in corridors `width` m wide, with encoders that are
-    /// exact. A sample of a sweep takes one time step, so the time step sets the speed of a sweep.
+    /// Returns the configuration of the paper's robot in corridors `width` wide, m, with encoders
+    /// that are exact. A sample of a sweep takes one time step, so the time step sets the speed of
+    /// a sweep.
     ///
     /// ```
     /// use tolman_control::epuck::{PilotConfig, RangeCurve, TURN_STEP};
@@ -132,7 +133,7 @@ where
         &mut self.robot
     }
 
-    /// Returns how much room is straight ahead now, m, or `None` if nothing is met.
+    /// Returns the free distance straight ahead, m, or `None` if nothing is met.
     pub fn ahead(&self) -> Option<f64> {
         self.echoes().ok()?.ahead()
     }
@@ -151,7 +152,7 @@ where
         ahead && beside(2) && beside(5)
     }
 
-    /// Returns what it holds to.
+    /// Returns the pilot's configuration.
     pub const fn config(&self) -> &PilotConfig {
         &self.config
     }

@@ -134,7 +134,7 @@ impl From<RangeCurve> for Vec<(f64, f64)> {
     }
 }
 
-/// Reason why points are no [`RangeCurve`].
+/// Reason why points do not make a [`RangeCurve`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum RangeCurveError {

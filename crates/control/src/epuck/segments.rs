@@ -286,8 +286,8 @@ impl Segments {
         spaces().skip(first).chain(spaces().take(first))
     }
 
-    /// Returns how many ways lead on, those that are half hidden among them, where ways and walls
-    /// alternate.
+    /// Returns the number of ways that lead on where ways and walls alternate, half hidden ones
+    /// included.
     #[must_use]
     pub fn ways(&self) -> usize {
         self.segments
@@ -296,7 +296,7 @@ impl Segments {
             .count()
     }
 
-    /// Returns what the place is by how many spaces there are.
+    /// Returns the kind of the place, by its number of ways.
     #[must_use]
     pub fn place(&self) -> PlaceKind {
         match self.spaces().count() {

@@ -56,6 +56,6 @@ pub enum LegEnd {
     Near,
     /// Something was touched that no sensor had heard.
     Bumped,
-    /// It took as many time steps as it may.
+    /// The leg took as many time steps as it may.
     TooLong,
 }

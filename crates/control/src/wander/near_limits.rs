@@ -4,8 +4,8 @@ use tolman_robot::Sounding;
 
 /// How near a thing may come: ahead, and beside.
 ///
-/// A sensor that looks to the side may be nearer to a wall than one that looks ahead, as long as
-/// the wall is beside the robot's lane. Its threshold is `side` divided by the sine of the angle
+/// A sensor that looks to the side may be nearer to a wall than one that looks ahead. The wall only
+/// has to be beside the robot's lane. Its threshold is `side` divided by the sine of the angle
 /// between the way ahead and the edge of its cone. It is at most `ahead`. Sensors that look back
 /// have none.
 ///

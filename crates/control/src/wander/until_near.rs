@@ -65,7 +65,7 @@ pub struct UntilNear {
 pub enum TurnEnd {
     /// The way ahead is clear.
     Clear,
-    /// It is clear in no direction.
+    /// The way is clear in no direction.
     Enclosed,
     /// The body touched something whichever way it turned.
     Wedged,
@@ -74,7 +74,7 @@ pub enum TurnEnd {
 /// End of a turn by an angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnByEnd {
-    /// It has turned as far as it was to, or took as many time steps as it may.
+    /// The robot has turned by the whole angle, or took the maximum number of time steps.
     Turned,
     /// The body touched something, and the robot went free of it.
     Touched,
@@ -227,8 +227,8 @@ impl UntilNear {
         Ok(TurnByEnd::Turned)
     }
 
-    /// Moves away from the nearest thing for `steps` time steps, at half the speed of a leg: back
-    /// if it lies ahead, and on if it lies behind.
+    /// Moves away from the nearest thing for `steps` time steps, at half the speed of a leg. The
+    /// robot backs up if the thing lies ahead, and drives on if it lies behind.
     ///
     /// # Errors
     /// If the robot fails.

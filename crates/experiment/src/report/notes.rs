@@ -59,7 +59,7 @@ pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
                     li { b { "p. " } "Mann–Whitney U, two-sided, against the reference row, corrected for the \
                          comparisons within a metric. " b { "A" sub { "12" } ". " }
                          "The probability that a run of the row has a greater value than one of the \
-                         reference row; 0.5 is no difference, 0.56, 0.64 and 0.71 (0.44, 0.36, 0.29) begin a small, \
+                         reference row; 0.5 means no difference, 0.56, 0.64 and 0.71 (0.44, 0.36, 0.29) begin a small, \
                          medium and large one (Vargha and Delaney)."
                     }
                 }

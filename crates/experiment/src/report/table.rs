@@ -118,7 +118,7 @@ fn same(metric: &MetricAnalysis) -> Option<String> {
     ))
 }
 
-/// Which columns a table has in addition to the common ones.
+/// Columns that a table has in addition to the common ones.
 struct Columns<'a> {
     /// Whether there is a column for the paper.
     paper: bool,
@@ -233,8 +233,8 @@ fn contrast(comparison: &Comparison, measured: &Measured) -> Markup {
     }
 }
 
-/// Returns the size of an effect in the words of Vargha and Delaney ("A critique and improvement of
-/// the CL common language effect size statistics of McGraw and Wong", 2000).
+/// Returns the size of an effect in the words of Vargha and Delaney. Source: "A critique and
+/// improvement of the CL common language effect size statistics of McGraw and Wong" (2000).
 fn magnitude(a12: f64) -> &'static str {
     match (a12 - 0.5).abs() {
         distance if distance < 0.06 => "none",

@@ -476,7 +476,7 @@ fn tables_that_contradict_themselves_are_refused() {
         ),
         (
             |tables| tables[1].metrics[2].name = "m".repeat(200),
-            "no name of a figure",
+            "cannot name a figure",
         ),
         (
             |tables| tables[0].metrics.push(Metric::mean("luck")),

@@ -47,8 +47,8 @@ impl Parameters {
         }
     }
 
-    /// Returns the pose of the laser on the robot: that of the parameters if the two poses of a
-    /// FLASER agree with it, otherwise the middle.
+    /// Returns the pose of the laser on the robot. It is that of the parameters if the two poses of
+    /// a FLASER agree with it, otherwise the middle.
     pub(crate) fn robot_from_laser(&self, odometry: Pose, laser: Pose) -> Pose {
         let offset = Pose::new(Point::new(self.offset.unwrap_or(0.0), 0.0), Heading::EAST);
         let off = odometry.compose(offset).between(laser);

@@ -6,7 +6,7 @@ use thiserror::Error;
 pub struct G2oFault {
     /// Number of the line, from 1.
     pub line: usize,
-    /// What is wrong with the line.
+    /// Kind of the line's fault.
     pub kind: G2oFaultKind,
 }
 
@@ -14,13 +14,13 @@ pub struct G2oFault {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum G2oFaultKind {
-    /// Its first word is not one that the reader knows.
+    /// The line's first word is not one that the reader knows.
     #[error("`{word}` is not read; only VERTEX_SE2, EDGE_SE2 and FIX are")]
     Unknown {
         /// The word.
         word: String,
     },
-    /// It has too few numbers, or too many.
+    /// The line has too few numbers, or too many.
     #[error("{word} has {found} numbers; expected {expected}")]
     Count {
         /// The first word.

@@ -24,11 +24,11 @@ pub struct LogOdometry {
 /// Speed of a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogVelocity {
-    /// From when on, s.
+    /// Time from which the velocity holds, s.
     pub time: f64,
-    /// Straight ahead, m/s.
+    /// Speed straight ahead, m/s.
     pub forward: f64,
-    /// To its left, m/s.
+    /// Speed to its left, m/s.
     pub left: f64,
     /// Its turn rate, rad/s, to the left.
     pub turn: f64,

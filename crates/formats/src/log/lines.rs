@@ -19,9 +19,9 @@ pub(crate) struct NumberedLines<R> {
 pub(crate) enum Line<'a> {
     /// Text, without its end.
     Text(&'a str),
-    /// Bytes that are no UTF-8 text.
+    /// Bytes that are not UTF-8 text.
     NoText,
-    /// It goes on for more than a megabyte.
+    /// The line goes on for more than a megabyte.
     TooLong,
     /// The rest of the file cannot be read.
     Lost(io::ErrorKind),

@@ -54,7 +54,7 @@ impl<R: BufRead> LogReader<R> {
         }
     }
 
-    /// Returns how the log was read so far.
+    /// Returns the report on the log as far as it was read.
     pub const fn report(&self) -> &LogReport {
         &self.report
     }

@@ -57,23 +57,23 @@ pub struct TroubleCount {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum LogTrouble {
-    /// It ends before its fields do. Left out.
+    /// The line ends before its fields do. Left out.
     Cut,
     /// A field that must be a finite number is not. Left out.
     NoNumber,
-    /// It is no UTF-8 text. Left out.
+    /// The line is not UTF-8 text. Left out.
     NoText,
-    /// It is longer than a megabyte. Left out.
+    /// The line is longer than a megabyte. Left out.
     TooLong,
     /// Ranges are not numbers, or negative. The scan is used; such a beam has hit nothing.
     NoRange,
-    /// Its time lies before that of the line above. It is used, in the order of the file.
+    /// The line's time lies before that of the line above. It is used, in the order of the file.
     BackInTime,
     /// The clock jumps by more than a minute. It is used.
     ClockJump,
     /// The file cannot be read any further. The part above is used.
     EndsEarly,
-    /// It is of a kind that is not known. Left out.
+    /// The line is of a kind that is not known. Left out.
     UnknownKind,
     /// A scan at a time without odometry. Left out.
     NoOdometry,
@@ -128,7 +128,7 @@ impl LogReport {
         }
     }
 
-    /// Returns how often something was wrong.
+    /// Returns the number of lines with this trouble.
     #[must_use]
     pub fn count(&self, trouble: LogTrouble) -> u64 {
         self.troubles.get(&trouble).map_or(0, |known| known.count)

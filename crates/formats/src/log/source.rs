@@ -9,7 +9,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LogError {
-    /// It cannot be opened.
+    /// The file cannot be opened.
     #[error("cannot read {}; give a file that is there, plain or packed by gzip", path.display())]
     File {
         /// Path of the file.
@@ -22,7 +22,7 @@ pub enum LogError {
     Nothing {
         /// Path of the file.
         path: PathBuf,
-        /// What was expected, and what was found instead.
+        /// Text that was expected, and the text that was found instead.
         what: String,
     },
 }

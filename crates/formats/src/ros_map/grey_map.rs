@@ -17,7 +17,7 @@ pub struct GreyMap {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum GreyMapError {
-    /// It does not begin as a grey picture.
+    /// The file does not begin as a grey picture.
     #[error("byte 0: expected P5 or P2; save the picture as a grey PGM")]
     Magic,
     /// A number is expected.
@@ -207,7 +207,7 @@ impl Reader<'_> {
     }
 }
 
-/// Returns the value that was read at `byte`, if it is no brighter than white.
+/// Returns the value that was read at `byte`, if it is not brighter than white.
 fn shade(byte: usize, value: u64, most: u16) -> Result<u16, GreyMapError> {
     let shade = u16::try_from(value).ok().filter(|shade| *shade <= most);
     shade.ok_or(GreyMapError::TooBright { byte, value, most })

@@ -24,7 +24,7 @@ pub struct RosMapHeader {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RosMapHeaderError {
-    /// A line is no `key: value`.
+    /// A line is not `key: value`.
     #[error("line {line}: expected `key: value`; write the file as map_server does")]
     Line {
         /// Number of the line.

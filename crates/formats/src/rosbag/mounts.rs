@@ -7,7 +7,7 @@ use super::messages::Transform;
 /// Poses of a robot's parts on each other.
 #[derive(Default)]
 pub(super) struct Mounts {
-    /// By a part: the one it sits on, and where.
+    /// For each part, the part that it sits on, and its pose there.
     parents: BTreeMap<String, (String, Pose)>,
 }
 

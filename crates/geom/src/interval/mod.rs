@@ -166,7 +166,8 @@ impl Interval {
             .max(0.0)
     }
 
-    /// Returns what both allow, or `None` if they contradict each other.
+    /// Returns the interval of all numbers that both allow, or `None` if they contradict each
+    /// other.
     #[must_use]
     #[inline]
     pub fn intersection(self, other: Self) -> Option<Self> {

@@ -25,7 +25,7 @@ pub(super) struct Belief<'a> {
     pub(super) believed: Vec<bool>,
     /// The surest way of each closure at the last search, and the closure's gap from it.
     pub(super) found: Vec<Option<(Way, Gap)>>,
-    /// For each closure, the closures whose ways lead over it, or did.
+    /// For each closure, the closures whose ways lead over it, or did so.
     users: Vec<Vec<u32>>,
 }
 

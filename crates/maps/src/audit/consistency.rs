@@ -18,9 +18,9 @@ use super::link::Link;
 pub(super) enum ByOdometry {
     /// Nothing: it does not join its poses, or within a region too wide.
     Silent,
-    /// It agrees, and is tight.
+    /// The closure agrees, and is tight.
     Supports,
-    /// It disagrees.
+    /// The closure disagrees.
     Refutes,
 }
 

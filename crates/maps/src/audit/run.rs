@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 use super::groups::Groups;
 
 /// Returns the run of each closure, given its lower and its higher pose, sorted. Two closures are
-/// of one run if their lower poses and their higher poses lie at most `gap` apart, or if other
-/// closures link them like that. Two that contradict each other by `agree` do not err together, so
-/// they do not link a run.
+/// of one run if their lower poses lie at most `gap` apart, and their higher poses too. They are
+/// also of one run if other closures link them like that. Two that contradict each other by `agree`
+/// do not err together, so they do not link a run.
 ///
 /// # Complexity
 /// O(n · m) for n closures of which at most m begin within `gap` poses.

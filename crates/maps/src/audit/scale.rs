@@ -32,8 +32,8 @@ pub struct SigmaScale {
 }
 
 impl SigmaScale {
-    /// Estimates it from cycles of two closures that begin and end within 10 poses; `None` if there
-    /// are fewer than 20.
+    /// Estimates the scale from cycles of two closures that begin and end within 10 poses; `None`
+    /// if there are fewer than 20.
     ///
     /// # Errors
     /// [`AuditError`] as [`audit`](super::audit()) has it.

@@ -25,7 +25,7 @@ pub enum AuditCertificateError {
     /// The graph itself cannot be audited.
     #[error(transparent)]
     Graph(#[from] AuditError),
-    /// It is not of a closure of this graph.
+    /// The certificate is not of a closure of this graph.
     #[error("edge {edge} is not a closure of this graph")]
     NoClosure {
         /// The edge.
@@ -52,7 +52,7 @@ pub enum AuditCertificateError {
         edge: u32,
     },
     /// A residual, covariance or χ² is not what the graph gives.
-    #[error("{what} of a cycle of edge {edge} is {told}; the graph gives {measured}")]
+    #[error("{what} of a cycle of edge {edge} is stated as {told}; the graph gives {measured}")]
     Number {
         /// The edge.
         edge: u32,
@@ -107,7 +107,7 @@ pub enum AuditCertificateError {
         /// The closure it leads over.
         over: u32,
     },
-    /// It is said to be refuted by something else than its cycle consists of.
+    /// The cycle that refutes a closure has other steps than the audit states.
     #[error("the cycle of edge {edge} has other steps than the audit states")]
     RefutedBy {
         /// The edge.

@@ -36,7 +36,7 @@ impl Alignment {
         }
     }
 
-    /// Returns how similar two sequences are: 1 less the cheapest alignment's cost for each
+    /// Returns the similarity of two sequences: 1 less the cheapest alignment's cost for each
     /// position of the longer one. Equal ones have 1, ones without anything in common about 0, an
     /// empty one beside any has 0. O(length²) and the distances of prototypes.
     #[must_use]

@@ -23,7 +23,7 @@ pub(super) struct Beam {
     narrow: usize,
     /// Number of walks understood since the width last changed.
     understood: u32,
-    /// What was known before the first event of `met`.
+    /// Map before the first event of `met`.
     begin: Mapper,
     met: Vec<Event>,
 }
@@ -34,7 +34,7 @@ enum Event {
     TurnedBack(Turn, u32),
 }
 
-/// How the likeliest hypothesis explains a walk.
+/// Explanation of a walk by the likeliest hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Understood {
     /// All before is understood as it was.
@@ -48,9 +48,9 @@ pub(super) enum Understood {
 /// Reason why a beam explains nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Lost {
-    /// It was full once, so a wider one may have kept the truth.
+    /// The beam was full once, so a wider one may have kept the truth.
     InNarrowness,
-    /// It was never full: a wider one would have kept the same.
+    /// The beam was never full: a wider one would have kept the same.
     ForGood,
 }
 

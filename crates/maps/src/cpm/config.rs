@@ -9,7 +9,7 @@ use super::similarity::{FragmentMatching, Similarity};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct CpMapperConfig {
-    /// When the map is optimized.
+    /// Moments at which the map is optimized.
     pub mapping: Mapping,
     /// Method of comparing fragments.
     pub matching: FragmentMatching,
@@ -29,7 +29,7 @@ pub enum Candidates {
     Best(u32),
 }
 
-/// When the map is optimized and looked at.
+/// Moments at which the map is optimized and looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

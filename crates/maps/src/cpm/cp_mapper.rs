@@ -25,7 +25,7 @@ pub struct CpMapper {
     contradictions: u32,
 }
 
-/// What the robot knows of the maze, and its place there.
+/// Knowledge of the maze, and of the robot's place in it.
 #[derive(Clone, Debug)]
 enum Knowledge {
     /// Offline and online: one map.
@@ -57,7 +57,7 @@ impl Knowledge {
     }
 }
 
-/// What an arrival taught the mapper.
+/// Result of an arrival for the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapUpdate {
     /// A fragment that was not on the map.
@@ -163,7 +163,7 @@ impl CpMapper {
         &self.knowledge.mapper().map
     }
 
-    /// Returns where the robot is on the map: the port behind it.
+    /// Returns the robot's place on the map: the port behind it.
     #[must_use]
     pub fn at(&self) -> Port {
         self.knowledge.mapper().at
@@ -191,7 +191,7 @@ impl CpMapper {
         doubt.or_else(|| (certainty < SURE).then_some(MapDoubt::Unsure { percent }))
     }
 
-    /// Returns how many fragments were walked to their end.
+    /// Returns the number of fragments that were walked to their end.
     #[must_use]
     pub const fn traversals(&self) -> u32 {
         self.traversals
@@ -204,7 +204,7 @@ impl CpMapper {
         self.before_duplicate
     }
 
-    /// Returns how often the map was not what the robot found.
+    /// Returns the number of times that the map was not what the robot found.
     #[must_use]
     pub const fn contradictions(&self) -> u32 {
         self.contradictions

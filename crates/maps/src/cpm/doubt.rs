@@ -51,7 +51,8 @@ impl CpMap {
         twice.find_map(|twice| twice)
     }
 
-    /// Returns that another place lies in place of this one. O(ports · log places).
+    /// Returns the doubt that another place lies at the position of this one. O(ports · log
+    /// places).
     #[must_use]
     pub fn twice_at(&self, place: JunctionId, apart: f64) -> Option<MapDoubt> {
         let positions = self.positions_from(place);

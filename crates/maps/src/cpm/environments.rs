@@ -54,7 +54,7 @@ struct Learned {
     code: Vec<f64>,
 }
 
-/// What one sequence recalls.
+/// Memory recalled by one sequence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recollection {
     /// The environment it is of.
@@ -79,7 +79,7 @@ pub enum RecallError {
     #[error("nothing to associate: a path needs two fragments, each with an observation")]
     TooShort,
     /// A fragment of the path is not on the map.
-    #[error("fragment {} of the path is not on the map", .0.fragment.0)]
+    #[error("fragment {} of the path is not on the map; give the map on which the path was walked", .0.fragment.0)]
     NoSuchFragment(End),
     /// A pattern is not in the dictionary.
     #[error(transparent)]

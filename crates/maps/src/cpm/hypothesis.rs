@@ -293,9 +293,9 @@ fn bearings_cost(place: &Junction, port: u32, walk: &Traversal) -> f64 {
     (0.5 * off * off).min(MOST_EVIDENCE)
 }
 
-/// Returns the log-ratio of two likelihoods: that two places lie within a box of each other if they
-/// are one, and if they are any two. It is the log of the area that holds places, over that of the
-/// box.
+/// Returns the log-ratio of two likelihoods. Both say that two places lie within a box of each
+/// other: if they are one, and if they are any two. It is the log of the area that holds places,
+/// over that of the box.
 fn coincidence(apart: PointBox, area: f64) -> f64 {
     let side = |side: Interval| side.width().max(1e-3);
     libm::log(area / (side(apart.x) * side(apart.y))).clamp(-MOST_EVIDENCE, MOST_EVIDENCE)

@@ -116,7 +116,7 @@ struct Track {
     map: usize,
     enter: End,
     ahead: Port,
-    /// What a robot sees at the end of the fragment.
+    /// View of the robot at the end of the fragment.
     place: Sighting,
     bearings: Option<Bearings>,
     patterns: Vec<PatternId>,
@@ -364,8 +364,8 @@ impl Localizer {
         self.normalize();
     }
 
-    /// Returns how likely the maps have a fragment where a turn leads, so that the robot would not
-    /// go where it knows nothing. O(tracks).
+    /// Returns the probability that the maps have a fragment where a turn leads. If it is low, the
+    /// robot would go where it knows nothing. O(tracks).
     #[must_use]
     pub fn knows(&self, turn: Turn) -> f64 {
         self.entered(turn)

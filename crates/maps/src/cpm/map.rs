@@ -43,14 +43,14 @@ impl JunctionId {
 /// path-fragment, the signs are assigned only at the *first* time of traversal."
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Sign {
-    /// Where the robot entered on its first walk along the fragment.
+    /// End where the robot entered on its first walk along the fragment.
     Minus,
-    /// Where the robot left on that walk.
+    /// End where the robot left on that walk.
     Plus,
 }
 
 impl Sign {
-    /// Both, − first.
+    /// Both signs, − first.
     pub const BOTH: [Self; 2] = [Self::Minus, Self::Plus];
 
     /// Returns the sign of the other end.
@@ -116,7 +116,7 @@ impl From<Port> for (JunctionId, u32) {
     }
 }
 
-/// What is known about a port.
+/// Knowledge about a port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PortState {
     /// The robot has not been there, or not to its end.
@@ -132,7 +132,7 @@ pub enum PortState {
 /// each at its port.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Junction {
-    /// Counter-clockwise.
+    /// Ports in counter-clockwise order.
     pub ports: Vec<PortState>,
     /// The landmark that stands there.
     pub landmark: Option<Landmark>,
@@ -147,7 +147,7 @@ impl Junction {
         self.ports.len() as u32
     }
 
-    /// Returns how the robot saw it.
+    /// Returns the sighting of the junction.
     #[must_use]
     pub const fn sighting(&self) -> Sighting {
         Sighting {
@@ -213,7 +213,7 @@ impl Fragment {
         if length == 0 { 1 } else { length }
     }
 
-    /// Returns where an end is.
+    /// Returns the port at which an end lies.
     #[must_use]
     pub const fn port(&self, sign: Sign) -> Port {
         match sign {
@@ -248,7 +248,7 @@ impl CpMap {
         self.junctions.iter()
     }
 
-    /// Returns how many bytes fragments and junctions take, each with its id. O(fragments +
+    /// Returns the size of fragments and junctions, each with its id, bytes. O(fragments +
     /// junctions).
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -283,7 +283,7 @@ impl CpMap {
         self.junctions.get(junction).map_or(0, Junction::degree)
     }
 
-    /// Returns the newest version of the dictionary that its sequences need, or `None` of an empty
+    /// Returns the newest version of the dictionary that its sequences need, or `None` for an empty
     /// map.
     #[must_use]
     pub const fn version(&self) -> Option<Version> {
@@ -315,7 +315,8 @@ impl CpMap {
         }
     }
 
-    /// Returns where one arrives who leaves by a port, or `None` if that is not known.
+    /// Returns the port at which a robot arrives that leaves by `port`, or `None` if it is not
+    /// known.
     #[must_use]
     pub fn beyond(&self, port: Port) -> Option<Port> {
         let end = self.end_at(port)?.opposite();
@@ -367,8 +368,8 @@ impl CpMap {
         marked.map(|(id, _)| id)
     }
 
-    /// Returns where a robot stands that has just begun the map at the first start on it, or `None`
-    /// if that is not on it.
+    /// Returns the port behind a robot that has just begun the map at its first start, or `None` if
+    /// the map has no start.
     #[must_use]
     pub fn start(&self) -> Option<Port> {
         Some(self.landmarks(Landmark::Start).next()?.port(0))

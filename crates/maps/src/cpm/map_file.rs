@@ -133,7 +133,7 @@ pub enum MapFileError {
     Bearings {
         /// Its number.
         junction: u32,
-        /// What is wrong with the bearings.
+        /// Fault of the bearings.
         source: BearingsError,
     },
     /// There are more or fewer bearings than ports.
@@ -171,7 +171,7 @@ fn hexadecimal(fingerprint: u64) -> String {
 }
 
 impl MapFile {
-    /// Returns what is to be written of a map.
+    /// Returns the saved form of a map.
     ///
     /// # Errors
     /// [`MapFileError::Dictionary`] if the map was written with another dictionary.

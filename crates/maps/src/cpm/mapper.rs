@@ -155,7 +155,7 @@ impl Mapper {
     }
 }
 
-/// How fragments are compared, and the results so far.
+/// Comparison of fragments, with the results so far.
 #[derive(Debug)]
 pub(super) struct Comparison<'a> {
     pub(super) matching: &'a FragmentMatching,

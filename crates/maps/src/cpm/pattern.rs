@@ -59,7 +59,7 @@ pub struct Version {
 #[non_exhaustive]
 pub enum DictionaryError {
     /// A prototype of another size.
-    #[error("the prototype has {found} features where the dictionary has {expected}")]
+    #[error("the prototype has {found} features; give {expected}, as the dictionary has")]
     WrongDimension {
         /// Number of features of the dictionary.
         expected: usize,
@@ -95,7 +95,7 @@ pub enum DictionaryError {
         version: Version,
     },
     /// A list of half-turned patterns is not an involution.
-    #[error("the half turn of pattern {} is {}, whose half turn is another pattern", .pattern.0, .half_turned.0)]
+    #[error("the half turn of pattern {} is {}, whose half turn is another pattern; make the two point to each other", .pattern.0, .half_turned.0)]
     NotInvolutive {
         /// The pattern.
         pattern: PatternId,
@@ -211,7 +211,7 @@ impl Dictionary {
         self.patterns.is_empty()
     }
 
-    /// Returns the features of a pattern, or `None` of one that is not there.
+    /// Returns the features of a pattern, or `None` if it does not exist.
     #[must_use]
     pub fn prototype(&self, pattern: PatternId) -> Option<&[f64]> {
         let pattern = self.patterns.get(pattern.0 as usize)?;

@@ -5,7 +5,7 @@ use tolman_planners::{Graph, a_star};
 use super::map::{CpMap, End, Fragment, JunctionId, Port, PortState};
 use super::turn::Turn;
 
-/// A way through the map, in the words of section 4.3: "follow the path until reaching the
+/// A way through the map. In the words of section 4.3: "follow the path until reaching the
 /// junction, perform Δ, follow the path by skipping the observation for 3 CPs until reaching
 /// another junction, perform Δ, and make observation again to confirm the correct destination".
 #[derive(Clone, Debug, PartialEq, Eq)]

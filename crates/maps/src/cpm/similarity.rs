@@ -13,7 +13,7 @@ use super::traversal::DeadReckoning;
 pub enum FragmentMatching {
     /// Position by position, equations (3) to (5).
     Positions(Similarity),
-    /// With insertions, deletions and changes of speed.
+    /// Compares with insertions, deletions and changes of speed.
     Alignment(Alignment),
 }
 
@@ -83,7 +83,7 @@ pub struct Match {
 }
 
 impl FragmentMatching {
-    /// Returns how similar two sequences are as they stand, at most 1; equal ones have 1.
+    /// Returns the similarity of two sequences as they stand, at most 1; equal ones have 1.
     /// Patterns that the dictionary does not have are similar to none.
     #[must_use]
     pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
@@ -112,7 +112,7 @@ impl FragmentMatching {
         }
     }
 
-    /// Returns how similar two sequences are, the second walked as the sense says.
+    /// Returns the similarity of two sequences, the second walked as the sense says.
     #[must_use]
     pub fn score_as(
         &self,

@@ -48,7 +48,7 @@ impl fmt::Display for Sighting {
     }
 }
 
-/// One fragment walked from one place to the next: what becomes an A-pattern.
+/// One fragment walked from one place to the next. It becomes an A-pattern.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traversal {
     /// 𝔸 of Definition 1: the common patterns observed on the way, without those of the places at
@@ -72,7 +72,7 @@ pub struct DeadReckoning {
     pub displacement: PointBox,
     /// The heading in which the robot left, rad; not wrapped.
     pub departure: Interval,
-    /// The heading in which it arrived, rad; not wrapped.
+    /// Heading in which the robot arrived, rad, counter-clockwise from east; not wrapped.
     pub arrival: Interval,
 }
 
@@ -87,8 +87,8 @@ impl DeadReckoning {
         }
     }
 
-    /// Returns what both allow of walks along one fragment, or `None` if they contradict each
-    /// other, headings up to full circles.
+    /// Returns the bounds that both allow of walks along one fragment, headings up to full circles.
+    /// `None` if they contradict each other.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         let pose = |motion: Self, heading| PoseBox::new(motion.displacement, heading);

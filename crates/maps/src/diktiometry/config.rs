@@ -1,3 +1,5 @@
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 use core::ops::Bound::{self, Excluded, Included, Unbounded};
 use core::ops::{RangeBounds, RangeInclusive};
@@ -46,17 +48,17 @@ pub struct Config {
     pub frame_half_width: f64,
     /// Limits of the search through the reference graph.
     pub search: SearchLimits,
-    /// *Indexing places*.
+    /// Parameters of the paper's *Indexing places*.
     pub indexing: Indexing,
-    /// *Matching and updating*.
+    /// Parameters of *Matching and updating*.
     pub matching: Matching,
     /// Number of hypotheses followed, and when one is dropped.
     pub tracks: Tracking,
-    /// *Transients*.
+    /// Parameters of *Transients*.
     pub transients: Transients,
-    /// *Place restructuring*.
+    /// Parameters of *Place restructuring*.
     pub restructuring: Restructuring,
-    /// *Opportunistic mapping*.
+    /// Parameters of *Opportunistic mapping*.
     pub opportunities: Opportunities,
     /// Length of the record from which decisions can be undone.
     pub journal: JournalLength,
@@ -128,9 +130,9 @@ pub enum WorldKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Use {
-    /// It is at work.
+    /// The part is at work.
     On,
-    /// It is left out.
+    /// The part is left out.
     Off,
 }
 
@@ -169,7 +171,7 @@ pub struct SignatureKind {
 pub enum ViewRotation {
     /// No: a compass turns them all north.
     Aligned,
-    /// By any number of columns.
+    /// Any number of columns.
     Free,
 }
 
@@ -214,7 +216,7 @@ pub struct Indexing {
 pub enum PerceptualIndexing {
     /// None: places are never looked for by their look.
     Off,
-    /// By their columns.
+    /// Indexes views by their columns.
     Columns,
     /// By triples of the edges between columns, as triangles. Asks for three columns or more; views
     /// with fewer than three edges are not found.
@@ -247,9 +249,9 @@ pub struct Matching {
     pub continuation: Use,
     /// LINK. Without it, unexpected places are noted at best.
     pub link: Use,
-    /// α-MATCH.
+    /// Use of the matcher α-MATCH.
     pub alpha: Use,
-    /// β-MATCH.
+    /// Use of the matcher β-MATCH.
     pub beta: Use,
     /// Number of visits of the old place below which α-MATCH goes before a new place: young boxes
     /// are the ones that errors spoil.
@@ -261,7 +263,7 @@ pub struct Matching {
     pub well_traversed: u32,
 }
 
-/// When an unexpected place is recognized as a known one.
+/// Rule by which an unexpected place is recognized as a known one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Identity {
@@ -279,7 +281,7 @@ pub enum Identity {
 pub enum Precedence {
     /// One order for all: CONTINUE, LINK, α, new place, β. The paper's prototype.
     Static,
-    /// By what is known of the area and by the track's confidence.
+    /// Decides by what is known of the area and by the track's confidence.
     Dynamic,
 }
 
@@ -300,7 +302,7 @@ pub struct Tracking {
     pub history: usize,
 }
 
-/// When links and places count as hallucinations.
+/// Limits at which links and places count as hallucinations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -376,7 +378,7 @@ impl GeometricMerge {
 pub struct Opportunities {
     /// Going where no robot has gone before.
     pub unknown: Use,
-    /// Priming the pump.
+    /// Use of *priming the pump*.
     pub priming: Use,
     /// Going back and forth on a new link.
     pub shuttle: Use,
@@ -598,13 +600,36 @@ fn within(
     if range.contains(&value) && value.is_finite() {
         return Ok(());
     }
-    Err(DiktiometryConfigError::OutOfRange { field, value })
+    Err(DiktiometryConfigError::OutOfRange {
+        field,
+        value,
+        least: range.start_bound().cloned(),
+        most: range.end_bound().cloned(),
+    })
 }
 
 const fn not_zero(field: &'static str, count: usize) -> Result<(), DiktiometryConfigError> {
     match count {
         0 => Err(DiktiometryConfigError::Zero { field }),
         _ => Ok(()),
+    }
+}
+
+/// Returns a lower bound in words.
+fn above(least: &Bound<f64>) -> String {
+    match least {
+        Included(least) => format!(", at least {least}"),
+        Excluded(least) => format!(" above {least}"),
+        Unbounded => String::new(),
+    }
+}
+
+/// Returns an upper bound in words.
+fn below(most: &Bound<f64>) -> String {
+    match most {
+        Included(most) => format!(", at most {most}"),
+        Excluded(most) => format!(", below {most}"),
+        Unbounded => String::new(),
     }
 }
 
@@ -623,13 +648,17 @@ pub enum DiktiometryConfigError {
         /// Number of actions.
         actions: usize,
     },
-    /// A number is out of the range its field names.
-    #[error("`{field}` is {value}; see the field's range")]
+    /// A number is out of its range or not finite.
+    #[error("`{field}` is {value}; give a finite number{}{}", above(.least), below(.most))]
     OutOfRange {
         /// The field.
         field: &'static str,
         /// Its value.
         value: f64,
+        /// Lower bound of the field.
+        least: Bound<f64>,
+        /// Upper bound of the field.
+        most: Bound<f64>,
     },
     /// Views have too few columns for triangles of edges.
     #[error("views of {columns} columns have no triangles; give 3 or more, or index `Columns`")]

@@ -29,8 +29,8 @@ impl CoverageGrid {
         });
     }
 
-    /// Returns how often the way between two points was gone, in this direction: the least over the
-    /// cells it crosses.
+    /// Returns the number of times that the way between two points was gone, in this direction: the
+    /// least over the cells it crosses.
     #[must_use]
     pub fn traversals(&self, from: Point, to: Point, cell: f64) -> u32 {
         let heading = quadrant(to - from);

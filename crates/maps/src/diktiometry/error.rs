@@ -8,7 +8,7 @@ use super::{Action, DiktiometryConfigError};
 #[non_exhaustive]
 pub enum ObservedMoveError {
     /// The robot has no such action.
-    #[error("action {} is not one of the {actions} of the configuration", action.0)]
+    #[error("action {} is not one of the {actions} of the configuration; count from 0", action.0)]
     UnknownAction {
         /// Action that the move names.
         action: Action,
@@ -16,7 +16,7 @@ pub enum ObservedMoveError {
         actions: usize,
     },
     /// An exit names no action.
-    #[error("exit {} is not one of the {actions} actions of the configuration", action.0)]
+    #[error("exit {} is not one of the {actions} actions of the configuration; count from 0", action.0)]
     UnknownExit {
         /// Action that the exits name.
         action: Action,
@@ -33,7 +33,7 @@ pub enum ObservedMoveError {
     },
     /// The percept is not of the configured form.
     #[error(
-        "the percept has {rows} rows and {columns} columns, the configuration {expected_rows} and {expected_columns}"
+        "the percept has {rows} rows and {columns} columns; give {expected_rows} and {expected_columns}, as configured"
     )]
     PerceptSize {
         /// Number of rows of the percept.

@@ -11,8 +11,8 @@ use super::{
     expected, moved, plies, search,
 };
 
-/// Whether a track may change the map. Only the best may, lest a dying hypothesis damage it; in the
-/// paper all do.
+/// Whether a track may change the map. Only the best may, so that a dying hypothesis does not
+/// damage it; in the paper all do.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rank {
     Best,

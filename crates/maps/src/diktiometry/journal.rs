@@ -27,7 +27,7 @@ pub struct Journal {
 pub struct Distinction {
     /// One place.
     pub one: PlaceId,
-    /// The other.
+    /// The other place.
     pub other: PlaceId,
 }
 
@@ -39,7 +39,7 @@ pub enum UndoError {
     #[error("no journal is kept; set `journal` of the configuration to `All`")]
     NoJournal,
     /// There are not that many moves.
-    #[error("{asked} moves cannot be undone, there are only {moves}")]
+    #[error("{asked} moves cannot be undone; the journal has only {moves}")]
     TooFar {
         /// Number of moves that should be undone.
         asked: u64,
@@ -47,7 +47,7 @@ pub enum UndoError {
         moves: u64,
     },
     /// One of the places was never made.
-    #[error("there is no place {}", .0.0)]
+    #[error("there is no place {}; name one of the map", .0.0)]
     NoSuchPlace(PlaceId),
 }
 

@@ -1,4 +1,4 @@
-/// What the map has learned of how well looks tell places apart.
+/// Reliability of looks for telling places apart, as the map has learned it. Beyond the paper.
 ///
 /// Beyond the paper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -93,7 +93,7 @@ impl Looks {
 /// Whether the looks of two places allow that they are one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Similarity {
-    /// They do, or nothing is known of their look.
+    /// The places may be one, or nothing is known of their look.
     #[default]
     Alike,
     Unlike,

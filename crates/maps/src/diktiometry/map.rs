@@ -16,7 +16,7 @@ pub struct Diktiometry {
     pub paths: PathGraph,
     /// Frames and what is known of where they lie.
     pub reference: ReferenceGraph,
-    /// How well looks tell places apart.
+    /// Reliability of looks for telling places apart.
     pub looks: Looks,
 }
 
@@ -51,8 +51,8 @@ pub enum Flaw {
 }
 
 impl Diktiometry {
-    /// Returns where `to` lies as seen from `from`, from the relations within `limits`, or `None`
-    /// where they do not reach. m.
+    /// Returns the bounds of the position of `to` as seen from `from`, m, from the relations within
+    /// `limits`. `None` where they do not reach.
     #[must_use]
     pub fn displacement(
         &self,
@@ -144,8 +144,8 @@ impl Diktiometry {
         self.add_place(frame, PointBox::ORIGIN)
     }
 
-    /// Returns what the two graphs promise and do not keep, or `None` if all is well. O(places +
-    /// links · degree + relations · log degree).
+    /// Returns the first invariant of the two graphs that does not hold, or `None` if all hold.
+    /// O(places + links · degree + relations · log degree).
     #[must_use]
     pub fn check(&self, actions: usize) -> Option<Flaw> {
         self.flawed_link(actions)

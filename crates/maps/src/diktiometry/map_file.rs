@@ -36,7 +36,7 @@ pub enum MapFileError {
 }
 
 impl MapFile {
-    /// Returns what is to be written of an observer.
+    /// Returns the saved form of an observer.
     ///
     /// # Errors
     /// [`MapFileError::NoJournal`] if it kept none.

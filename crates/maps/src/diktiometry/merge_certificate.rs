@@ -4,8 +4,9 @@
 //! and the world in [`Config`]:
 //!
 //! - *bounds* ([`MergeProof::Bounds`]): routes through the journal bring the two nearer to each
-//!   other than two places can be. It is a proof as long as the bounds of odometry hold, places are
-//!   δ_sep apart in the sense of [`Apart`](super::Apart), and corridors are as straight as stated;
+//!   other than two places can be. It is a proof under three conditions. The bounds of odometry
+//!   hold, places are δ_sep apart in the sense of [`Apart`](super::Apart), and corridors are as
+//!   straight as stated;
 //! - *looks* ([`MergeProof::Looks`]): the two look alike, and so do the places that the same
 //!   actions lead to. It states the probability of being wrong.
 //!
@@ -49,7 +50,7 @@ const LONGEST: usize = 5;
 pub struct MergeCertificate {
     /// The two visits.
     pub visits: [usize; 2],
-    /// The ground.
+    /// Ground of the merge: bounds or looks.
     pub proof: MergeProof,
     /// Whether it is by looks, or leads through places that are one by an earlier one that is.
     pub rests_on_looks: bool,
@@ -99,7 +100,7 @@ pub struct LookPair {
     /// The visits.
     pub visits: [usize; 2],
     /// The number of the earlier pair from whose places one action leads to these, and the action;
-    /// `None` of the first pair.
+    /// `None` for the first pair.
     pub after: Option<(usize, Action)>,
 }
 

@@ -13,13 +13,13 @@ use super::{Action, Signature};
 pub struct ObservedMove {
     /// The control routine.
     pub action: Action,
-    /// Bounds that contain the true motion: the displacement of the move along the axes of the
+    /// Bounds that contain the true motion. They hold the displacement along the axes of the
     /// compass (x east, y north), m, and the heading, rad.
     ///
     /// A robot with odometry in its own axes turns it by its compass:
     /// `PoseBox::new(PointBox::ORIGIN, heading).transform(displacement)`.
     pub odometry: PoseBox,
-    /// View of the place where it ended.
+    /// View of the place where the move ended.
     pub percept: Option<Signature>,
     /// Actions that could be tried there.
     pub exits: Exits,
@@ -27,11 +27,11 @@ pub struct ObservedMove {
     pub outcome: MoveOutcome,
 }
 
-/// How a move ended.
+/// End of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum MoveOutcome {
-    /// At a distinctive place.
+    /// The robot came to a distinctive place.
     Arrived,
     /// The action was not possible: the robot is where it was.
     Blocked,
@@ -42,7 +42,7 @@ pub enum MoveOutcome {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Exits {
-    /// It cannot tell: any action may be worth a try.
+    /// The robot cannot tell: any action may be worth a try.
     #[default]
     Unknown,
     /// These.
@@ -60,7 +60,7 @@ impl Exits {
     }
 }
 
-/// What the robot sees of the first place.
+/// View and exits of the first place.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FirstPlace {

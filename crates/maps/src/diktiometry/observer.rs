@@ -98,8 +98,8 @@ impl Observer {
         self.tracks[0].place
     }
 
-    /// Returns where an action leads from a place, as far as is known, by the link's id. Empty if
-    /// it was never done there or the place is not known.
+    /// Returns the links by which an action leads from a place, by id. Empty if it was never done
+    /// there or the place is not known.
     #[must_use]
     pub fn predict(&self, place: PlaceId, action: Action) -> Vec<Predicted> {
         let Some(place) = self.map.paths.resolve(place) else {

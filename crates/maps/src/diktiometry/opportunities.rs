@@ -65,8 +65,8 @@ impl OpportunityKind {
 }
 
 impl Observer {
-    /// Returns what would help the map, the most worthwhile first: scripts from where the best
-    /// track is. Nothing depends on whether they are done. O(places + links · degree).
+    /// Returns the actions that would help the map, the most worthwhile first: scripts from where
+    /// the best track is. Nothing depends on whether they are done. O(places + links · degree).
     ///
     /// The opportunity checker "examines the current mapper state to determine if any scripts are
     /// applicable".
@@ -205,9 +205,9 @@ impl Observer {
     }
 }
 
-/// The ways that scripts take: those that a plan may follow, and the untried action back along the
-/// robot's last link if its end will be recognized. The world may lack such a way; a script may
-/// fail.
+/// The ways that scripts take: those that a plan may follow, and one more. That is the untried
+/// action back along the robot's last link, if its end will be recognized. The world may lack such
+/// a way; a script may fail.
 struct Walkable<'a>(&'a Observer);
 
 impl Walkable<'_> {

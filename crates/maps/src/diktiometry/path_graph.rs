@@ -23,7 +23,7 @@ pub struct Place {
     pub envelope: PointBox,
     /// Weighted estimates of its position, m.
     pub estims: Vec<Estim>,
-    /// Views of it.
+    /// Views of the place.
     pub views: Vec<Signature>,
     /// Links that leave it, by id.
     pub outgoing: Vec<LinkId>,
@@ -82,11 +82,11 @@ impl Place {
 /// State of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
-    /// It is part of the map.
+    /// The place is part of the map.
     Standing,
-    /// It turned out to be the same as another, made earlier.
+    /// The place turned out to be the same as another, made earlier.
     MergedInto(PlaceId),
-    /// It turned out not to exist.
+    /// The place turned out not to exist.
     Elided,
 }
 
@@ -124,7 +124,7 @@ pub struct MergeNote {
 pub enum Ground {
     /// Their boxes meet.
     Position,
-    /// They look alike, however far apart.
+    /// The places look alike, however far apart.
     Look,
 }
 
@@ -172,16 +172,16 @@ impl Link {
 pub struct Successor {
     /// The link taken next.
     pub link: LinkId,
-    /// Number of times.
+    /// Number of times that the link was taken next.
     pub count: u32,
 }
 
 /// Whether a link is still part of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LinkStatus {
-    /// It is.
+    /// The link is part of the map.
     Standing,
-    /// It is not.
+    /// The link was removed.
     Removed,
 }
 
@@ -246,7 +246,7 @@ impl PathGraph {
         ids.iter().map(|&id| (id, &self.links[id.index()]))
     }
 
-    /// Returns where an action has led from a place so far, by id of the link.
+    /// Returns the links by which an action has led from a place so far, by id.
     pub fn along(&self, place: PlaceId, action: Action) -> impl Iterator<Item = (LinkId, &Link)> {
         self.outgoing(place)
             .filter(move |(_, link)| link.action == action)
@@ -399,5 +399,5 @@ const MOVE: u32 = 100;
 /// worlds of dozens of places.
 const FAILURE: u32 = 20;
 
-/// A chance below this is as good as none.
+/// Probability below which a link counts as impossible.
 const LEAST: f64 = 1e-3;

@@ -15,14 +15,14 @@ use super::{
 /// W. Burgard, D. Fox, *Probabilistic Robotics*, 2005, section 8.2).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlaceBelief {
-    /// By place; they sum to 1.
+    /// Probability of each place; the probabilities sum to 1.
     chances: BTreeMap<PlaceId, f64>,
 }
 
 /// Whether the map explains a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Explained {
-    /// It led where the map has it, from a place where the robot may have been.
+    /// The move led where the map has it, from a place where the robot may have been.
     ByTheMap,
     /// The robot is elsewhere than the map leads.
     NotAtAll,
@@ -34,7 +34,7 @@ const NEW_LOOK: f64 = 0.05;
 const CHANGED_EXIT: f64 = 0.1;
 /// Chance that an action which the map knows leads elsewhere, or that the robot is carried.
 const ASTRAY: f64 = 0.01;
-/// Share of the likeliest place's chance below which a place is dropped.
+/// Share of the likeliest place's probability below which a place is dropped.
 const LEAST: f64 = 1e-4;
 /// Pairs of places looked at for what tells two places apart.
 const PAIRS: usize = 20_000;
@@ -144,7 +144,7 @@ impl PlaceBelief {
 enum Pair {
     /// The outcome tells them apart.
     ToldApart,
-    /// It may now be at these two.
+    /// The robot may now be at these two.
     At((PlaceId, PlaceId)),
     /// The map does not know, or the action leads to one place from both.
     Unknown,
@@ -175,7 +175,8 @@ impl Observer {
             .count()
     }
 
-    /// Returns where a move led if it began at `place`, with what share of the chance.
+    /// Returns the places to which a move led if it began at `place`, each with its share of the
+    /// probability.
     fn led(&self, place: PlaceId, step: &ObservedMove) -> Vec<(PlaceId, f64)> {
         if step.outcome == MoveOutcome::Blocked {
             let open = self.map.place(place).is_open(step.action);
@@ -205,7 +206,7 @@ impl Observer {
             .collect()
     }
 
-    /// Returns what becomes of two places by an action.
+    /// Returns the result of an action from two possible places.
     fn both(&self, (one, other): (PlaceId, PlaceId), action: Action) -> Pair {
         let paths = &self.map.paths;
         let end = |place| Some(self.map.link(paths.likeliest(place, action)?).to);

@@ -66,7 +66,7 @@ impl ReferenceGraph {
         &self.frames
     }
 
-    /// Returns what is known of `to` from `from`.
+    /// Returns the relation of `to` to `from`, as far as it is known.
     #[must_use]
     pub fn relation(&self, from: FrameId, to: FrameId) -> Option<&Relation> {
         let frame = self.frames.get(from.index())?;

@@ -55,7 +55,7 @@ pub struct Predicted {
 pub struct Contradiction {
     /// The track that noticed.
     pub track: TrackId,
-    /// What is to blame, if not the move itself.
+    /// Part of the map to blame, if not the move itself.
     pub culprit: Culprit,
     /// Displacement by the map, m.
     pub known: PointBox,
@@ -63,7 +63,7 @@ pub struct Contradiction {
     pub estimate: PointBox,
 }
 
-/// What a move contradicts.
+/// Part of the map that a move contradicts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Culprit {
     /// A link that should have led to its place, which is elsewhere.

@@ -43,7 +43,7 @@ impl Verdict {
 /// Polytopy: one place that is two in the world.
 #[derive(Clone, Debug, PartialEq)]
 enum Diagnosis {
-    /// It was seen at two points.
+    /// The place was seen at two points.
     Estims {
         /// The point that the old place keeps.
         stays: Estim,

@@ -39,12 +39,13 @@ pub enum MapState {
     Unfinished,
     /// Some places may be one, and it cannot tell which.
     Unfolded,
-    /// It contradicts itself: two places were confused, or an assumption about the robot is wrong.
+    /// The map contradicts itself: two places were confused, or an assumption about the robot is
+    /// wrong.
     Contradictory,
 }
 
-/// The chance that a map is wrong against which nothing speaks, and that one is right against which
-/// something does.
+/// The probability that a map is wrong against which nothing speaks, and that one is right against
+/// which something does.
 const ERROR: f64 = 0.01;
 
 impl SelfCheck {
@@ -57,7 +58,7 @@ impl SelfCheck {
         }
     }
 
-    /// Returns what speaks against the map, as a part of a sentence; `None` if nothing does.
+    /// Returns the contradiction of the map, as a part of a sentence; `None` if there is none.
     #[must_use]
     pub fn complaint(&self) -> Option<String> {
         let Self {
@@ -90,8 +91,8 @@ impl SelfCheck {
 }
 
 impl Observer {
-    /// Returns what the map says against itself. O(places · a search, and for each pair near each
-    /// other · ways from both).
+    /// Returns the map's contradictions against itself. O(places · a search, and for each pair near
+    /// each other · ways from both).
     #[must_use]
     pub fn self_check(&self) -> SelfCheck {
         let mut check = SelfCheck::default();

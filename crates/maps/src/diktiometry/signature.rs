@@ -33,7 +33,7 @@ impl TryFrom<Unchecked> for Signature {
     }
 }
 
-/// Reason why values are no signature.
+/// Reason why values do not make a signature.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SignatureError {
@@ -95,7 +95,7 @@ impl Signature {
         Ok(Self { rows, values })
     }
 
-    /// Values in a column.
+    /// Returns the number of values in a column.
     #[must_use]
     pub const fn rows(&self) -> usize {
         self.rows

@@ -11,7 +11,7 @@ use super::{
 /// A track is at a place: matching puts it there, and its box is then the place's own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
-    /// Its name.
+    /// Id of the track.
     pub id: TrackId,
     /// The robot's place if the track is right.
     pub place: PlaceId,

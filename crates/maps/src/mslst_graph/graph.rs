@@ -24,7 +24,7 @@ pub struct Node {
     pub state: u32,
     /// Whether it is a destination node.
     pub zone: NodeZone,
-    /// In the order they were entered. Several may bear one action.
+    /// Edges in the order they were entered. Several may bear one action.
     pub edges: Vec<ActionEdge>,
 }
 
@@ -163,7 +163,7 @@ impl MslstGraph {
         0..self.nodes.len() as u32
     }
 
-    /// Returns how many bytes nodes and edges take. O(nodes).
+    /// Returns the size of nodes and edges, bytes. O(nodes).
     #[must_use]
     pub fn bytes(&self) -> usize {
         let edges = |node: &Node| size_of_val(node.edges.as_slice());

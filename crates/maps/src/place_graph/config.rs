@@ -59,6 +59,6 @@ impl PlaceGraphConfig {
     }
 }
 
-/// By which share of the error of one wheel the robot curves, as a standard deviation: two wheels
-/// err one way each. So 3 % on a track of 0.32 m are 0.15 rad/m.
+/// Standard deviation of the curvature caused by an error of the wheels, as a share of the error of
+/// one wheel. Two wheels err one way each. So 3 % on a track of 0.32 m are 0.15 rad/m.
 const CURVATURE: f64 = 1.6;

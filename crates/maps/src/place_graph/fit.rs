@@ -18,7 +18,7 @@ pub(super) struct Fit {
     pub(super) pose: Pose,
     /// Information of that by the map alone: ahead, left, heading.
     pub(super) information: Matrix3<f64>,
-    /// The same with what the wheels say.
+    /// Covariance of the pose by the map and by the wheels.
     pub(super) covariance: Matrix3<f64>,
     /// Squared distance from the pose by the wheels, in standard deviations.
     pub(super) surprise: f64,
@@ -364,8 +364,8 @@ mod tests {
     use super::super::surfaces::Surfaces;
     use super::*;
 
-    /// Walls 2 m away all round, each point looked at from the middle, and a sonar that hears the
-    /// one ahead.
+    /// Returns walls 2 m away all round, each point seen from the middle, and a sonar that hears
+    /// the wall ahead.
     fn room() -> Outline {
         let point = |number: u32| {
             let heading = Heading::from_radians(f64::from(number) * 0.26);

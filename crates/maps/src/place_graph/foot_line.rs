@@ -5,8 +5,9 @@ use tolman_robot::Picture;
 
 use super::OutlinePoint;
 
-/// Returns where things stand on the floor in a picture, in order of bearing, in the robot's frame.
-/// In each column it is the first row from below that differs from the floor below it. O(pixels).
+/// Returns the positions on the floor at which things stand in a picture, in order of bearing, in
+/// the robot's frame, m. In each column it is the first row from below that differs from the floor
+/// below it. O(pixels).
 ///
 /// A column has no point if its floor reaches the horizon, or if no floor shows in it.
 #[must_use]

@@ -55,14 +55,14 @@ pub struct PlaceGraph {
     relaxes_at: usize,
 }
 
-/// What is known of the robot's pose.
+/// Knowledge of the robot's pose.
 #[derive(Clone, Debug)]
 enum Whereabouts {
-    /// It has not looked yet.
+    /// The robot has not looked yet.
     Nowhere,
-    /// It is followed from place to place.
+    /// The robot is followed from place to place.
     Known(Here),
-    /// It may be at any of these, the likeliest first.
+    /// The robot may be at any of these, the likeliest first.
     Lost(Vec<Hypothesis>),
 }
 
@@ -166,7 +166,7 @@ impl PlaceGraph {
         self
     }
 
-    /// Returns how many bytes places, poses and what joins them take. O(places).
+    /// Returns the size of places, poses and the links between them, bytes. O(places).
     #[must_use]
     pub fn bytes(&self) -> usize {
         let outlines = self.places.iter().map(|outline| {
@@ -182,26 +182,25 @@ impl PlaceGraph {
             + self.surfaces.bytes()
     }
 
-    /// Returns what is seen from each place, by id.
+    /// Returns the view from each place, by id.
     #[must_use]
     pub fn places(&self) -> &[Outline] {
         &self.places
     }
 
-    /// Returns where the places lie and what joins them.
+    /// Returns the pose graph of the places.
     #[must_use]
     pub const fn poses(&self) -> &PoseGraph {
         &self.graph
     }
 
-    /// Returns what is known of the robot's wheels.
+    /// Returns the learned errors of the robot's wheels.
     #[must_use]
     pub const fn wheels(&self) -> &WheelError {
         &self.wheels
     }
 
-    /// Returns where the robot is in the map's frame: the likeliest pose; `None` if it has not
-    /// looked yet.
+    /// Returns the likeliest pose of the robot in the map's frame; `None` if it has not looked yet.
     #[must_use]
     pub fn here(&self) -> Option<Pose> {
         match &self.whereabouts {

@@ -40,7 +40,7 @@ struct SavedPlace {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SavedPlaceGraphError {
-    /// It is of another format or version.
+    /// The file is of another format or version.
     #[error(
         "the format is {format:?}, version {version}; expected {FORMAT:?}, version {VERSION}: learn the map again"
     )]

@@ -23,7 +23,7 @@ pub struct WheelError {
 /// Pose of a robot by its wheels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rolled {
-    /// From where it was.
+    /// Motion since the last step.
     pub(super) pose: Pose,
     /// Covariance of that, ahead and to the left of it, and of the heading.
     pub(super) covariance: Matrix3<f64>,
@@ -38,7 +38,7 @@ const SLIP_TURN: f64 = 0.03 * 0.03;
 const LEAST_VARIANCE: f64 = 1e-6;
 
 impl WheelError {
-    /// Returns that nothing is known but how large the error can be, as standard deviations.
+    /// Returns errors of which nothing is known but their maximum, as standard deviations.
     #[must_use]
     pub fn unknown(scale_deviation: f64, curvature_deviation: f64) -> Self {
         let deviations = Vector2::new(scale_deviation, curvature_deviation);
@@ -96,7 +96,7 @@ impl WheelError {
     }
 }
 
-/// By which the error is changed to see what it does.
+/// Change of the error that measures its effect.
 const STEP: f64 = 1e-4;
 
 const LEAST_DOUBT: f64 = 1e-6;

@@ -94,9 +94,7 @@ pub enum PlaceMapError {
         count: usize,
     },
     /// The file is something else, or of a later version.
-    #[error(
-        "this is {format:?} of version {version} where \"tolman-place-map\" of version 1 was expected"
-    )]
+    #[error("this is {format:?} of version {version}; give \"tolman-place-map\" of version 1")]
     WrongFormat {
         /// Format that the file states.
         format: alloc::string::String,

@@ -90,11 +90,11 @@ impl Default for FeatureChoice {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct FeatureWeights {
-    /// w_image; not negative.
+    /// Weight of the image, w_image; not negative.
     pub image: f64,
-    /// w_odo; not negative.
+    /// Weight of the odometry, w_odo; not negative.
     pub odometry: f64,
-    /// w_sonar; not negative.
+    /// Weight of the sonar, w_sonar; not negative.
     pub sonar: f64,
 }
 

@@ -124,7 +124,8 @@ impl FeatureSpace {
         None
     }
 
-    /// Returns where features lie by their odometry, m; `None` where it is not among them.
+    /// Returns the position of features by their odometry, m; `None` where the odometry is not
+    /// among them.
     #[must_use]
     pub fn position(&self, features: &[f32]) -> Option<Point> {
         let values = self.part(features, |group| group == FeatureGroup::Odometry)?;

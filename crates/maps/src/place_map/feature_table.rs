@@ -10,7 +10,7 @@ use super::{FeatureChoice, FeatureError, FeatureGroup, FeatureScaling, FeatureSp
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum ImageForm {
-    /// By the values of their pixels.
+    /// The values of the images' pixels.
     #[default]
     Pixels,
     /// As orthonormal coordinates in the span of the table's images: at most one per record,

@@ -110,7 +110,7 @@ impl PlaceMap {
         Ok(map)
     }
 
-    /// Returns how it learns.
+    /// Returns the parameters of learning.
     #[must_use]
     pub const fn config(&self) -> &PlaceMapConfig {
         &self.config
@@ -197,7 +197,8 @@ impl PlaceMap {
         Some(self.network().prototype(node).ok()?.collect())
     }
 
-    /// Returns where the nodes lie, m, in the order of their ids; of a map without odometry none.
+    /// Returns the positions of the nodes, m, in the order of their ids; none for a map without
+    /// odometry.
     pub fn positions(&self) -> impl Iterator<Item = (UnitId, Point)> + '_ {
         let nodes = self.network().ids();
         nodes.filter_map(|node| Some((node, self.position(node)?)))

@@ -7,6 +7,6 @@ use tolman_robot::Snapshot;
 pub struct PlaceRecord {
     /// Pose by odometry, relative to where the robot was put down.
     pub odometry: Pose,
-    /// What it perceived there.
+    /// Perception of the robot there.
     pub snapshot: Snapshot,
 }

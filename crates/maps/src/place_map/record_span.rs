@@ -23,7 +23,7 @@ pub(super) struct RecordSpan {
 #[derive(Debug)]
 pub(super) struct Spanned {
     pub(super) span: RecordSpan,
-    /// By vector, `span.rank` each.
+    /// Coordinates by vector, `span.rank` each.
     pub(super) coordinates: Vec<Vec<f32>>,
 }
 
@@ -90,7 +90,7 @@ impl RecordSpan {
 /// The factorization under way.
 struct Growing {
     vectors: Vec<Vec<f32>>,
-    /// By vector, as far as they are known.
+    /// Coordinates by vector, as far as they are known.
     coordinates: Vec<Vec<f64>>,
     /// By vector: the square of what its coordinates miss; nothing more of those that were chosen.
     missing: Vec<Option<f64>>,

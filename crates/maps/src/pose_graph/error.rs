@@ -16,7 +16,7 @@ pub enum PoseGraphError {
         /// The number of poses.
         poses: usize,
     },
-    /// It joins a pose with itself.
+    /// The edge joins a pose with itself.
     #[error("an edge joins pose {pose} with itself: leave it out")]
     Loop {
         /// The pose.

@@ -70,7 +70,7 @@ pub struct Optimized {
     pub steps: u32,
     /// The sum of squared errors before, doubted closures less; no unit.
     pub error_before: f64,
-    /// The same after; never larger.
+    /// Error after the optimization; never larger than before.
     pub error_after: f64,
     /// Whether a further step would have changed next to nothing.
     pub has_converged: bool,

@@ -9,7 +9,7 @@ use super::wall_grid::GridIndex;
 /// them.
 #[derive(Debug, Default)]
 pub(super) struct Branches {
-    /// By number; none where one was taken away.
+    /// Knots by number; a number that was removed is missing.
     knots: BTreeMap<usize, Knot>,
     branches: Vec<Branch>,
 }
@@ -26,7 +26,7 @@ pub(super) struct Knot {
 #[derive(Clone, Debug)]
 pub(super) struct Branch {
     pub(super) ends: [usize; 2],
-    /// From the first end to the second, both included.
+    /// Cells from the first end to the second, both included.
     pub(super) cells: Vec<GridIndex>,
     /// Least clearance on it, m.
     pub(super) narrowest: f64,

@@ -136,7 +136,7 @@ pub enum ChartError {
 const FARTHEST: f64 = 5e4;
 
 impl ScanChart {
-    /// Returns how many bytes places, links, walls and the landmark's positions take. O(1).
+    /// Returns the size of places, links, walls and the landmark's positions, bytes. O(1).
     #[must_use]
     pub const fn bytes(&self) -> usize {
         size_of_val(self.places.as_slice())
@@ -160,7 +160,7 @@ impl ScanChart {
         }
     }
 
-    /// Returns how it is written. O(cells + places + links).
+    /// Returns the saved form of the map. O(cells + places + links).
     #[must_use]
     pub fn to_parts(&self) -> ChartParts {
         ChartParts {
@@ -176,7 +176,7 @@ impl ScanChart {
         }
     }
 
-    /// Returns what was written. O(cells + places + links).
+    /// Returns the map of a saved form. O(cells + places + links).
     ///
     /// # Errors
     /// [`ChartError`] with the first part that is invalid.
@@ -233,19 +233,20 @@ impl ScanChart {
         &self.places
     }
 
-    /// Returns where the landmark of the goal was sensed.
+    /// Returns the positions at which the landmark of the goal was sensed, m.
     #[must_use]
     pub fn goal(&self) -> &[Point] {
         &self.goal
     }
 
-    /// Returns where the landmark of the start was sensed; nothing if the map begins there.
+    /// Returns the positions at which the landmark of the start was sensed, m; nothing if the map
+    /// begins there.
     #[must_use]
     pub fn start(&self) -> &[Point] {
         &self.start
     }
 
-    /// Returns where the robot can stand on a grid of [its ground](GroundPlan::grid).
+    /// Returns the standpoints of the robot on a grid of [its ground](GroundPlan::grid).
     #[must_use]
     pub const fn clearings<'a>(&self, grid: &'a WallGrid) -> Clearings<'a> {
         Clearings::new(grid, self.radius)

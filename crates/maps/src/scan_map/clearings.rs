@@ -46,8 +46,8 @@ impl<'a> Clearings<'a> {
         self.grid.stands(index_of(at), self.radius)
     }
 
-    /// Returns how far the robot can go straight ahead, up to `most` m, before its body meets a
-    /// wall or unknown ground.
+    /// Returns the distance, up to `most`, m, that the robot can go straight ahead before its body
+    /// meets a wall or unknown ground.
     #[must_use]
     pub fn straight(&self, from: Point, unit: Vector, most: f64) -> f64 {
         let steps = (most / WallGrid::CELL) as u32;

@@ -3,11 +3,11 @@ use super::rays::{RANGE_UNIT, UNKNOWN};
 /// The best explanation of what a robot saw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Explanation {
-    /// Its map, about where it believed to be.
+    /// The robot's map, about where it believed to be.
     AsKnown,
     /// Walls that were not there when the map was learned.
     NewWalls,
-    /// It was lifted.
+    /// A lift of the robot.
     Lifted,
 }
 
@@ -25,9 +25,9 @@ pub(super) struct Evidence {
 /// deviations of a range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Misfit {
-    /// Of all beams, or `None` if the map does not know what is seen there.
+    /// Misfit of all beams; `None` if the map does not know what is seen there.
     all: Option<f64>,
-    /// Of the beams that do not end on new walls, or `None` if no new wall is in sight.
+    /// Misfit of the beams that do not end on new walls; `None` if no new wall is in sight.
     but_for_new_walls: Option<f64>,
 }
 

@@ -60,7 +60,7 @@ impl GroundPlan {
         size_of_val(self.walls.as_slice()) + size_of_val(self.floor.as_slice())
     }
 
-    /// Returns what a grid knows. O(cells).
+    /// Returns the ground that a grid knows. O(cells).
     #[must_use]
     pub fn of(grid: &WallGrid) -> Self {
         let known = || {

@@ -123,7 +123,7 @@ impl ScanMap {
         self.sense(landmark, self.position + moved);
     }
 
-    /// Returns where the robot is.
+    /// Returns the position of the robot, m.
     #[must_use]
     pub const fn position(&self) -> Point {
         self.position
@@ -135,8 +135,8 @@ impl ScanMap {
         self.at
     }
 
-    /// Returns how well the last scan met the walls that were known, 0 … 1; 1 where it met none of
-    /// them.
+    /// Returns the agreement of the last scan with the walls that were known, 0 … 1; 1 where it met
+    /// none of them.
     #[must_use]
     pub const fn agreement(&self) -> f64 {
         self.agreement
@@ -161,25 +161,26 @@ impl ScanMap {
         &self.grid
     }
 
-    /// Returns where the landmark of the goal was sensed.
+    /// Returns the positions at which the landmark of the goal was sensed, m.
     #[must_use]
     pub fn goal(&self) -> &[Point] {
         &self.goal
     }
 
-    /// Returns where the landmark of the start was sensed; nothing if the map begins there.
+    /// Returns the positions at which the landmark of the start was sensed, m; nothing if the map
+    /// begins there.
     #[must_use]
     pub fn start(&self) -> &[Point] {
         &self.start
     }
 
-    /// Returns where the robot has been, as far as it could stand there now.
+    /// Returns the cells in which the robot has been, as far as it could stand there now.
     #[must_use]
     pub fn clearings(&self) -> Clearings<'_> {
         Clearings::new(&self.grid, self.config.radius)
     }
 
-    /// Returns how many bytes places, links, walls and the landmark's positions take. O(1).
+    /// Returns the size of places, links, walls and the landmark's positions, bytes. O(1).
     #[must_use]
     pub fn bytes(&self) -> usize {
         size_of_val(self.places.as_slice())

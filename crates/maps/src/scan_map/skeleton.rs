@@ -14,7 +14,7 @@ pub(super) struct Skeleton {
     columns: i32,
     rows: i32,
     is_line: Vec<bool>,
-    /// From each cell to the border of the ground, in [`PART`]s of a cell.
+    /// Distance from each cell to the border of the ground, in [`PART`]s of a cell.
     depth: Vec<u32>,
 }
 
@@ -75,7 +75,7 @@ impl Skeleton {
         })
     }
 
-    /// Computes the distance of each cell from the border, forth and back over all rows.
+    /// Computes the distance of each cell from the border, forwards and backwards over all rows.
     fn measure(&mut self) {
         const BEFORE: [usize; 4] = [4, 5, 6, 7];
         const AFTER: [usize; 4] = [0, 1, 2, 3];

@@ -47,7 +47,7 @@ const GOAL_MARGIN: f64 = 0.05;
 const SENSES_GOAL: f64 = 0.12;
 
 impl Standpoints {
-    /// From one to the next, m.
+    /// Distance between neighbouring standpoints, m.
     pub const SPACING: f64 = EVERY as f64 * WallGrid::CELL;
 
     /// Returns the standpoints of a map that lead to where its robot has been, for scans by `ring`.
@@ -96,7 +96,7 @@ impl Standpoints {
         self.len() == 0
     }
 
-    /// Returns where they lie, by number.
+    /// Returns the positions of the standpoints, m, by number.
     pub fn positions(&self) -> impl Iterator<Item = Point> + '_ {
         self.stands.slots().map(|slot| middle(self.index(slot)))
     }
@@ -121,7 +121,7 @@ impl Standpoints {
         self.number(lattice_of(index_of(point)))
     }
 
-    /// Returns what is seen from each. O(standpoints · beams · range).
+    /// Returns the view from each standpoint. O(standpoints · beams · range).
     #[must_use]
     pub fn views(&self) -> StandpointViews {
         let seen = |slot| self.rays.ranges(self.chart.ground(), self.index(slot));

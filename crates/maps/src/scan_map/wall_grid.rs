@@ -52,7 +52,7 @@ impl WallGrid {
     /// Greatest known distance from a wall, m.
     pub const REACH: f64 = 0.35;
 
-    /// Returns how many bytes its cells take. O(1).
+    /// Returns the size of the grid's cells, bytes. O(1).
     #[must_use]
     pub const fn bytes(&self) -> usize {
         size_of_val(self.cells.as_slice())

@@ -95,8 +95,8 @@ impl ScanMatching {
         Ok(matches)
     }
 
-    /// Returns how far a keyframe may be from its pose on the map, m: the window in which places
-    /// are searched.
+    /// Returns the maximum distance of a keyframe from its pose on the map, m: the window in which
+    /// places are searched.
     #[must_use]
     pub fn doubt(&self, keyframe: usize) -> f64 {
         let config = self.config.closures.as_ref();
@@ -247,7 +247,7 @@ impl ScanMatching {
             .collect()
     }
 
-    /// Keyframes as one outline, seen from one of them.
+    /// Returns keyframes as one outline, seen from one of them.
     pub(super) fn put_together(&self, first: usize, last: usize, from: usize) -> ScanOutline {
         let poses = self.graph.poses();
         let mut together = ScanOutline::default();

@@ -23,15 +23,15 @@ pub struct ScanMatchingConfig {
     pub local_keyframes: usize,
     /// Half-width of the window about the odometry's pose, along each axis.
     pub window: f64,
-    /// The same by heading.
+    /// Half-width of the window about the odometry's heading.
     pub window_turn: f64,
     /// Loss of score of a candidate at the border of the window, by position.
     pub prior: f64,
-    /// The same by heading.
+    /// Loss of score of a candidate at the border of the window, by heading.
     pub prior_turn: f64,
     /// Standard deviation of the odometry along each axis, from one matched scan to the next.
     pub odometry_sd: f64,
-    /// The same of its heading.
+    /// Standard deviation of the odometry's heading, from one matched scan to the next.
     pub odometry_turn_sd: f64,
     /// Minimum score of a fit; below it a scan stays where the odometry has it.
     pub least_score: f64,
@@ -39,7 +39,7 @@ pub struct ScanMatchingConfig {
     pub closures: Option<ClosureConfig>,
 }
 
-/// Where the robot searches for places that it has seen.
+/// Sites where the robot searches for places that it has seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ClosureSites {
@@ -55,7 +55,7 @@ pub enum ClosureSites {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ClosureConfig {
-    /// Where they are searched.
+    /// Sites where closures are searched.
     pub sites: ClosureSites,
     /// Way from one search to the next.
     pub every: f64,
@@ -81,13 +81,13 @@ pub struct ClosureConfig {
     pub least_score: f64,
     /// Maximum difference of the corrections of two closures that agree.
     pub agreement: f64,
-    /// The same by heading.
+    /// Maximum difference of the corrections of two closures that agree, by heading.
     pub agreement_turn: f64,
     /// The second of two that agree comes after that much way at most.
     pub agreement_way: f64,
     /// Standard deviation of a closure along each axis at best.
     pub sd: f64,
-    /// The same by heading.
+    /// Standard deviation of a closure's heading at best.
     pub turn_sd: f64,
     /// The squared error at which a closure counts a quarter.
     pub doubt: f64,

@@ -21,7 +21,7 @@ pub(super) struct Window {
     pub(super) turn: f64,
     /// Loss of score of a pose at the border, by position.
     pub(super) prior: f64,
-    /// The same by heading.
+    /// Loss of score of a pose at the border, by heading.
     pub(super) prior_turn: f64,
 }
 

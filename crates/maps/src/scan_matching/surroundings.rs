@@ -50,8 +50,8 @@ impl ScanMatching {
         Some(scan)
     }
 
-    /// Returns which way most surfaces run, up to quarter turns: the axis of the building. `None`
-    /// before a surface was seen. O(keyframes).
+    /// Returns the direction in which most surfaces run, up to quarter turns: the axis of the
+    /// building. `None` before a surface was seen. O(keyframes).
     #[must_use]
     pub fn axis(&self) -> Option<Heading> {
         self.axis_of(0..self.keyframes.len())

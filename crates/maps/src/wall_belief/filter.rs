@@ -10,7 +10,7 @@ use tolman_maze::Knowledge;
 
 use super::{RangeModel, RangeReading, WallBelief};
 
-/// How a [`PoseFilter`] models wheels and sensors.
+/// Model of wheels and sensors of a [`PoseFilter`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PoseFilterConfig {
@@ -23,7 +23,7 @@ pub struct PoseFilterConfig {
     /// Standard deviation of where a particle is after a step, whatever was asked for, m: it keeps
     /// particles apart. ≥ 0.
     pub spread: f64,
-    /// How the range sensors err.
+    /// Errors of the range sensors.
     pub sensor: RangeModel,
 }
 
@@ -48,12 +48,14 @@ impl PoseFilterConfig {
 
 /// A number of the configuration out of its range.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("{field} is {value}: give a finite number in the range that its documentation states")]
+#[error("`{field}` is {value}; give {range}")]
 pub struct FilterError {
     /// The name of the field.
     pub field: &'static str,
     /// Its value.
     pub value: f64,
+    /// Values that the field may have.
+    pub range: &'static str,
 }
 
 /// The mouse's pose as a cloud of particles: Monte Carlo localization (Probabilistic robotics,
@@ -80,8 +82,8 @@ impl PoseFilter {
     /// # Errors
     /// If a number of the configuration is out of its range.
     pub fn new(config: PoseFilterConfig, pose: Pose) -> Result<Self, FilterError> {
-        let positive = |field, value| (field, value, value > 0.0);
-        let at_least_0 = |field, value| (field, value, value >= 0.0);
+        let positive = |field, value| (field, value, value > 0.0, "a number above 0");
+        let at_least_0 = |field, value| (field, value, value >= 0.0, "0 or more");
         let share = (0.0..=1.0).contains(&config.sensor.outliers);
         let fields = [
             positive("particles", f64::from(config.particles)),
@@ -90,13 +92,22 @@ impl PoseFilter {
             at_least_0("spread", config.spread),
             positive("sensor.absolute", config.sensor.absolute),
             at_least_0("sensor.relative", config.sensor.relative),
-            ("sensor.outliers", config.sensor.outliers, share),
+            (
+                "sensor.outliers",
+                config.sensor.outliers,
+                share,
+                "a number from 0 to 1",
+            ),
         ];
-        if let Some((field, value, _)) = fields
+        if let Some((field, value, _, range)) = fields
             .into_iter()
-            .find(|(_, value, holds)| !(*holds && value.is_finite()))
+            .find(|(_, value, holds, _)| !(*holds && value.is_finite()))
         {
-            return Err(FilterError { field, value });
+            return Err(FilterError {
+                field,
+                value,
+                range,
+            });
         }
         let weight = 1.0 / f64::from(config.particles);
         Ok(Self {
@@ -129,8 +140,8 @@ impl PoseFilter {
         self.draw(self.config.particles as usize, rng);
     }
 
-    /// The mouse was told to drive `distance` metres and to turn by `turn` radians meanwhile.
-    /// O(particles).
+    /// Moves the particles as a mouse that was told to drive `distance`, m, and to turn by `turn`,
+    /// rad, counter-clockwise, meanwhile. O(particles).
     pub fn drive(&mut self, distance: f64, turn: f64, rng: &mut impl Rng) {
         let config = self.config;
         for particle in &mut self.particles {
@@ -270,7 +281,7 @@ fn gaussians(rng: &mut impl Rng) -> [f64; 2] {
     [radius * libm::cos(angle), radius * libm::sin(angle)]
 }
 
-/// Uniform in [0, 1).
+/// Returns a random number, uniform in [0, 1).
 fn uniform(rng: &mut impl Rng) -> f64 {
     f64::from(rng.random::<u32>()) / 4_294_967_296.0
 }

@@ -7,7 +7,7 @@ use super::RangeReading;
 pub struct RangeModel {
     /// Standard deviation of a range, m. > 0.
     pub absolute: f64,
-    /// The same as a share of the range, at least 0.
+    /// Standard deviation of a range as a share of the range, at least 0.
     pub relative: f64,
     /// The share of readings that have nothing to do with the walls in the map, such as those that
     /// meet a post. Within 0 … 1.

@@ -38,7 +38,7 @@ pub struct WallBelief<const N: usize> {
     grid: Grid,
     pitch: f64,
     thickness: f64,
-    /// By wall: the log-odds that it stands.
+    /// Log-odds that each wall stands.
     odds: Vec<f64>,
 }
 
@@ -201,8 +201,9 @@ impl<const N: usize> WallBelief<N> {
         (line.distance - self.thickness / 2.0 / line.slope).max(0.0)
     }
 
-    /// Returns where a ray from `origin` that reaches `max_range` may end. These are crossed grid
-    /// lines where a wall may stand, the nearest first, up to the first wall believed in.
+    /// Returns the points at which a ray from `origin` that reaches `max_range`, m, may end. These
+    /// are crossed grid lines where a wall may stand, the nearest first, up to the first wall
+    /// believed in.
     pub fn meetings(
         &self,
         origin: Point,
@@ -289,7 +290,7 @@ impl<const N: usize> Walls for WallBelief<N> {
 #[derive(Clone, Copy)]
 struct Axis {
     distance: f64,
-    /// From one line to the next.
+    /// Distance between neighbouring lines.
     step: f64,
     /// The side crossed there.
     side: Direction,

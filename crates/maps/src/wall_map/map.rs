@@ -52,16 +52,16 @@ pub struct WallMap<const N: usize, const LOG: usize = 64> {
     /// Walls between a cell and its northern neighbour.
     north: Plane<N>,
     log: Log<LOG>,
-    /// By y, then x; stays at the greatest number.
+    /// Visits by y, then x; stay at the greatest number.
     visits: [[u8; N]; N],
 }
 
 /// State of the walls on one side of every cell: two bits each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Plane<const N: usize> {
-    /// By y; bit x is set where the wall is known.
+    /// Known walls by y; bit x is set where the wall is known.
     known: [u32; N],
-    /// By y; bit x is set where it is known to stand.
+    /// Standing walls by y; bit x is set where the wall is known to stand.
     standing: [u32; N],
 }
 
@@ -82,7 +82,7 @@ pub enum ClosedCells {
 pub enum ObserveError {
     /// The observer stands outside the maze.
     #[error(
-        "nothing can be observed from {cell}, which is not in the maze of {} × {} cells",
+        "nothing can be observed from {cell}; give a cell of the maze of {} × {} cells",
         grid.width(), grid.height()
     )]
     Outside {
@@ -91,7 +91,7 @@ pub enum ObserveError {
         /// The size of the maze.
         grid: Grid,
     },
-    /// It says the contrary of what is known.
+    /// The observation contradicts what is known.
     #[error(
         "the {direction} side of {cell} is known to be {}: the mouse is elsewhere, or an observation was \
          wrong and has to be undone",
@@ -162,7 +162,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         })
     }
 
-    /// Returns what is known of a wall; beyond the grid every wall stands.
+    /// Returns the knowledge of a wall; beyond the grid every wall stands.
     #[must_use]
     pub fn wall(&self, wall: Wall) -> Knowledge {
         let side = self.grid.side(wall);
@@ -234,7 +234,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         }
     }
 
-    /// Returns how many times a cell was visited; 255 stands for all greater numbers.
+    /// Returns the number of visits to a cell; 255 stands for all greater numbers.
     #[must_use]
     pub fn visits(&self, cell: Cell) -> u8 {
         let row = self.visits.get(usize::from(cell.y));
@@ -248,7 +248,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         size_of::<Self>() - size_of::<Log<LOG>>()
     }
 
-    /// Returns how many cells were visited.
+    /// Returns the number of visited cells.
     #[must_use]
     pub fn visited_count(&self) -> usize {
         self.visits

@@ -48,7 +48,7 @@ pub enum MazeFault {
     Character {
         /// The character, a line feed at the end of a line.
         found: char,
-        /// What is allowed there, in words.
+        /// Text that is allowed there, in words.
         expected: &'static str,
     },
     /// A tab, whose width is unknown.
@@ -98,7 +98,7 @@ pub enum MazeFault {
     Number {
         /// The text that stands there.
         found: String,
-        /// What is allowed there, in words.
+        /// Text that is allowed there, in words.
         expected: &'static str,
     },
     /// Too few or too many lines or items.
@@ -163,7 +163,7 @@ pub enum MazeFault {
          and `|`; lines that start with `#` are comments, not walls"
     )]
     NoDrawing,
-    /// A line before the drawing that is no `key = value`.
+    /// A line before the drawing that is not `key = value`.
     #[error("found `{found}`: expected `key = value`, a comment after `#`, or the drawing")]
     NotAKey {
         /// The beginning of the line.
@@ -304,7 +304,7 @@ pub enum WriteError {
         name: String,
     },
     /// A corridor width outside [`MazeFile::CORRIDOR_WIDTHS`](crate::MazeFile::CORRIDOR_WIDTHS).
-    #[error("the corridor width {width} m must be from 0.001 to 1000 m")]
+    #[error("the corridor width is {width} m; give 0.001 to 1000 m")]
     CorridorWidth {
         /// The width, m.
         width: f64,

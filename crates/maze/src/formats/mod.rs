@@ -95,7 +95,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 4] = [Self::Numbers, Self::Mazefiles, Self::Num, Self::Tolman];
 
     /// Returns the name, as a command line takes it.
@@ -254,7 +254,7 @@ fn parsed(text: &str, format: Format) -> Result<Parsed, MazeError> {
 /// Contents of a text, with the place of each cell, for faults found only later.
 struct Parsed {
     file: MazeFile,
-    /// By [`Grid::index`](crate::Grid::index).
+    /// Places by [`Grid::index`](crate::Grid::index).
     places: Vec<Place>,
     /// Place where the cells begin.
     begin: Place,

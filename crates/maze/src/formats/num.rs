@@ -54,7 +54,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     sides::parsed(grid, &sides)
 }
 
-/// `X Y N E S W`
+/// Reads a line `X Y N E S W`.
 fn cell(line: Line<'_>) -> Result<(Cell, Sides), MazeError> {
     let mut words = [""; 6];
     let mut found = 0;

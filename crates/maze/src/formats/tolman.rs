@@ -234,7 +234,8 @@ fn is_width(width: f64) -> bool {
     (MazeFile::CORRIDOR_WIDTHS.0..=MazeFile::CORRIDOR_WIDTHS.1).contains(&width)
 }
 
-/// Numbers may be parted by blanks and commas, and cells bracketed, as people write coordinates.
+/// Returns whether `c` may stand between numbers: blanks, commas and brackets, as people write
+/// coordinates.
 fn is_separator(c: char) -> bool {
     c.is_whitespace() || matches!(c, ',' | ';' | '(' | ')')
 }

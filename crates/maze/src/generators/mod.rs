@@ -29,8 +29,8 @@ fn grid(width: u16, height: u16) -> Result<Grid, GenerateError> {
     Ok(grid)
 }
 
-/// Start and goal where classic competitions have them: the south-west cell, looking through its
-/// first opening clockwise from north; and the middle.
+/// Marks start and goal where classic competitions have them. The start is the south-west cell,
+/// looking through its first opening clockwise from north. The goal is the middle.
 ///
 /// If the middle of a small maze holds the start, the run would be over before it began. Then the
 /// goal is the cell farthest from the start, of several the last by [`Grid::index`].

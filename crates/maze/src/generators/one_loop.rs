@@ -71,7 +71,7 @@ impl OneLoop {
     }
 }
 
-/// Lines from the first cell of a side to its last, two or three cells apart.
+/// Returns lines from the first cell of a side to its last, two or three cells apart.
 fn lines(side: u16, rng: &mut impl Rng) -> Vec<u16> {
     let (mut at, last) = (0, side - 1);
     let mut lines = vec![at];

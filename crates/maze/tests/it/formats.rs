@@ -251,7 +251,7 @@ fn what_a_format_cannot_hold_it_refuses() {
     check(
         |file| file.corridor_width = Some(f64::NAN),
         Format::Tolman,
-        "the corridor width NaN m must be from 0.001 to 1000 m",
+        "the corridor width is NaN m; give 0.001 to 1000 m",
     );
     check(
         |file| file.maze.set_wall(Cell::new(3, 2), Direction::East, false),

@@ -78,7 +78,7 @@ fn heat_map(
     Ok(Some(figure.caption(caption).table(table)))
 }
 
-/// How a run ended, as a heat map shows it.
+/// End of a run, as a heat map shows it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum End {
     Right,

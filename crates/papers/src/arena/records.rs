@@ -45,7 +45,7 @@ record! {
         bumps: Option<u32> => lower("bumps"),
         /// Bytes of its map per place, without the data it was learned from.
         bytes_per_place: Option<f64> => lower("bytes / place").decimals(0),
-        /// How it ended, with the reason.
+        /// End of the run, with the reason.
         why: String => neither("end"),
     }
 }

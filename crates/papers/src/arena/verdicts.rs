@@ -69,7 +69,7 @@ struct OwnVerdict {
 pub struct PoolRound {
     /// One world of each family. No robot is put down in them.
     pub worlds: Vec<DrawnWorld>,
-    /// How robot and worlds differ from how they are made.
+    /// Change of robot and worlds.
     pub condition: Condition,
 }
 

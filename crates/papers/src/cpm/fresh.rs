@@ -93,8 +93,8 @@ record! {
     struct FreshRun {
         /// Whether the goal is on the map, and the map is right.
         solved: bool => higher("solved"),
-        /// Whether the map matches the truth one to one: junctions, dead ends, start and goal and
-        /// the ways between them, with at least 95 % of them.
+        /// Whether the map matches the truth one to one and has at least 95 % of it. The truth is
+        /// junctions, dead ends, start, goal and the ways between them.
         right: bool => higher("map right"),
         /// Whether the goal is on the map.
         goal_found: bool => higher("goal found"),
@@ -120,7 +120,7 @@ record! {
         driven: Option<f64> => lower("metres / corridors").at_least(0).decimals(2),
         /// Number of time steps in which it touched something.
         bumps: Option<u32> => lower("steps at a wall"),
-        /// How it ended, with the reason.
+        /// End of the run, with the reason.
         why: String => neither("end"),
     }
 }

@@ -73,7 +73,7 @@ struct Cpm {
     /// Learned maps of the courses.
     known: Known,
     fresh: Vec<FreshRow>,
-    /// What robots learn before they are sent into fresh worlds.
+    /// Knowledge that robots learn before they are sent into fresh worlds.
     schooling: Schooling,
     master_seed: u64,
 }

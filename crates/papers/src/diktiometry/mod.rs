@@ -74,7 +74,7 @@ record! {
         /// Mean squared error per move over the last moves.
         ssd_asymptote: f64 =>
             lower("final squared error per move").unit("m²").at_least(0).decimals(4),
-        /// The same error by odometry alone.
+        /// Error of the odometry alone, m².
         odometry: Option<f64> => lower("odometry's error").unit("m²").at_least(0),
         /// Number of moves until the run is near its own asymptote.
         moves_to_own_asymptote: Option<usize> => lower("moves to its own asymptote"),

@@ -25,7 +25,7 @@ pub(super) struct Trial {
     pub(super) settings: Vec<Setting>,
 }
 
-/// How a table's rows are related.
+/// Relation between a table's rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rows {
     /// All are in one world, and are compared with the first.
@@ -72,7 +72,7 @@ impl Setting {
     }
 }
 
-/// What a row measures.
+/// Quantity that a row measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Subject {
     /// The map.

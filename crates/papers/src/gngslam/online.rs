@@ -66,9 +66,9 @@ record! {
         looks_to_localize: Option<u32> => lower("looks until localized"),
         /// Root-mean-square error of the position over the last tenth of a run.
         position_error_m: Option<f64> => lower("error, last tenth").unit("m").decimals(3),
-        /// The same error over the second tenth.
+        /// Error over the second tenth of the way, m.
         second_tenth_error_m: Option<f64> => lower("error, second tenth").unit("m").decimals(3),
-        /// The same error over each tenth, m.
+        /// Error over each tenth of the way, m.
         errors_m: Vec<f64> => neither("errors").unit("m"),
         /// Distance rolled at the end of each tenth, m.
         rolled_m: Vec<f64> => neither("way").unit("m"),
@@ -172,7 +172,8 @@ fn tried(pitch: &Pitch, seed: u64) -> Result<OnlineFields, BoxError> {
     tried_with(pitch, OnlineSlamConfig::pioneer_2dx(), CALIBRATION, seed)
 }
 
-/// Like [`tried`], with other settings and wheels that are off by up to `calibration`.
+/// Returns the same as [`tried`], with other settings and wheels that are off by up to
+/// `calibration`.
 fn tried_with(
     pitch: &Pitch,
     config: OnlineSlamConfig,

@@ -108,7 +108,7 @@ impl MazeSet {
         let reasons = [
             (no_way, "without a way to the goal"),
             (no_fit, &unfit),
-            (no_maze, "that are no mazes"),
+            (no_maze, "that are not mazes"),
         ];
         let reasons: Vec<String> = reasons
             .into_iter()
@@ -212,7 +212,7 @@ mod tests {
         assert_eq!(
             set.complaint().unwrap(),
             "mine: 4 of 5 files left out, 1 without a way to the goal, 1 without a start or of more than 32 cells a side, \
-             2 that are no mazes."
+             2 that are not mazes."
         );
         let whole = MazeSet {
             left_out: LeftOut::default(),

@@ -8,7 +8,7 @@ use tolman_sim::robots::{LaserPioneerConfig, StuckBeam};
 
 use crate::venue::Venue;
 
-/// What differs while the better system drives. All but the last two conditions also hold while it
+/// Change while the better system drives. All but the last two conditions also hold while it
 /// learns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Condition {

@@ -45,7 +45,7 @@ pub(super) struct Robustness {
     mazes: u32,
     starts: u32,
     limit: Option<u32>,
-    /// By number of the drawing: as it was learned, and with a door shut.
+    /// Venues by number of the drawing: as it was learned, and with a door shut.
     venues: Vec<[OnceLock<Arc<Venue>>; 2]>,
 }
 

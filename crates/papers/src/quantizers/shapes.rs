@@ -28,13 +28,13 @@ record! {
     pub(super) struct ShapesRun {
         /// Root of the mean squared distance of a point from the nearest unit after 100 inputs.
         rms_100: f64 => lower("RMS error after 100").at_least(0),
-        /// The same after 300 inputs.
+        /// RMS error after 300 inputs.
         rms_300: f64 => lower("RMS error after 300").at_least(0),
-        /// The same after 1000 inputs.
+        /// RMS error after 1000 inputs.
         rms_1000: f64 => lower("RMS error after 1000").at_least(0),
-        /// The same after 3000 inputs.
+        /// RMS error after 3000 inputs.
         rms_3000: f64 => lower("RMS error after 3000").at_least(0),
-        /// The same after 10,000 inputs.
+        /// RMS error after 10,000 inputs.
         rms_10000: f64 => lower("RMS error after 10,000").at_least(0),
         /// Root of the mean squared distance of a point from the nearest unit, at the end.
         rms_30000: f64 => lower("RMS error after 30,000").at_least(0).decimals(4),

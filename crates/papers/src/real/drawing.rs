@@ -14,7 +14,7 @@ use super::RobotLog;
 pub struct MapPicture {
     /// Counts of beams that ended and passed.
     pub occupancy: OccupancyGrid,
-    /// The way found.
+    /// Positions of the estimated trajectory, m.
     pub corrected: Vec<Point>,
     /// The odometry, aligned with the start of the way found.
     pub raw: Vec<Point>,

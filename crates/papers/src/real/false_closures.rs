@@ -12,7 +12,7 @@ use tolman_geom::nalgebra::Matrix3;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
 
-/// How the poses of a false closure are chosen.
+/// Choice of the poses of a false closure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// Any two poses.

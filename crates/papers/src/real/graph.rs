@@ -23,7 +23,7 @@ pub struct GraphFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GraphFileError {
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error("cannot read {}; give a pose graph as g2o writes it, plain or gzipped", path.display())]
     File {
         /// Path of the file.
@@ -31,7 +31,7 @@ pub enum GraphFileError {
         /// The underlying error.
         source: SourceError,
     },
-    /// It holds no pose graph.
+    /// The file holds no pose graph.
     #[error("{}", path.display())]
     G2o {
         /// Path of the file.

@@ -46,7 +46,7 @@ pub enum LogSystem {
 }
 
 impl LogSystem {
-    /// All of them.
+    /// All systems.
     pub const ALL: [Self; 7] = [
         Self::Odometry,
         Self::Matching,

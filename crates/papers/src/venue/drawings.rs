@@ -1,9 +1,9 @@
 //! The rule by which the paper's two mazes are drawn. From a sequence of random drawings with the
 //! features that the paper names, it keeps those that agree with the paper's own figures.
 //!
-//! MSLST plays no part in the rule. The paper's drawings are lost. Two facts about them are known:
-//! the results of the two baselines, and that a robot with a map of the maze is faster than the
-//! paper's MSLST.
+//! MSLST plays no part in the rule. The paper's drawings are lost. Two facts about them are known.
+//! One is the results of the two baselines. The other is that a robot with a map of the maze is
+//! faster than the paper's MSLST.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

@@ -10,7 +10,7 @@ record! {
     pub(crate) struct MazeRun {
         /// Whether the robot's centre was in the destination within the time limit.
         reached: bool => higher("success"),
-        /// How the run ended, in words.
+        /// End of the run, in words.
         outcome: String => neither("outcome"),
         /// Number of actions that the brain chose.
         actions: u32 => lower("actions").at_least(1),

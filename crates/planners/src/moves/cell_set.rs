@@ -4,11 +4,11 @@ use tolman_maze::Cell;
 /// moved or compared at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct CellSet<const N: usize> {
-    /// By y; bit x.
+    /// Cells by y; bit x.
     pub(super) rows: [u32; N],
 }
 
-/// By x. A shift by x would do, but not for several cells at once.
+/// Masks of one cell by x. A shift by x would do, but not for several cells at once.
 const BITS: [u32; 32] = {
     let (mut bits, mut x) = ([1; 32], 1);
     while x < 32 {

@@ -41,11 +41,11 @@ const CELL: [[f32; 6]; 3] = [
     [0.18, -0.36, -0.34, 0.38, -0.52, 1.03],
     [-0.28, -0.41, -0.79, 0.49, 0.70, 0.57],
 ];
-/// For a side between two cells of the goal.
+/// Log-odds for a side between two cells of the goal.
 const WITHIN_GOAL: f32 = 6.7;
-/// For a side that leads into the goal, while no other is known to be open.
+/// Log-odds for a side that leads into the goal, while no other is known to be open.
 const INTO_GOAL: f32 = -1.24;
-/// The same, afterwards.
+/// Log-odds for a side that leads into the goal, once another is known to be open.
 const INTO_GOAL_AGAIN: f32 = -3.49;
 
 impl<'a, const N: usize> Completions<'a, N> {

@@ -21,8 +21,8 @@ pub struct MoveExplorerConfig {
     /// Gain per distance from which a stop comes before the way to the goal, while no way to the
     /// goal is known. ≥ 0.
     pub early_proof: f32,
-    /// Discount of a wall's weight, once a way is known, for each step by which the best possible
-    /// run through it is longer than the best of all. Within 0 … 1.
+    /// Discount of a wall's weight once a way is known. It applies for each step by which the best
+    /// possible run through the wall is longer than the best of all. Within 0 … 1.
     pub patience: f32,
     /// Minimum weight of a wall on a run better than the known one; walls on the best run weigh 1.
     /// ≥ 0.
@@ -48,46 +48,59 @@ impl MoveExplorerConfig {
     }
 
     pub(super) fn check(&self) -> Result<(), MoveExplorerConfigError> {
-        let fields = [
-            ("known_step", self.known_step, self.known_step > 0.0),
-            ("unknown_wall", self.unknown_wall, self.unknown_wall >= 0.0),
-            ("sight", self.sight, self.sight >= 0.0),
-            ("early_proof", self.early_proof, self.early_proof >= 0.0),
-            (
-                "patience",
-                self.patience,
-                (0.0..=1.0).contains(&self.patience),
-            ),
-            ("base", self.base, self.base >= 0.0),
-            ("nearness", self.nearness, self.nearness > 0.0),
-        ];
-        MoveExplorerConfigError::check(fields)
+        let patience = (0.0..=1.0).contains(&self.patience);
+        MoveExplorerConfigError::check([
+            positive("known_step", self.known_step),
+            at_least_0("unknown_wall", self.unknown_wall),
+            at_least_0("sight", self.sight),
+            at_least_0("early_proof", self.early_proof),
+            ("patience", self.patience, patience, "a number from 0 to 1"),
+            at_least_0("base", self.base),
+            positive("nearness", self.nearness),
+        ])
     }
 }
 
 /// A value out of its range.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("{field} is {value}: give a finite number in the range that its documentation states")]
+#[error("`{field}` is {value}; give {range}")]
 pub struct MoveExplorerConfigError {
     /// The name of the field.
     pub field: &'static str,
     /// Its value.
     pub value: f32,
+    /// Values that the field may have.
+    pub range: &'static str,
 }
 
 impl MoveExplorerConfigError {
     /// Returns an error for the first of the fields that is out of its range or not finite.
-    pub(super) fn check(
-        fields: impl IntoIterator<Item = (&'static str, f32, bool)>,
-    ) -> Result<(), Self> {
+    pub(super) fn check(fields: impl IntoIterator<Item = CheckedField>) -> Result<(), Self> {
         let wrong = fields
             .into_iter()
-            .find(|(_, value, holds)| !(*holds && value.is_finite()));
+            .find(|(_, value, holds, _)| !(*holds && value.is_finite()));
         match wrong {
-            Some((field, value, _)) => Err(Self { field, value }),
+            Some((field, value, _, range)) => Err(Self {
+                field,
+                value,
+                range,
+            }),
             None => Ok(()),
         }
     }
+}
+
+/// A field's name, its value, whether the value is in range, and that range in words.
+pub(super) type CheckedField = (&'static str, f32, bool, &'static str);
+
+/// Returns a field that has to be above 0.
+pub(super) fn positive(field: &'static str, value: f32) -> CheckedField {
+    (field, value, value > 0.0, "a number above 0")
+}
+
+/// Returns a field that has to be 0 or more.
+pub(super) fn at_least_0(field: &'static str, value: f32) -> CheckedField {
+    (field, value, value >= 0.0, "0 or more")
 }
 
 #[cfg(test)]

@@ -129,8 +129,8 @@ impl<const N: usize> MoveExplorer<N> {
         })
     }
 
-    /// Returns what to do in the cell `at` to reach one of `goals`, once the view from there is in
-    /// `walls`. O(N²).
+    /// Returns the decision in the cell `at` on the way to one of `goals`, once the view from there
+    /// is in `walls`. O(N²).
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.

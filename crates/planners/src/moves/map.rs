@@ -174,7 +174,7 @@ impl<const N: usize> MoveMap<N> {
 /// Breadth-first search: the cells at one number of steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wave<const N: usize> {
-    /// At most this number of steps away.
+    /// Cells at most this number of steps away.
     reached: CellSet<N>,
     /// Cells at exactly this number of steps.
     pub(super) front: CellSet<N>,

@@ -2,6 +2,7 @@ use tolman_maze::{Cell, Walls};
 
 use super::chart::Chart;
 use super::completion::Completions;
+use super::config::{at_least_0, positive};
 use super::explorer::Task;
 use super::play::{Play, Stage};
 use super::rival::Rival;
@@ -50,9 +51,9 @@ impl RolloutConfig {
             ..
         } = *self;
         MoveExplorerConfigError::check([
-            ("completions", f32::from(completions), completions > 0),
-            ("trial", f32::from(trial), trial > 0),
-            ("confidence", confidence, confidence >= 0.0),
+            positive("completions", f32::from(completions)),
+            positive("trial", f32::from(trial)),
+            at_least_0("confidence", confidence),
         ])
     }
 }
@@ -125,8 +126,8 @@ impl<const N: usize> Rollouts<N> {
         })
     }
 
-    /// Returns what to do in the cell `at`: see [`MoveExplorer::decide`]. O(completions × stops of
-    /// the rest of the proof × N²).
+    /// Returns the decision in the cell `at`: see [`MoveExplorer::decide`]. O(completions × stops
+    /// of the rest of the proof × N²).
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.

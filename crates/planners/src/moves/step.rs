@@ -23,7 +23,7 @@ pub enum QuarterTurn {
 }
 
 impl QuarterTurn {
-    /// Degrees clockwise, as the paper counts them.
+    /// Returns the turn in degrees, clockwise, as the paper counts it.
     #[must_use]
     pub const fn degrees(self) -> i32 {
         match self {
@@ -33,7 +33,7 @@ impl QuarterTurn {
         }
     }
 
-    /// Returns where a mouse looks afterwards that has looked to `heading`.
+    /// Returns the heading after the turn of a mouse that looks to `heading`.
     #[must_use]
     pub const fn applied_to(self, heading: Direction) -> Direction {
         match self {

@@ -1,6 +1,7 @@
 use tolman_maze::Cell;
 
 use super::chart::{Chart, Driven};
+use super::config::positive;
 use super::rival::Rival;
 use super::sides::Sides;
 use super::{MoveExplorerConfigError, Rollouts};
@@ -54,9 +55,9 @@ impl WorthConfig {
             ..
         } = *self;
         MoveExplorerConfigError::check([
-            ("completions", f32::from(completions), completions > 0),
-            ("gain", gain, gain > 0.0),
-            ("step_price", step_price, step_price > 0.0),
+            positive("completions", f32::from(completions)),
+            positive("gain", gain),
+            positive("step_price", step_price),
         ])
     }
 }

@@ -1,6 +1,6 @@
 //! The independent checker. It shares no code with the search. It has its own geometry on a lattice
-//! of half cells, its own times, and an explicit graph, on which it runs the general Dijkstra of
-//! this crate.
+//! of half cells, its own times, and an explicit graph. It searches that graph by the general
+//! Dijkstra of this crate.
 
 use alloc::vec::Vec;
 
@@ -17,13 +17,13 @@ pub struct SpeedRunCertificate {
     pub start: Cell,
     /// Heading of the mouse at the beginning.
     pub heading: Direction,
-    /// Its moves.
+    /// Moves of the run.
     pub moves: Vec<RunMove>,
     /// Duration, in milliseconds.
     pub time_ms: u32,
 }
 
-/// Reason why a [`SpeedRunCertificate`] is worth nothing.
+/// Reason why a [`SpeedRunCertificate`] is invalid.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SpeedRunCertificateError {
@@ -194,7 +194,7 @@ impl Template {
     }
 }
 
-/// From the middle of a cell, looking north.
+/// Turns from the middle of a cell, looking north.
 const FROM_STRAIGHT: [Template; 4] = [
     Template::new(Slalom::F45, &[(0, 1), (1, 2)], (1, 2), 1),
     Template::new(Slalom::F90, &[(0, 1), (1, 2)], (2, 2), 2),
@@ -202,7 +202,8 @@ const FROM_STRAIGHT: [Template; 4] = [
     Template::new(Slalom::F180, &[(0, 1), (1, 2), (2, 1)], (2, 0), 4),
 ];
 
-/// From a southern edge, looking north-east, so that the cell is left through its eastern edge.
+/// Turns from a southern edge, looking north-east, so that the mouse leaves the cell through its
+/// eastern edge.
 const FROM_DIAGONAL: [Template; 3] = [
     Template::new(Slalom::F45, &[(1, 1)], (2, 1), 1),
     Template::new(Slalom::Fv90, &[(1, 1), (2, 0)], (2, 0), 2),
@@ -247,7 +248,7 @@ impl Spot {
         made
     }
 
-    /// Straights of 1, 2, … cells, each of them one or several steps of the heading long.
+    /// Returns straights of 1, 2, … cells, each of them one or several steps of the heading long.
     fn straights(
         self,
         open: &impl Fn(Point) -> bool,

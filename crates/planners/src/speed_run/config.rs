@@ -30,7 +30,7 @@ pub struct SpeedRunConfig {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct SpeedProfile {
-    /// mm/s², above 0.
+    /// Acceleration, mm/s², above 0.
     pub acceleration_mm_s2: f64,
     /// mm/s, not below the speed in the turns.
     pub top_speed_mm_s: f64,
@@ -101,7 +101,7 @@ impl SpeedRunConfig {
 #[non_exhaustive]
 pub enum SpeedRunConfigError {
     /// A length, speed or acceleration that is not a positive number.
-    #[error("{field} is {value}, but has to be a number above 0")]
+    #[error("{field} is {value}; give a number above 0")]
     NotPositive {
         /// Name of the field.
         field: &'static str,

@@ -22,11 +22,11 @@ pub struct SpeedRunExplorer<'a, const N: usize> {
 /// Stage of an exploration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExploreStage {
-    /// It has not been at a goal yet.
+    /// The mouse has not been at a goal yet.
     Search,
-    /// It has been at a goal, and a run faster than the known ones may be possible.
+    /// The mouse has been at a goal, and a run faster than the known ones may be possible.
     Proof,
-    /// It has been at a goal, and knows the fastest run.
+    /// The mouse has been at a goal, and knows the fastest run.
     Home,
 }
 
@@ -66,7 +66,7 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
         }
     }
 
-    /// Returns what to do in the cell `at`, looking to `heading`, once its walls are in `walls`.
+    /// Returns the decision in the cell `at`, looking to `heading`, once its walls are in `walls`.
     /// O(N²), plus a search if no best run hoped for so far can be driven any more.
     ///
     /// # Errors

@@ -23,8 +23,8 @@ const NEVER: u16 = u16::MAX;
 ///
 /// The search is Dijkstra's, backwards from the goals. The model is the same in both directions, so
 /// it drives the reversed runs from the goals to every state. Its queue has buckets no wider than
-/// the shortest move lasts, so whatever is in the first bucket is final (Denardo and Fox,
-/// *Shortest-route methods: 1. Reaching, pruning, and buckets*, 1979).
+/// the shortest move lasts, so whatever is in the first bucket is final. Source: Denardo and Fox,
+/// *Shortest-route methods: 1. Reaching, pruning, and buckets* (1979).
 #[derive(Clone, Debug)]
 pub struct SpeedRunMap<const N: usize> {
     /// Times to the reversed states, ms: the search drives backwards from the goals.
@@ -104,8 +104,8 @@ impl<const N: usize> SpeedRunMap<N> {
         }
     }
 
-    /// Returns how long the run from `state` to the nearest goal takes, in milliseconds, or `None`
-    /// if no way leads there.
+    /// Returns the duration of the run from `state` to the nearest goal, ms, or `None` if no way
+    /// leads there.
     #[must_use]
     pub fn time_ms(&self, state: RunState) -> Option<u16> {
         let time = self.time_from(Node::new::<N>(state));

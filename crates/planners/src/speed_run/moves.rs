@@ -20,15 +20,16 @@ pub enum RunMove {
     Turn {
         /// The turn.
         slalom: Slalom,
-        /// To which side.
+        /// Side to which the mouse turns.
         side: Side,
     },
 }
 
 /// The slalom turns. Each contains what it needs of straight before and behind it.
 ///
-/// The descriptions are for a mouse in the middle of a cell that looks north and turns right, or
-/// for one on the western edge of a cell that looks north-east and turns to its only possible side:
+/// The descriptions are for a mouse in the middle of a cell that looks north and turns right. Out
+/// of a diagonal, the mouse stands on a cell's western edge, looks north-east and turns to its only
+/// possible side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slalom {
     /// 45°: from the middle of a cell through the cell to the north onto the eastern edge of that
@@ -119,7 +120,7 @@ impl RunStep {
     }
 }
 
-/// Left or right.
+/// Side of a turn: left or right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Counter-clockwise.
@@ -129,7 +130,7 @@ pub enum Side {
 }
 
 impl SlalomTimes {
-    /// Returns how long this turn takes, in milliseconds.
+    /// Returns the duration of this turn, ms.
     #[must_use]
     pub const fn time_ms(&self, slalom: Slalom) -> u16 {
         match slalom {

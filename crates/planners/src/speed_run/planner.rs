@@ -56,8 +56,8 @@ impl<'a, const N: usize> SpeedRunPlanner<'a, N> {
         Replanning::Searched
     }
 
-    /// Returns how long the best run takes, in milliseconds, or `None` if no way leads to a goal,
-    /// or before the first update.
+    /// Returns the duration of the best run, ms, or `None` if no way leads to a goal, or before the
+    /// first update.
     #[must_use]
     pub fn time_ms(&self) -> Option<u16> {
         self.map.time_ms(self.start)
@@ -69,13 +69,13 @@ impl<'a, const N: usize> SpeedRunPlanner<'a, N> {
         self.map.run(passages, self.times, self.start)
     }
 
-    /// Returns where the runs begin.
+    /// Returns the state in which the runs begin.
     #[must_use]
     pub const fn start(&self) -> RunState {
         self.start
     }
 
-    /// Returns where they end.
+    /// Returns the cells in which the runs end.
     #[must_use]
     pub const fn goals(&self) -> &'a [Cell] {
         self.goals

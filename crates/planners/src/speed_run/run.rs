@@ -29,7 +29,7 @@ impl<'a, const N: usize> SpeedRun<'a, N> {
         }
     }
 
-    /// Returns where the run is before its next move.
+    /// Returns the state of the mouse before its next move.
     #[must_use]
     pub fn state(&self) -> RunState {
         self.at.state::<N>()

@@ -7,7 +7,7 @@ use tolman_maze::{Cell, Direction};
 /// numbered by the cell ahead: twelve for every cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunState {
-    /// In the middle of `cell`, looking to `heading`.
+    /// The mouse is in the middle of `cell`, looking to `heading`.
     Straight {
         /// The cell the mouse is in.
         cell: Cell,

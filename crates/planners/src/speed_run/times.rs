@@ -33,9 +33,9 @@ pub struct SpeedRunTimes<const N: usize> {
 impl<const N: usize> SpeedRunTimes<N> {
     /// Returns the times that follow from `config`. O(N).
     ///
-    /// A straight of length `d` begins and ends at the speed `s` of the turns. With acceleration
-    /// `a` it takes 2 (√(s² + a d) − s) / a if the top speed `v` is not reached, that is if a d <
-    /// v² − s². Otherwise it takes (a d + (v − s)²) / (a v).
+    /// A straight of length `d` begins and ends at the speed `s` of the turns. If a d < v² − s²,
+    /// the mouse does not reach its top speed `v`. With acceleration `a` it then takes 2 (√(s² + a
+    /// d) − s) / a. Otherwise it takes (a d + (v − s)²) / (a v).
     ///
     /// # Errors
     /// If a value is not a positive number or a top speed is below the speed in the turns. Also if
@@ -95,7 +95,7 @@ impl<const N: usize> SpeedRunTimes<N> {
         self.diagonals().get(cells).copied()
     }
 
-    /// Returns how long a move takes, or `None` if no such straight fits into the maze.
+    /// Returns the duration of a move, ms, or `None` if no such straight fits into the maze.
     #[must_use]
     pub fn of(&self, run_move: RunMove) -> Option<u16> {
         match run_move {

@@ -23,7 +23,7 @@ pub struct GngConfig {
     pub decay: f64,
     /// Maximum number of units; at least 2. `usize::MAX` for no bound.
     pub max_units: usize,
-    /// In which order a step does its parts.
+    /// Order of the parts of a step.
     pub order: StepOrder,
     /// Addition to the error of the nearest unit.
     pub error: ErrorKind,
@@ -45,10 +45,10 @@ pub enum StepOrder {
     /// and a new edge ends the step with age 0.
     #[default]
     Fritzke,
-    /// "Maze Solving by Learning State Topologies" (Tingle, Ball, Augat), related work, steps 1
-    /// to 6. The order is **first** link the two nearest with age 0, then age the winner's edges,
-    /// add to its error, move, drop old edges, **decay all errors, then grow**. The second unit
-    /// moves as a neighbour, and the new edge ends the step with age 1.
+    /// "Maze Solving by Learning State Topologies" (Tingle, Ball, Augat), related work, steps 1 to
+    /// 6. The order is: **first** link the two nearest with age 0. Then age the winner's edges, add
+    /// to its error, move, drop old edges, **decay all errors, then grow**. The second unit moves
+    /// as a neighbour, and the new edge ends the step with age 1.
     Mslst,
 }
 
@@ -69,8 +69,8 @@ pub enum ErrorKind {
     Relative,
 }
 
-/// When an equilibrium GNG may grow. E is the vector of all errors as they are kept, decayed; N is
-/// the number of units.
+/// Condition on which an equilibrium GNG may grow. E is the vector of all errors as they are kept,
+/// decayed; N is the number of units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -83,13 +83,14 @@ pub enum GrowthGate {
     /// sum of E is the mean error of an input / (1 − d), so growth ends where MSE(N) = N ·
     /// threshold · (1 − d).
     MeanError {
-        /// In units of the error: squared units of the features for squared errors. Not negative.
+        /// Threshold in units of the error: squared units of the features for squared errors. Not
+        /// negative.
         threshold: f64,
     },
     /// mean(E) · (1 − d) > threshold (Provost's code for SODA, where 1 − d is called β). Growth
     /// ends where the mean error of an input is N · threshold, whatever the decay.
     Rate {
-        /// In units of the error per unit of the network. Not negative.
+        /// Threshold in units of the error per unit of the network. Not negative.
         threshold: f64,
     },
 }
@@ -103,11 +104,11 @@ pub struct Utility {
     /// k: after each input, the unit of least utility U goes if max(E) > k · U. Small values forget
     /// quickly. Above 0.
     pub threshold: f64,
-    /// When units are taken away.
+    /// Condition on which units are removed.
     pub removal: Removal,
 }
 
-/// When a unit of little use is taken away.
+/// Condition on which a unit of little use is removed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -117,14 +118,14 @@ pub enum Removal {
     #[default]
     EveryInput,
     /// When only `max_units` stops the network from growing. Then a unit moves from where it is
-    /// least useful to where the error is largest, as in LBG-U ("The LBG-U method for vector
-    /// quantization", Fritzke 1997).
+    /// least useful to where the error is largest. LBG-U does the same (Fritzke, "The LBG-U method
+    /// for vector quantization", 1997).
     WhenFull,
 }
 
 impl GngConfig {
-    /// Returns the growing neural gas of Fritzke 1995 with the values of section 4: ε_b 0.2, ε_n
-    /// 0.006, a_max 50, λ 100, α 0.5, d 0.995.
+    /// Returns the growing neural gas of Fritzke 1995, section 4: ε_b 0.2, ε_n 0.006, a_max 50, λ
+    /// 100, α 0.5, d 0.995.
     pub fn fritzke() -> Self {
         Self {
             winner_rate: 0.2,
@@ -155,7 +156,7 @@ impl GngConfig {
     }
 
     /// Returns the equilibrium GNG of Provost's code for SODA: ε_b 0.05, ε_n 0.0006, a_max 100, λ
-    /// 200, d 1 − 0.0005, relative errors, and the rate as the gate.
+    /// 200, d 1 − 0.0005. Errors are relative, and the rate is the gate.
     pub fn provost(threshold: f64) -> Self {
         Self {
             winner_rate: 0.05,
@@ -185,6 +186,8 @@ impl GngConfig {
         }
     }
 
+    /// Checks the ranges of all fields.
+    ///
     /// # Errors
     /// If a field is outside its range.
     pub(super) fn check(&self) -> Result<(), QuantizerConfigError> {

@@ -35,7 +35,7 @@ pub struct Clusters {
 }
 
 impl Clusters {
-    /// Returns how many clusters there are.
+    /// Returns the number of clusters.
     pub fn count(&self) -> usize {
         self.count as usize
     }

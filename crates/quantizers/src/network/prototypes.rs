@@ -7,8 +7,9 @@ use crate::Scalar;
 /// Number of units side by side in a block.
 pub(crate) const LANES: usize = 16;
 
-/// Vectors of one dimension in blocks of [`LANES`]: first the first feature of each, then the
-/// second… A lane that holds no unit holds infinities, which are near to nothing.
+/// Vectors of one dimension in blocks of [`LANES`]. A block holds the first feature of each vector,
+/// then the second, and so on. A lane that holds no unit holds infinities, which are near to
+/// nothing.
 #[derive(Clone, Debug)]
 pub(crate) struct Prototypes<S> {
     dimension: usize,

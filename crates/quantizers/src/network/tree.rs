@@ -4,7 +4,7 @@
 //! a block of [`Prototypes`]. It gives the same answer as a scan of all units, to the bit. It skips
 //! a subtree only if every unit in it is farther than the second nearest so far **as computed**.
 //! This is decidable because rounding keeps order. Where |x − p| ≥ |x − s| in a feature, the same
-//! holds for the rounded differences, squares and sums, if both are summed in the same order.
+//! holds for the rounded differences, squares and sums. Both have to be summed in the same order.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -16,8 +16,8 @@ use crate::Scalar;
 /// Maximum number of features; with more, a search visits nearly all leaves.
 pub(crate) const MOST_FEATURES: usize = 4;
 
-/// Returns the maximum number of inner nodes on a path to a leaf in a tree of `units` units: twice
-/// that of a balanced tree, plus two.
+/// Returns the maximum number of inner nodes on a path to a leaf in a tree of `units` units. It is
+/// twice that of a balanced tree, plus two.
 fn steepest(units: usize) -> u32 {
     2 * (units / (LANES / 2)).max(1).ilog2() + 2
 }
@@ -37,7 +37,7 @@ enum Node<S> {
 
 #[derive(Clone, Copy, Debug)]
 struct Leaf<S> {
-    /// By feature; lanes without a unit are at infinity.
+    /// Values by feature; lanes without a unit are at infinity.
     features: [[S; LANES]; MOST_FEATURES],
     slots: [u32; LANES],
     len: u32,
@@ -66,7 +66,7 @@ pub(crate) struct Tree<S> {
     /// The root is node 0. Children stand in pairs.
     nodes: Vec<Node<S>>,
     leaves: Vec<Leaf<S>>,
-    /// By slot; arbitrary where no unit is.
+    /// Places by slot; arbitrary where no unit is.
     places: Vec<Place>,
     len: usize,
     /// Working memory of a rebuild, kept to avoid allocation.

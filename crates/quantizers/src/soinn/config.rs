@@ -101,8 +101,8 @@ impl SoinnConfig {
     }
 
     /// Returns the values for noisy data: the paper's λ = 100 and c = 1, but units are judged [by
-    /// their age](Denoising::LowRate). age_dead = 20, so that edges to noise are dropped (measured
-    /// in `docs/notebook/quantizers.md`).
+    /// their age](Denoising::LowRate). Its age_dead = 20 drops edges to noise (measured in
+    /// `docs/notebook/quantizers.md`).
     pub fn noisy() -> Self {
         Self {
             max_age: 20,
@@ -135,6 +135,8 @@ impl SoinnConfig {
         }
     }
 
+    /// Checks the ranges of all fields.
+    ///
     /// # Errors
     /// If a field is outside its range.
     pub(super) fn check(&self) -> Result<(), QuantizerConfigError> {

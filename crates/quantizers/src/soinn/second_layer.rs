@@ -29,9 +29,9 @@ pub struct SecondLayerConfig {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SecondThreshold {
-    /// The smallest distance between two clusters of the first layer, of those that are at least
-    /// its mean edge length (Shen and Hasegawa 2006, algorithm 3.3). If none is that large, the
-    /// largest there is; if there is but one cluster, its longest edge.
+    /// The smallest distance between two clusters of the first layer that is at least its mean edge
+    /// length (Shen and Hasegawa 2006, algorithm 3.3). If no distance is that large, the largest
+    /// one. If there is only one cluster, its longest edge.
     ///
     /// It assumes that the first layer has separated the clusters, which is the purpose of a second
     /// layer. Where noise joins two of them, the smallest remaining distance is too large, and they
@@ -58,8 +58,8 @@ impl SecondLayerConfig {
         }
     }
 
-    /// Returns the values for noisy data: T_c is four times the mean length of the first layer's
-    /// edges, and λ = 500, because its few units have to find neighbours. The rest is the paper's
+    /// Returns the values for noisy data. T_c is four times the mean length of the first layer's
+    /// edges. λ = 500, because its few units have to find neighbours. The rest is the paper's
     /// (measured in `docs/notebook/quantizers.md`).
     pub fn noisy() -> Self {
         Self {

@@ -8,8 +8,8 @@ use super::{Caster, Kernels, Lanes, WallIndex};
 use crate::World;
 use crate::world::{BitRows, Lattice};
 
-/// Walks each ray from grid line to grid line in worlds made from mazes and occupancy grids
-/// (Amanatides, Woo: *A fast voxel traversal algorithm for ray tracing*, 1987).
+/// Walks each ray from grid line to grid line in worlds made from mazes and occupancy grids.
+/// Source: Amanatides and Woo, *A fast voxel traversal algorithm for ray tracing* (1987).
 ///
 /// Short beams, which cross few lines, do not even walk: all crossings are computed at once, in
 /// lanes over beams. In both ways one comparison per pair of crossings decides which line comes
@@ -22,7 +22,7 @@ pub struct LatticeWalk {
     lattice: Arc<Lattice>,
     vertical: Edges,
     horizontal: Edges,
-    /// For rays from outside the grid.
+    /// Index for rays from outside the grid.
     index: Arc<WallIndex>,
     kernels: Kernels,
 }
@@ -30,7 +30,7 @@ pub struct LatticeWalk {
 /// Maximum number of lines of one axis that are crossed all at once.
 const MOST: usize = 3;
 
-/// For every edge of the grid, the walls on its line. The low four bits are here and the next three
+/// Walls on the line of every edge of the grid. The low four bits are here and the next three
 /// cells, the high four here and the last three.
 #[derive(Clone, Debug)]
 struct Edges {
@@ -86,7 +86,7 @@ struct Line<const COUNT: usize> {
 }
 
 impl<const COUNT: usize> Line<COUNT> {
-    /// By the walls standing, a bit each.
+    /// Table by the walls standing, a bit each.
     const TABLE: [Self; 16] = {
         let mut table = [Self {
             first: 0,
@@ -133,7 +133,7 @@ struct Quadrant<const COUNT: usize> {
 }
 
 impl LatticeWalk {
-    /// Returns the caster of a world made from a maze or an occupancy grid, or `None` of other
+    /// Returns the caster of a world made from a maze or an occupancy grid, or `None` for other
     /// worlds.
     #[must_use]
     pub fn new(world: &World, lanes: Lanes) -> Option<Self> {

@@ -19,7 +19,7 @@ pub struct WallIndex {
     levels: Vec<Level>,
     /// Sorted by level, row and column.
     walls: Vec<WallSegment>,
-    /// The same walls in the form for scans.
+    /// Walls in the form for scans.
     traces: Vec<Trace>,
     bounds: Bounds,
     kernels: Kernels,

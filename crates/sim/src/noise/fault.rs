@@ -29,7 +29,7 @@ pub enum Fault {
         share: f64,
         /// Largest amount gained or lost, in the value's own unit.
         offset: f64,
-        /// For how many readings one draw holds, at least 1.
+        /// Number of readings for which one draw holds, at least 1.
         steps: u32,
     },
     /// An error beyond all bounds, now and then: the value times 1 ± `share`, drawn again after
@@ -39,7 +39,7 @@ pub enum Fault {
         probability: f64,
         /// The share gained or lost.
         share: f64,
-        /// For how many readings one draw holds, at least 1.
+        /// Number of readings for which one draw holds, at least 1.
         steps: u32,
     },
     /// Wheels that slip: the value times a factor uniform in 1 ± `share`, as Webots has it.
@@ -219,7 +219,7 @@ impl Fault {
 pub(super) struct Past<V> {
     /// Earlier values, the oldest first.
     values: VecDeque<Option<V>>,
-    /// For how many more readings something goes on.
+    /// Number of readings for which it still goes on.
     steps_left: u32,
     /// Numbers drawn for that long.
     drawn: [f64; 2],

@@ -19,7 +19,7 @@ pub struct CameraPioneerConfig {
     /// Faults of each measurement of the image, which is a share of full light.
     #[serde(default)]
     pub image: Vec<Fault>,
-    /// All else.
+    /// Configuration of all parts but the camera.
     pub pioneer: LaserPioneerConfig,
 }
 

@@ -154,8 +154,8 @@ impl Model for Epuck {
         CommandError::check("right", command.right)
     }
 
-    /// Speeds beyond what the wheels can count as the most they can. The encoders tell what the
-    /// wheels turned, the ground what they rolled.
+    /// Limits the speeds to what the wheels can do. The encoders tell what the wheels turned, the
+    /// ground what they rolled.
     fn motion(&mut self, command: &WheelSpeeds, chance: &Chance) -> Motion {
         let seconds = self.config.step_us as f64 * 1e-6;
         let most = self.config.most_wheel_speed;

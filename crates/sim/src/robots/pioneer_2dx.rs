@@ -50,14 +50,14 @@ pub struct Pioneer2dxConfig {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WheelScale {
-    /// Of the left wheel.
+    /// Calibration of the left wheel.
     pub left: f64,
-    /// Of the right wheel.
+    /// Calibration of the right wheel.
     pub right: f64,
 }
 
 impl WheelScale {
-    /// Wheels well calibrated.
+    /// Calibration without errors.
     pub const EXACT: Self = Self {
         left: 1.0,
         right: 1.0,
@@ -94,17 +94,17 @@ impl Default for WheelScale {
 #[serde(default, deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Pioneer2dxFaults {
-    /// Of the turn the motors make, rad; a drop-out makes none.
+    /// Faults of the turn the motors make, rad; a drop-out makes none.
     pub motor_turn: Vec<Fault>,
-    /// Of the distance the motors make, m; a drop-out makes none.
+    /// Faults of the distance the motors make, m; a drop-out makes none.
     pub motor_distance: Vec<Fault>,
-    /// Of the way that the left wheel counts, m; a drop-out takes the whole odometry.
+    /// Faults of the way that the left wheel counts, m; a drop-out takes the whole odometry.
     pub left_wheel: Vec<Fault>,
-    /// Of the way that the right wheel counts, m; a drop-out takes the whole odometry.
+    /// Faults of the way that the right wheel counts, m; a drop-out takes the whole odometry.
     pub right_wheel: Vec<Fault>,
-    /// Of the sonars' ranges, m.
+    /// Faults of the sonars' ranges, m.
     pub sonars: Vec<Fault>,
-    /// Of red, green and blue of every pixel, 0 … 255.
+    /// Faults of red, green and blue of every pixel, 0 … 255.
     pub picture: Vec<Fault>,
 }
 
@@ -113,17 +113,19 @@ pub struct Pioneer2dxFaults {
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Pioneer2dxDisturbances {
-    /// Of the turn the motors make, rad; no error if missing.
+    /// Disturbances of the turn the motors make, rad; no error if missing.
     pub motor_turn: Disturbances<f64>,
-    /// Of the distance the motors make, m; no error if missing.
+    /// Disturbances of the distance the motors make, m; no error if missing.
     pub motor_distance: Disturbances<f64>,
-    /// Of the way that the left wheel counts, m; a missing one takes the whole odometry.
+    /// Disturbances of the way that the left wheel counts, m; a missing reading takes the whole
+    /// odometry.
     pub left_wheel: Disturbances<f64>,
-    /// Of the way that the right wheel counts, m; a missing one takes the whole odometry.
+    /// Disturbances of the way that the right wheel counts, m; a missing reading takes the whole
+    /// odometry.
     pub right_wheel: Disturbances<f64>,
-    /// Of the sonars' ranges, m.
+    /// Disturbances of the sonars' ranges, m.
     pub sonars: Disturbances<[f64; SONARS]>,
-    /// Of the picture.
+    /// Disturbances of the picture.
     pub picture: Disturbances<Picture>,
 }
 

@@ -89,7 +89,7 @@ pub enum CameraError {
         /// Number of columns.
         columns: u32,
     },
-    /// It sees nothing.
+    /// The camera sees nothing.
     #[error("the camera's reach is {reach} m; give a positive number of metres")]
     Reach {
         /// The offending reach, m.

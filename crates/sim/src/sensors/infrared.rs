@@ -117,7 +117,7 @@ impl ResponseCurve {
         self.points.last().map_or(0.0, |point| point.range)
     }
 
-    /// Returns what is read at a range, m, and its relative standard deviation: the point of the
+    /// Returns the reading at a range, m, and its relative standard deviation: the point of the
     /// curve there.
     #[must_use]
     pub fn at(&self, range: f64) -> ResponsePoint {
@@ -137,7 +137,7 @@ impl ResponseCurve {
     }
 }
 
-/// Reason why points are no [`ResponseCurve`].
+/// Reason why points do not make a [`ResponseCurve`].
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ResponseError {
@@ -166,13 +166,13 @@ pub enum ResponseError {
 /// larger is nearer.
 #[derive(Clone, Debug)]
 pub struct Infrared<const N: usize> {
-    /// In the robot's frame.
+    /// Rays in the robot's frame.
     rays: [Ray; N],
     curve: ResponseCurve,
 }
 
 impl<const N: usize> Infrared<N> {
-    /// Sensors that sit and look as `mounts` say, in the robot's frame.
+    /// Returns sensors that sit and look as `mounts` say, in the robot's frame.
     ///
     /// # Errors
     /// If the curve is invalid.

@@ -75,13 +75,13 @@ pub enum LaserError {
         /// Number of beams.
         beams: u32,
     },
-    /// It sees nothing.
+    /// The laser sees nothing.
     #[error("the laser's range is {max_range} m; give a positive number of metres")]
     MaxRange {
         /// The offending range, m.
         max_range: f64,
     },
-    /// Its beams do not run once round at most.
+    /// The laser's beams do not run once round at most.
     #[error(
         "the laser's beams start at {first_bearing} rad and are {spacing} rad apart; give finite \
          numbers, counter-clockwise and within one circle"
@@ -89,7 +89,7 @@ pub enum LaserError {
     Field {
         /// Bearing of beam 0, rad.
         first_bearing: f64,
-        /// From one beam to the next, rad.
+        /// Angle between neighbouring beams, rad.
         spacing: f64,
     },
 }

@@ -71,9 +71,9 @@ impl PictureCameraConfig {
         }
     }
 
-    /// Returns the same camera in daylight from the west, with stains, noise, and 32 levels per
-    /// colour, like a frame grabber of 16 bits per pixel. The paper names the noise of the camera
-    /// but gives no values.
+    /// Returns the same camera in daylight from the west, with stains and noise. It has 32 levels
+    /// per colour, like a frame grabber of 16 bits per pixel. The paper names the noise of the
+    /// camera but gives no values.
     #[must_use]
     pub const fn noisy() -> Self {
         let perfect = Self::noiseless();
@@ -135,7 +135,7 @@ impl PictureCameraConfig {
 pub struct PictureCamera {
     config: PictureCameraConfig,
     weather: Weather,
-    /// Of the last picture, kept for their memory.
+    /// Walls of the last picture, kept for their memory.
     walls: Vec<WallSegment>,
     canvas: Vec<[f64; 3]>,
 }

@@ -138,15 +138,15 @@ impl SonarConfig {
 /// `N` times the walls within reach.
 #[derive(Clone, Debug)]
 pub struct Sonars<const N: usize> {
-    /// In the robot's frame.
+    /// Poses of the sonars in the robot's frame.
     mounts: [Pose; N],
     config: SonarConfig,
-    /// Of the last reading, kept for its memory.
+    /// Walls of the last reading, kept for their memory.
     near: Vec<WallSegment>,
 }
 
 impl<const N: usize> Sonars<N> {
-    /// Sonars that sit and look as `mounts` say, in the robot's frame.
+    /// Returns sonars that sit and look as `mounts` say, in the robot's frame.
     ///
     /// # Errors
     /// If a number of the configuration is invalid.

@@ -41,13 +41,13 @@ pub enum ReplayError {
     /// There is no first line.
     #[error("the trace is empty; record one")]
     Empty,
-    /// It is of another format.
+    /// The trace is of another format.
     #[error("line 1: the format is `{found}`; expected `tolman-trace`")]
     Format {
         /// The format found.
         found: String,
     },
-    /// It is of a version this program does not know.
+    /// The trace is of a version this program does not know.
     #[error("line 1: the version is {found}; this program reads version 1")]
     Version {
         /// The version found.

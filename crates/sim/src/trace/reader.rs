@@ -80,7 +80,7 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
         })
     }
 
-    /// Returns where it happened.
+    /// Returns the world of the trace.
     pub const fn world(&self) -> &World {
         &self.world
     }
@@ -103,7 +103,7 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
             .map(|start| (&start.config, start.pose))
     }
 
-    /// Returns what disturbed each robot from outside its configuration: see
+    /// Returns the names of the disturbances of each robot from outside its configuration: see
     /// [`Recordable::disturbances`].
     pub fn disturbances(&self) -> impl ExactSizeIterator<Item = &[String]> {
         let robots = self.header.robots.iter();

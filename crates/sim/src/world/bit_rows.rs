@@ -8,7 +8,7 @@ pub(crate) struct BitRows {
 }
 
 impl BitRows {
-    /// Nothing set.
+    /// Returns rows without a set bit.
     pub(super) fn new(rows: usize, length: usize) -> Self {
         Self {
             rows,

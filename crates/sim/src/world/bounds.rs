@@ -24,13 +24,13 @@ impl Bounds {
         })
     }
 
-    /// East-west extent, m.
+    /// Returns the extent from west to east, m.
     #[must_use]
     pub fn width(&self) -> f64 {
         self.max.x - self.min.x
     }
 
-    /// North-south extent, m.
+    /// Returns the extent from south to north, m.
     #[must_use]
     pub fn height(&self) -> f64 {
         self.max.y - self.min.y

@@ -49,7 +49,7 @@ pub enum WorldError {
         name: String,
     },
     /// A door's schedule goes back in time.
-    #[error("the schedule of door `{name}` does not move on at {time_us} µs; sort it by time")]
+    #[error("the schedule of door `{name}` is not in order at {time_us} µs; sort it by time")]
     DoorSchedule {
         /// Name of the door.
         name: String,

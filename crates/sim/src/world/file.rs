@@ -39,7 +39,7 @@ pub struct Polyline {
 }
 
 impl Polyline {
-    /// Its walls.
+    /// Returns the world's walls.
     pub fn walls(&self) -> impl Iterator<Item = WallSegment> + '_ {
         let closing = self
             .points
@@ -114,8 +114,8 @@ impl World {
         Self::from_file(serde_json::from_str(text)?)
     }
 
-    /// This world as a world file, on one line. Doors are as at the beginning of a run; another
-    /// caster than the built-in one is not written.
+    /// Returns this world as a world file, on one line. Doors are as at the beginning of a run;
+    /// another caster than the built-in one is not written.
     ///
     /// # Errors
     /// None for a world that was built by this crate.
@@ -162,16 +162,16 @@ impl World {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WorldFileError {
-    /// It is not JSON, or not what a world file holds; the message names line and column.
+    /// The file is not JSON, or not what a world file holds; the message names line and column.
     #[error("not a world file: {0}")]
     Json(#[from] serde_json::Error),
-    /// It is of another format.
+    /// The file is of another format.
     #[error("the format is `{found}`; expected `{FORMAT}`")]
     Format {
         /// Format that it names.
         found: String,
     },
-    /// It is of a version this program does not know.
+    /// The file is of a version this program does not know.
     #[error("the version is {found}; this program reads version {VERSION}")]
     Version {
         /// Version that it names.
@@ -180,7 +180,7 @@ pub enum WorldFileError {
     /// The parts of its grid do not fit each other.
     #[error("the sizes within `lattice` or `cells` contradict each other; write the file again")]
     Lattice,
-    /// It describes no world.
+    /// The file describes no world.
     #[error(transparent)]
     World(#[from] WorldError),
 }

@@ -49,7 +49,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// Lines without thickness, from 0 on.
+    /// Returns lines without thickness, from 0 on.
     fn thin(cells: usize, pitch: f64) -> Self {
         Self {
             cells,
@@ -188,7 +188,7 @@ impl Lattice {
         ))
     }
 
-    /// Walls wherever solid meets free; beyond the edge everything is solid.
+    /// Returns walls wherever solid meets free; beyond the edge everything is solid.
     fn round_solid(columns: Axis, rows: Axis, solid: BitRows) -> Self {
         let (width, height) = (columns.cells, rows.cells);
         let is_solid = |x: Option<usize>, y: Option<usize>| match (x, y) {

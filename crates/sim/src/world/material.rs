@@ -1,4 +1,4 @@
-/// How a wall looks to sensors other than the laser and the sonar, which meet them all alike.
+/// Look of a wall to sensors other than the laser and the sonar, which meet all walls alike.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Material {
@@ -51,7 +51,7 @@ impl Material {
 }
 
 impl Default for Material {
-    /// White and mirroring nothing: the reference surface of data sheets.
+    /// Returns a white surface that mirrors nothing: the reference surface of data sheets.
     fn default() -> Self {
         Self {
             reflectance: 1.0,
@@ -63,7 +63,7 @@ impl Default for Material {
     }
 }
 
-/// Nothing is left out that is not there to the bit.
+/// Returns whether a value is exactly zero, so that the file may leave it out.
 fn is_nothing(value: &f64) -> bool {
     value.to_bits() == 0
 }

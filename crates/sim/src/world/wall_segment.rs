@@ -47,8 +47,8 @@ impl WallSegment {
         }
     }
 
-    /// Returns how far a ray meets the wall, m; infinity if it does not. `direction` is a unit
-    /// vector.
+    /// Returns the range of a ray up to the wall, m; infinity if it does not meet the wall.
+    /// `direction` is a unit vector.
     ///
     /// Two walls that share an end leave no gap. The side of the ray on which an end lies is
     /// computed from that end alone, so both walls agree.

@@ -17,8 +17,8 @@ const GRAIN: i128 = 1 << 20;
 /// Directions are taken in multiples of 1 / `FINE`.
 const FINE: f64 = 1_152_921_504_606_846_976.0;
 
-/// Distance from a wall's end within which a ray may read either the end or what lies behind it:
-/// 2⁻³⁰ of a cell, times both units.
+/// Distance from a wall's end within which a ray may read either the end or what lies behind it. It
+/// is 2⁻³⁰ of a cell, times both units.
 const ASIDE: i128 = 1 << (20 + 60 - 30);
 
 /// A ray in integers: the origin in grains, the direction in multiples of 1 / `FINE`.

@@ -10,7 +10,7 @@ pub trait LearningTask {
     fn states(&self) -> usize;
     /// Returns the number of actions of a state, at least 1.
     fn actions(&self, state: usize) -> u32;
-    /// Returns what an action leads to.
+    /// Returns the transition that an action leads to.
     fn act(&self, state: usize, action: u32) -> Transition;
     /// Returns whether an episode ends in a state.
     fn is_goal(&self, state: usize) -> bool;
@@ -83,7 +83,7 @@ impl QLearningConfig {
 pub struct QLearner<T> {
     config: QLearningConfig,
     task: T,
-    /// By state, then action.
+    /// Values by state, then action.
     values: Vec<Vec<f64>>,
     at: usize,
 }
@@ -149,8 +149,7 @@ impl<T: LearningTask> QLearner<T> {
         best as u32
     }
 
-    /// Returns what the way from the start to a goal costs that what is learned leads over, or
-    /// `None` if it leads to none.
+    /// Returns the cost of the learned way from the start to a goal, or `None` if it leads to none.
     #[must_use]
     pub fn greedy_cost(&self) -> Option<u32> {
         let (mut at, mut cost) = (self.task.start(), 0);

@@ -44,8 +44,8 @@ pub fn soinn() -> SoinnConfig {
 pub enum Lesson {
     /// Until it has this many observations. The paper's simulated robot had 1000 (section 5).
     Observations(usize),
-    /// For this many seconds, and then to the end of its current fragment. The paper's real robot
-    /// had 5400 (section 7).
+    /// Learns for this many seconds, and then to the end of its current fragment. The paper's real
+    /// robot had 5400 (section 7).
     Seconds(f64),
 }
 

@@ -4,7 +4,7 @@ use tolman_maps::cpm::{Candidates, CpMapperConfig, FragmentMatching, Mapping};
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct CpmConfig {
-    /// When the map is compared with a new fragment.
+    /// Moments at which the map is compared with a new fragment.
     pub mapping: Mapping,
     /// Method of comparing fragments.
     pub matching: FragmentMatching,

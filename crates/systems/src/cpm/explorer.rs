@@ -78,7 +78,7 @@ impl Explorer {
         Ok(update)
     }
 
-    /// Returns what to do here. It changes nothing but the state of `rng`.
+    /// Returns the decision at this junction. It changes nothing but the state of `rng`.
     ///
     /// O(fragments · log fragments); [`Aim::WayBack`] and [`Aim::Shortest`] take that for each
     /// junction.

@@ -68,9 +68,9 @@ pub struct Walked {
 pub struct FragmentStep {
     /// Decision of layer 3.
     pub leg: Leg,
-    /// What the robot met on the way.
+    /// Places and fragments that the robot met on the way.
     pub walked: Walked,
-    /// What the arrival changed on the map; `None` if the robot turned back.
+    /// Change of the map by the arrival; `None` if the robot turned back.
     pub arrival: Option<MapUpdate>,
 }
 
@@ -137,7 +137,7 @@ impl Layer3 {
         Ok(Self::new(patterns, None, explorer))
     }
 
-    /// Tells it that the robot was put back to where its map begins.
+    /// Takes note that the robot was put back to where its map begins.
     ///
     /// # Errors
     /// [`CpmFailure`](super::CpmFailure).
@@ -269,7 +269,7 @@ impl Layer3 {
         Ok(begun.ended(done, walker))
     }
 
-    /// Returns what the map expects at the end of a fragment of a plan.
+    /// Returns the sighting that the map expects at the end of a fragment of a plan.
     #[must_use]
     pub fn expected(&self, leg: &PlanLeg) -> Option<Sighting> {
         let place = self.map().junction(leg.arrive.junction);

@@ -7,9 +7,9 @@ use super::walker_config::HeadingBy;
 pub enum Mode {
     /// The paper's mode, without dead reckoning.
     Paper(CpmConfig),
-    /// With dead reckoning.
+    /// Uses dead reckoning.
     Reckoned(CpmConfig),
-    /// With dead reckoning, and only with patterns that it learns on its way.
+    /// Uses dead reckoning, and only patterns that it learns on its way.
     Unlearned(CpmConfig),
 }
 

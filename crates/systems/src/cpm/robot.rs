@@ -1,8 +1,9 @@
 use tolman_robot::epuck::{EpuckSensing, WheelSpeeds};
 use tolman_robot::{Robot, SensesLandmarks};
 
-/// Robots that CPM can drive: two driven wheels with encoders, proximity sensors all round, and a
-/// sense for landmarks ("an additional dimension of vector is added for landmark detection").
+/// Robots that CPM can drive. They have two driven wheels with encoders, proximity sensors all
+/// round, and a sense for landmarks ("an additional dimension of vector is added for landmark
+/// detection").
 ///
 /// Any [`Landmarked`](tolman_robot::Landmarked) e-puck is one, and any robot with a laser ring
 /// behind [`RingAsEpuck`](super::RingAsEpuck). The trait is implemented for all types that meet its

@@ -57,14 +57,14 @@ pub struct Cpm {
     rng: ChaCha8Rng,
 }
 
-/// What the system knows about the robot's place in the world.
+/// Knowledge about the robot's place in the world.
 #[derive(Clone, Debug)]
 enum Stance {
     /// Nothing: it has just been switched on, or was carried.
     Anywhere,
-    /// It is localizing.
+    /// The robot is localizing.
     Searching(Box<(RestingWalker, Relocalization)>),
-    /// It is at the place where its map has it.
+    /// The robot is at the place where its map has it.
     AtPlace(Box<RestingWalker>),
 }
 
@@ -165,7 +165,7 @@ impl Cpm {
         })
     }
 
-    /// Tells it that the robot was carried elsewhere, so that it localizes first.
+    /// Takes note that the robot was carried elsewhere, so that it localizes first.
     pub fn carried(&mut self) {
         self.standing = Stance::Anywhere;
     }
@@ -360,8 +360,8 @@ impl Cpm {
         self.begin_elsewhere()
     }
 
-    /// Takes notice that it was moved amid an exploration: it begins another map there, or finds
-    /// itself on the map that it was given.
+    /// Takes note that the robot was moved during an exploration: it begins another map there, or
+    /// finds itself on the map that it was given.
     fn moved(&mut self) -> Standing {
         match self.known.is_empty() {
             true => self.begin_elsewhere(),

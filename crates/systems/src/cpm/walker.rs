@@ -24,7 +24,7 @@ pub struct Walker<B: CpmRobot> {
     memory: Memory,
 }
 
-/// What a walker remembers between fragments.
+/// Memory of a walker between fragments.
 #[derive(Clone, Debug, Default)]
 struct Memory {
     /// Branches of its present place, rad, counter-clockwise from the port of entry.
@@ -91,7 +91,7 @@ pub struct Walk {
     pub sighting: Option<Sighting>,
 }
 
-/// What is known of a fragment when the place at its end comes into sight.
+/// Knowledge of a fragment when the place at its end comes into sight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prospect {
     /// Observations on the way.
@@ -102,7 +102,7 @@ pub struct Prospect {
     pub landmark: Option<Landmark>,
 }
 
-/// What to do when a place comes into sight.
+/// Action when a place comes into sight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BeforePlace {
     /// Enter it.
@@ -126,14 +126,14 @@ struct Course {
     skip: u32,
 }
 
-/// What comes into sight ahead.
+/// Thing that comes into sight ahead.
 enum Ahead {
     Landmark(Landmark),
     Junction(View),
     DeadEnd(View),
 }
 
-/// What is seen from one position.
+/// View from one position.
 struct View {
     profile: Profile,
     segments: Segments,

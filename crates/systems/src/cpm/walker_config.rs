@@ -47,7 +47,7 @@ pub enum HeadingBy {
 }
 
 impl WalkerConfig {
-    /// Returns how the paper's robot drives and observes in corridors `width` m wide. A sample of a
+    /// Returns the configuration of the paper's robot in corridors `width` wide, m. A sample of a
     /// sweep takes one time step, so the time step sets the speed of a sweep.
     #[must_use]
     pub fn paper(epuck: EpuckMeasures, width: f64) -> Self {

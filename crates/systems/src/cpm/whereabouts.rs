@@ -2,7 +2,7 @@ use tolman_maps::cpm::Location;
 
 use super::walker::Observation;
 
-/// How a robot that was put down in mid-fragment goes to its first place.
+/// Way of a robot that was put down in mid-fragment to its first place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Approach {
     /// Goes to the place ahead: it "continues moving forward until the first junction is found"
@@ -17,7 +17,7 @@ pub enum Approach {
 /// Probability at which a robot is sure where it is and stops searching.
 pub(super) const SURE: f64 = 0.95;
 
-/// What a robot that was put down somewhere has found out about its place.
+/// Knowledge of a robot that was put down somewhere about its place.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Whereabouts {
     /// Whether it turned round before the first place.

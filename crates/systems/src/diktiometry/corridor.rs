@@ -146,11 +146,11 @@ impl Beside {
 /// Something beside the way that begins and ends: an opening, a doorway.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Span {
-    /// It was there from the start: it belongs to the place just left.
+    /// The opening was there from the start: it belongs to the place just left.
     Left,
-    /// It is not there.
+    /// The opening is not there.
     Absent,
-    /// It began this far along the way, m.
+    /// The opening began this far along the way, m.
     Since(f64),
 }
 

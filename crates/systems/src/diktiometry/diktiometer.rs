@@ -19,11 +19,11 @@ use super::{
 ///
 /// Each action is one control routine, from a place to the next. Its tasks:
 ///
-/// - **Explore**: the [`Planner`](super::Planner)'s walk. It ends when three conditions hold:
-///   nothing is left to try at any place that the map leads to, no two places may be one, and the
-///   map does not contradict itself. It gives up a map that has contradicted itself for 20 moves.
-///   It gives up one that has not been folded for five moves for each of its places, at most 300.
-///   If the robot was carried elsewhere, so that the view differs from that at its last stop, it
+/// - **Explore**: the [`Planner`](super::Planner)'s walk. It ends when three conditions hold.
+///   Nothing is left to try at any place that the map leads to. No two places may be one. The map
+///   does not contradict itself. It gives up a map that has contradicted itself for 20 moves. It
+///   gives up one that has not been folded for five moves for each of its places, at most 300. If
+///   the robot was carried elsewhere, so that the view differs from that at its last stop, it
 ///   begins another map there. By the paper's rule of matching, or on a map that it was given, it
 ///   gives up.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
@@ -132,7 +132,7 @@ impl<E> Diktiometer<E> {
         &self.config
     }
 
-    /// Tells it the place of its map where a landmark was sensed before.
+    /// Notes the place of the map where a landmark was sensed before.
     pub fn remember(&mut self, landmark: Landmark, place: PlaceId) {
         self.guide.remember(landmark, place);
     }

@@ -35,7 +35,7 @@ pub enum RoutineError<E: Error + 'static> {
 #[derive(Clone, Copy, Debug, PartialEq, ThisError)]
 #[non_exhaustive]
 pub enum SenseError {
-    /// A sensor that the routines live on gave nothing.
+    /// A sensor that the routines need gave no values.
     #[error("the {sensor} gave nothing for some time steps in a row; check that the robot has one")]
     Blind {
         /// Name of the sensor.

@@ -44,17 +44,17 @@ const MOST_PATIENCE: u32 = 300;
 /// repair none.
 const MOST_CONTRADICTED: u32 = 20;
 
-/// What is known of the rover's place.
+/// Knowledge of the rover's place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Whereabouts {
     /// The map has followed it long enough, or began where it stood.
     Followed,
-    /// It was set down at a place and has looked round.
+    /// The rover was set down at a place and has looked round.
     SetDown {
         /// Number of moves since.
         moves: usize,
     },
-    /// It may be anywhere, and has not looked round yet.
+    /// The rover may be anywhere, and has not looked round yet.
     Unknown,
 }
 

@@ -26,7 +26,7 @@ pub struct PlannedMove {
 /// Reason why a robot goes somewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
-    /// At random.
+    /// Moves at random.
     Walk,
     /// Because of this script, which begins now.
     Advice(Opportunity),
@@ -50,8 +50,8 @@ impl Planner {
         self.script.clear();
     }
 
-    /// Returns where to go from a place whose open ways are `exits`, by [`Direction::index`];
-    /// `None` if no way leads on. Draws two random numbers in any case.
+    /// Returns the direction to go from a place whose open ways are `exits`, by
+    /// [`Direction::index`]; `None` if no way leads on. Draws two random numbers in any case.
     pub fn choose(
         &mut self,
         observer: &Observer,

@@ -3,7 +3,7 @@ use core::ops::RangeBounds;
 
 use thiserror::Error;
 
-/// What a [`Surveyor`](super::Surveyor) knows of the corridors and of its robot.
+/// Knowledge of a [`Surveyor`](super::Surveyor) about the corridors and its robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RoutineConfig {

@@ -13,7 +13,7 @@ pub trait Rover {
     /// Reason a routine cannot be carried out.
     type Error: Error + Send + Sync + 'static;
 
-    /// Returns what there is at the place the robot stands at, without moving.
+    /// Returns the ways and the view at the robot's place, without moving.
     ///
     /// # Errors
     /// If its sensors give nothing.

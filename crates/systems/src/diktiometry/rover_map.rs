@@ -118,7 +118,8 @@ impl RoverMap {
         Ok(MappedMove { arrival, report })
     }
 
-    /// Returns which ways lead on from where the rover is, by [`Direction::index`].
+    /// Returns whether a way leads on from the rover's place in each direction, by
+    /// [`Direction::index`].
     #[must_use]
     pub const fn exits(&self) -> &[bool; 4] {
         &self.exits

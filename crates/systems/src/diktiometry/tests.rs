@@ -37,7 +37,7 @@ struct Scripted {
     at: Point,
     heading: f64,
     ring: Ring,
-    /// By what factor its wheels overrate each way.
+    /// Factor by which its wheels overrate each way.
     scale: f64,
     sensing: LaserSensing,
 }
@@ -390,7 +390,7 @@ fn wayfinder(known: &(Observer, Option<PlaceId>), seed: u64) -> Wayfinder<LaserE
     )
 }
 
-/// Points amid the corridors and at places of the ring.
+/// Points in mid-corridor and at places of the ring.
 const STARTS: [[f64; 2]; 7] = [
     [0.5, 1.7],
     [0.4, 3.1],

@@ -46,10 +46,10 @@ impl OfflineSlamConfig {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OfflineSlamError {
-    /// They have no features.
+    /// The records have no features.
     #[error("the records lack a feature that describes places")]
     Features(#[from] FeatureError),
-    /// They cannot be learned.
+    /// The records cannot be learned.
     #[error("no map can be learned from the records")]
     Map(#[from] PlaceMapError),
 }

@@ -30,7 +30,7 @@ pub struct OnlineSlamConfig {
     pub turn_piece: f64,
     /// Number of looks round the place where it is put down, before it drives.
     pub first_looks: u32,
-    /// Where it goes to explore.
+    /// Choice of the next goal while exploring.
     pub explore: ExplorationPolicy,
     /// Number of looks in a row without a new place after which all is explored. It counts only if
     /// no place is left from which the floor goes on.
@@ -90,7 +90,7 @@ impl OnlineSlamConfig {
     }
 }
 
-/// Where an [`OnlineSlam`] goes to explore.
+/// Choice of the next goal while an [`OnlineSlam`] explores.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ExplorationPolicy {
@@ -110,7 +110,7 @@ pub enum OnlineSlamError<R> {
         "the robot stood still for {steps} time steps and took no snapshot; switch its camera and range sensors on, or raise `patience`"
     )]
     NoSnapshot {
-        /// For how many time steps it stood.
+        /// Number of time steps for which the robot stood.
         steps: u32,
     },
     /// The look cannot be mapped.
@@ -146,7 +146,7 @@ pub struct OnlineSlam {
     tried: Vec<u32>,
     route: Option<Route>,
     obstacles: Obstacles,
-    /// Where it goes to explore.
+    /// Frontier that the robot goes to.
     frontier: Option<Frontier>,
     /// Whether the floor goes on nowhere beyond the map, as far as it knows.
     ends_here: bool,
@@ -229,7 +229,7 @@ impl OnlineSlam {
         self
     }
 
-    /// Returns where landmarks were sensed.
+    /// Returns the sightings of landmarks.
     #[must_use]
     pub fn sightings(&self) -> &[LandmarkSighting] {
         &self.sightings
@@ -249,7 +249,7 @@ impl OnlineSlam {
         Some(route.places().collect())
     }
 
-    /// Returns the place where a landmark is to be sensed; `None` if none is known.
+    /// Returns the place where a landmark should be sensed; `None` if no such place is known.
     #[must_use]
     pub fn place_with(&self, landmark: Landmark) -> Option<u32> {
         amid(&self.sightings, landmark, &[], &self.map).map(|target| target.place)
@@ -261,7 +261,7 @@ impl OnlineSlam {
         &self.map
     }
 
-    /// Tells it that its robot has been lifted and put down, perhaps elsewhere.
+    /// Takes note that the robot has been lifted and put down, perhaps elsewhere.
     pub fn put_down(&mut self) {
         self.was_put_down = true;
         self.looks_round = self.config.first_looks;

@@ -68,7 +68,7 @@ pub struct PlacePilot<'a> {
 }
 
 impl<'a> PlacePilot<'a> {
-    /// Returns a pilot to a node.
+    /// Returns a pilot that drives to the node `goal` of `map`.
     #[must_use]
     pub fn new(map: &'a PlaceMap, config: PlacePilotConfig, goal: UnitId) -> Self {
         Self {

@@ -66,7 +66,7 @@ pub enum WandererError<E> {
         "the robot stood still for {steps} time steps and took no snapshot; switch its camera and range sensors on, or raise `patience`"
     )]
     NoSnapshot {
-        /// For how many time steps it stood.
+        /// Number of time steps for which the robot stood.
         steps: u32,
     },
     /// The robot failed.
@@ -102,7 +102,7 @@ impl Wanderer {
         }
     }
 
-    /// Returns where the wheels have the robot, from where it was put down.
+    /// Returns the robot's pose by its wheels, from where it was put down.
     #[must_use]
     pub const fn odometry(&self) -> Pose {
         self.odometry

@@ -1,7 +1,7 @@
 use tolman_maze::{Cell, Direction, Grid};
 use tolman_robot::{Goal, Landmark, Standing};
 
-/// What a mouse is told of a maze before it starts: everything except its walls.
+/// Knowledge of a mouse about a maze before it starts: everything except its walls.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Brief {
     /// The size of the maze.

@@ -82,7 +82,7 @@ pub enum ExploreError {
     #[error("the reading contradicts the mouse's map")]
     Observation(#[from] ObserveError),
     /// The mouse knows no way to a goal.
-    #[error("the mouse's map has no way from {at} to a goal")]
+    #[error("the mouse's map has no way from {at} to a goal: open a wall")]
     NoWay {
         /// Cell where it is.
         at: Cell,
@@ -92,9 +92,9 @@ pub enum ExploreError {
 /// Next action of a mouse.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CompetitionNext {
-    /// It drives to the next cell on this side.
+    /// The mouse drives to the next cell on this side.
     Drive(Direction),
-    /// It is back at the start, and no run is faster than the one it found.
+    /// The mouse is back at the start, and no run is faster than the one it found.
     Finished(SpeedRunExploration),
 }
 
@@ -141,8 +141,8 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         })
     }
 
-    /// Returns what to do in the cell where the mouse stands. `open` says which of its sides no
-    /// wall closes, in the order of [`Direction::ALL`]. O(n) for n cells, and a search where the
+    /// Returns the next action in the cell where the mouse stands. `open` says which of its sides
+    /// no wall closes, in the order of [`Direction::ALL`]. O(n) for n cells, and a search where the
     /// run hoped for is closed.
     ///
     /// # Errors

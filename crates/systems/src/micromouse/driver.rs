@@ -9,7 +9,7 @@ use super::{Brief, Certificate, MouseError, Order, RunTwo, SIDE, Sight};
 
 /// A strategy of exploration.
 pub trait Search {
-    /// Returns what to do next in the first run.
+    /// Returns the next action in the first run.
     ///
     /// # Errors
     /// If the maze is larger than what the search holds.
@@ -82,7 +82,7 @@ impl<S: Search> Driver<S> {
         })
     }
 
-    /// Returns what the mouse knows.
+    /// Returns the mouse's map.
     pub const fn map(&self) -> &WallMap<SIDE> {
         &self.map
     }
@@ -122,7 +122,7 @@ impl<S: Search> Driver<S> {
         Ok(Order::RESET)
     }
 
-    /// Returns what to do next, in view of what the sensors see now. Called once a step.
+    /// Returns the next order, given what the sensors see now. Called once a step.
     ///
     /// # Errors
     /// If the mouse is at a loss.

@@ -9,11 +9,11 @@ pub const SIDE: usize = 32;
 /// Reading of the three sensors of a mouse: the number of open cells up to the next wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sight {
-    /// To the left.
+    /// Number of open cells to the left.
     pub left: u16,
-    /// Ahead.
+    /// Number of open cells ahead.
     pub front: u16,
-    /// To the right.
+    /// Number of open cells to the right.
     pub right: u16,
 }
 
@@ -27,7 +27,7 @@ pub enum MouseError {
     /// The reading is impossible at the mouse's believed place.
     #[error("the mouse has lost its way")]
     Observe(#[from] ObserveError),
-    /// It cannot search with these weights, or choose among stops with these values.
+    /// The mouse cannot search with these weights, or choose among stops with these values.
     #[error(transparent)]
     Config(#[from] MoveExplorerConfigError),
     /// No way leads to a goal.

@@ -24,7 +24,7 @@ use tolman_planners::moves::MouseStep;
 pub struct Order {
     /// First the mouse turns.
     pub rotation: Rotation,
-    /// Then it drives.
+    /// Movement after the turn.
     pub movement: Movement,
 }
 

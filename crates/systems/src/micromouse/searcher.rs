@@ -16,7 +16,7 @@ use super::{
 pub enum Searcher {
     /// Ours, until the best run is proven.
     Certify,
-    /// The same, but until the rest of the proof no longer pays.
+    /// The same search, but until the rest of the proof no longer pays.
     CertifyWorth,
     /// Like [`Searcher::Certify`], without rollouts.
     CertifyPlain,
@@ -31,7 +31,7 @@ pub enum Searcher {
 }
 
 impl Searcher {
-    /// All of them.
+    /// All searches.
     pub const ALL: [Self; 7] = [
         Self::Certify,
         Self::CertifyWorth,

@@ -23,7 +23,7 @@ pub struct BetterMslst {
 #[derive(Clone, Debug)]
 enum Phase {
     Exploration(Box<BetterExplorer>),
-    /// It has explored all, and stands where it did so.
+    /// The system has explored all, and stands where it did so.
     Explored(Box<BetterExplorer>, Box<BetterNavigator>),
     Navigation(Box<BetterNavigator>),
 }
@@ -60,7 +60,7 @@ impl BetterMslst {
         }
     }
 
-    /// Returns how many places it knows.
+    /// Returns the number of known places.
     #[must_use]
     pub fn place_count(&self) -> usize {
         match &self.phase {

@@ -33,7 +33,7 @@ pub struct GrowthRecord {
 }
 
 impl MslstMap {
-    /// Returns how many bytes states and graph take. O(states + nodes).
+    /// Returns the size of states and graph, bytes. O(states + nodes).
     #[must_use]
     pub fn bytes(&self) -> usize {
         let models = self.states.models().iter();

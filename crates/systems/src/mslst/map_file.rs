@@ -37,7 +37,9 @@ pub enum MapFileError {
     #[error("its nodes do not form a graph")]
     Graph(#[from] GraphError),
     /// A node's state is not among the states.
-    #[error("node {node} has state {state}, but there are only {count} states")]
+    #[error(
+        "node {node} has state {state}, but there are only {count} states; learn the map again"
+    )]
     NoSuchState {
         /// The node.
         node: usize,

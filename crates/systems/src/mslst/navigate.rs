@@ -39,12 +39,13 @@ pub struct Navigator {
 /// State of a navigator.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum NavigationState {
-    /// It acts randomly: it has no state yet, or the graph suggests nothing that has not failed.
+    /// The robot acts randomly: it has no state yet, or the graph suggests nothing that has not
+    /// failed.
     #[default]
     Lost,
-    /// It acts randomly because it believes to have arrived where it has not.
+    /// The robot acts randomly because it believes to have arrived where it has not.
     Doubtful,
-    /// It is at a node and follows the path from there.
+    /// The robot is at a node and follows the path from there.
     OnPath {
         /// Its possible places.
         belief: Localization,

@@ -33,7 +33,7 @@ impl ScanRecorder {
         }
     }
 
-    /// Returns what was recorded, robot units, beam 0 to the north, in the order of time.
+    /// Returns the recorded scans, robot units, beam 0 to the north, in the order of time.
     #[must_use]
     pub fn scans(&self) -> &[Vec<f64>] {
         &self.scans

@@ -63,7 +63,7 @@ impl Topology {
         self.actions >= self.wanted
     }
 
-    /// Returns what was learned, with every node's distance to the destination. O(nodes + edges).
+    /// Returns the learned map, with every node's distance to the destination. O(nodes + edges).
     #[must_use]
     pub fn finished(&self) -> MslstMap {
         MslstMap {

@@ -180,7 +180,7 @@ impl PlacesMapper {
         Site::quarter(from_axis(axis, left))
     }
 
-    /// Returns the way to the place that it came to as number `visit`; `None` of the first.
+    /// Returns the way to the place that it came to as number `visit`; `None` for the first.
     /// O(keyframes on the way · keyframes).
     #[must_use]
     pub fn way_to(&self, visit: usize) -> Option<SiteWay> {

@@ -28,8 +28,8 @@ pub enum SiteKind {
 const OPEN_WIDTHS: f64 = 1.25;
 
 impl SiteKind {
-    /// Returns what a scan of a `ring` that looks along the axes of a building shows, where
-    /// corridors are `width` m wide.
+    /// Returns the kind of place that a scan shows, where corridors are `width` wide, m. The `ring`
+    /// of the scan looks along the axes of a building.
     #[must_use]
     pub fn of(scan: &Scan, width: f64) -> Self {
         let open = ways_on(scan, width);

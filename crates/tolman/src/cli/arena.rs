@@ -48,7 +48,7 @@ pub(super) struct Arguments {
     /// Robot that the systems drive
     #[arg(long, value_name = "NAME", default_value = "own")]
     robot: Robot,
-    /// What is changed in the robots and worlds; the conditions are listed below
+    /// Change in the robots and worlds; the conditions are listed below
     #[arg(long, value_name = "NAME", default_value = "as-made")]
     condition: String,
     /// Family of worlds, or `all`

@@ -15,8 +15,8 @@ use super::replay_file::{self, Overwrite};
 use super::watched::Watched;
 use super::{Failure, OrBadInput, file, maze};
 
-/// Lets a robot explore an unknown maze, moves it elsewhere, and lets it localize and drive to the
-/// goal; writes a replay to open in a browser
+/// Lets a robot explore a maze, moves it elsewhere, lets it localize and drive to the goal; writes
+/// a replay for the browser
 #[derive(clap::Args)]
 #[command(after_help = "\
 Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better,

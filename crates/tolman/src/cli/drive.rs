@@ -16,8 +16,7 @@ use super::unfinished::{GoingOn, checksum};
 use super::{App, Failure, OrBadInput};
 use crate::system::MapText;
 
-/// Puts a robot down in a maze or a world and sends it to the goal by a learned map; exits 1 if it
-/// does not arrive
+/// Sends a robot to the goal of a maze or a world by a learned map; exits 1 if it does not arrive
 ///
 /// The robot localizes, drives, and plans again where the world differs from the map. Given maps of
 /// several mazes, it finds out which one fits.

@@ -17,7 +17,7 @@ use super::kind::Kind;
 use super::{App, Failure, called, ink, interrupt, maze};
 
 /// Runs an experiment, shows its tables beside the paper's, and writes a folder of results; without
-/// NAME and --all it gives a tour of all experiments in about a minute
+/// NAME, gives a tour in a minute
 #[derive(clap::Args)]
 #[command(group(clap::ArgGroup::new("which").args(["name", "all"])), after_help = "\
 The folder holds report.html (opens anywhere), summary.json, runs.jsonl (one line per run),
@@ -64,7 +64,7 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-/// Which runs are played, and how.
+/// Choice of the runs to play, and of their settings.
 #[derive(clap::Args)]
 pub(super) struct Choice {
     /// Master seed: the same seed gives the same results
@@ -90,8 +90,8 @@ pub(super) struct Choice {
     #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..))]
     #[arg(requires = "which")]
     limit: Option<u32>,
-    /// Folder for the results, instead of results/NAME, or of results/tour for the tour; with
-    /// --all, the folder that holds those folders
+    /// Folder for the results; with --all, the folder that holds one folder per experiment
+    /// [default: results/NAME, or results/tour]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Play few runs, for a first look

@@ -25,7 +25,7 @@ pub(super) struct Ground {
     /// tolman-world from standard input
     #[arg(long, value_name = "FILE")]
     world: Option<PathBuf>,
-    /// Put the destination of --world here, m: a disc, by default of radius 0.5 m
+    /// Put the destination of --world here: a disc around X,Y, m [default of RADIUS: 0.5]
     #[arg(
         long,
         value_name = "X,Y[,RADIUS]",
@@ -33,8 +33,8 @@ pub(super) struct Ground {
         allow_hyphen_values = true
     )]
     goal: Option<Goal>,
-    /// Width of the corridors of --world that the robot assumes, m; by default that of the robot's
-    /// mazes: 0.95 for the Pioneer, 0.25 for the e-puck
+    /// Width of the corridors of --world that the robot assumes, m [default: that of the robot's
+    /// mazes, 0.95 for the Pioneer, 0.25 for the e-puck]
     #[arg(long, value_name = "WIDTH", requires = "world", value_parser = width)]
     corridor: Option<f64>,
 }

@@ -26,9 +26,9 @@ use crate::system::{Settings, Setup, slug, start_anywhere};
 /// Lets your program, in any language, drive a simulated robot to the goal, and scores it; exits 1
 /// if the robot does not arrive
 ///
-/// The program reads lines of JSON from its standard input. The first describes the robot; each of
-/// the others holds what it senses in one time step. The program answers each of the latter with
-/// one line: a command, or that it is done.
+/// The program reads lines of JSON from its standard input. The first line describes the robot.
+/// Each line after it holds what the robot senses in one time step. The program answers it with one
+/// line: a command, or that it is done.
 #[derive(clap::Args)]
 #[command(
     group(ground_or_template()),
@@ -38,7 +38,7 @@ What the program reads, and what it answers:
   {\"step\": 0, \"sensing\": {…}, \"landmark\": null}   ->  {\"turn\": 0.1, \"translate\": 0.5}
   {\"step\": 1, \"sensing\": {…}, \"landmark\": \"Goal\"} ->  {\"done\": true}
 
-It may also answer {\"give_up\": \"why\"}. The e-puck is told {\"left\": …, \"right\": …}, rad/s. A program that ends
+It may also answer {\"give_up\": \"why\"}. The command of an e-puck is {\"left\": …, \"right\": …}, rad/s. A program that ends
 early, takes longer than --time-limit or answers nonsense has failed, and is ended with all that it started.
 
 Examples:
@@ -54,8 +54,9 @@ pub(super) struct Arguments {
     /// Robot to drive: laser-pioneer or e-puck
     #[arg(long, value_name = "NAME")]
     robot: Option<String>,
-    /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
-    /// and degrees
+    /// Where the robot starts: random, marked (the maze's start), X,Y or X,Y,DEG. X and Y are in
+    /// metres from the south-west corner of a maze, or in a world's own frame; DEG in degrees,
+    /// counter-clockwise from east
     #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
     start: Option<Start>,
     /// Stop after this many time steps

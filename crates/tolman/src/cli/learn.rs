@@ -53,15 +53,15 @@ pub(super) struct Arguments {
     /// Map file to write
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Save the run to this file once a second, so that it can be continued after any interruption
-    /// [default: the name of --out with .unfinished appended]
+    /// Save the run to this file once a second, to continue it after an interruption [default: the
+    /// name of --out with .unfinished appended]
     #[arg(long, value_name = "FILE")]
     unfinished: Option<PathBuf>,
     #[command(flatten)]
     looks: Looks,
 }
 
-/// What learning continues from.
+/// Map or run that learning continues from.
 struct From {
     map: Option<MapText>,
     former: Option<Former>,

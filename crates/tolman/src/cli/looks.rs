@@ -15,8 +15,8 @@ pub(super) struct Looks {
     /// Draw the robot's way over the maze or the world
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
-    /// Write a trace of the run, as JSON lines: first the world and the robot, then the command,
-    /// the outcome and the readings of every step
+    /// Write a trace of the run, as JSON lines: the world and the robot, then command, outcome and
+    /// readings of every step
     #[arg(long, value_name = "FILE")]
     pub(super) trace: Option<PathBuf>,
     /// Write a replay: one HTML file that plays the run in any browser. If the name ends in .mcap

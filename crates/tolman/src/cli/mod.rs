@@ -121,7 +121,7 @@ enum Verb {
     Cpm(former::Arguments),
 }
 
-/// What every verb is given beside its arguments.
+/// Means that every verb is given beside its arguments.
 struct App<'a> {
     catalogue: &'a Catalogue,
     build: &'a Build,

@@ -53,8 +53,7 @@ pub(super) struct Arguments {
     /// Speak the protocol of the simulator mms on stdin and stdout
     #[arg(long, conflicts_with_all = ["maze", "search", "seed", "worst", "jobs", "json", "live", "svg", "trace", "replay"])]
     mms: bool,
-    /// When the mouse has explored enough; by default when its run is proven, with --mms when it
-    /// has been at the goal
+    /// When the mouse has explored enough [default: proof, with --mms goal]
     #[arg(long, value_parser = words(UNTIL), conflicts_with = "search")]
     until: Option<Until>,
     /// How to explore: certify (until the run is proven), certify-worth (like --until worth),
@@ -84,7 +83,7 @@ const UNTIL: [(&str, &str, Until); 3] = [
     ),
     (
         "worth",
-        "To look on is expected to cost more than it gains in the score (with --mms: as goal)",
+        "Exploring on is expected to cost more of the score than it gains (with --mms: as goal)",
         Until::Worth,
     ),
     (

@@ -100,7 +100,7 @@ pub(super) struct Score {
     /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// λ: add a node per this many records; if not given, the middle of the paper's range
+    /// λ: add a node per this many records [default: the middle of the paper's range]
     #[arg(long, value_name = "RECORDS", value_parser = clap::value_parser!(u32).range(1..))]
     growth_period: Option<u32>,
     /// Write the figures as JSON

@@ -27,8 +27,8 @@ pub(super) struct Arguments {
     /// Trace files; - reads standard input
     #[arg(required = true, value_name = "TRACE")]
     traces: Vec<PathBuf>,
-    /// File to write; by default beside the first trace, with the extension .html. With .mcap, and
-    /// the feature `mcap`, it is for Foxglove
+    /// File to write [default: the first trace's name with .html]. If the name ends in .mcap and
+    /// the feature `mcap` is on, the file is for Foxglove
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Overwrite the file even if it is not a replay

@@ -9,7 +9,7 @@ use tolman_replay::{Replay, is_replay, page};
 
 use super::{Failure, OrBadInput, called, file};
 
-/// Which existing files may be overwritten.
+/// Rule for the existing files that may be overwritten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Overwrite {
     /// Only replays.
@@ -50,7 +50,7 @@ fn mcap(replay: &Replay) -> Result<Vec<u8>, Error> {
     Ok(tolman_replay::mcap(replay)?)
 }
 
-/// Never called: [`check`] has refused the file before.
+/// Returns an error. It is never called, because [`check`] has refused the file before.
 #[cfg(not(feature = "mcap"))]
 fn mcap(_: &Replay) -> Result<Vec<u8>, Error> {
     Err(anyhow!(NO_MCAP))

@@ -17,10 +17,10 @@ pub(super) struct SentOut {
     /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Robot to drive, if the system can drive several
+    /// Robot to drive, if the system can drive several; `tolman systems` lists them
     #[arg(long, value_name = "NAME")]
     robot: Option<String>,
-    /// Preset of the system's settings
+    /// Preset of the system's settings; `tolman systems` lists them
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Change a setting of the preset; may be given several times

@@ -4,7 +4,7 @@ use std::io::{self, BufWriter, StdoutLock, Write};
 
 use tolman_experiment::Ink;
 
-/// Where results go. Unlike `println!` it does not panic when the reader has gone.
+/// Writer of results. Unlike `println!` it does not panic when the reader has gone.
 pub(super) struct Stdout(BufWriter<StdoutLock<'static>>);
 
 impl Stdout {

@@ -22,7 +22,7 @@ pub(super) struct Arguments {
     /// Experiment to play a share of
     #[arg(id = "name", long = "experiment", value_name = "NAME")]
     name: String,
-    /// Which share: I of K, such as 3/8
+    /// Share to play: the I-th of K, such as 3/8
     #[arg(long, value_name = "I/K")]
     chunk: Chunk,
     #[command(flatten)]

@@ -27,8 +27,8 @@ pub(super) struct GoingOn {
     /// Continue an interrupted run; repeat all other options as they were
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
-    /// Save the run to this file once a second, so that it can be continued after any interruption.
-    /// Ctrl-C always saves it, by default to drive.unfinished or run.unfinished
+    /// Save the run to this file once a second, to continue it after an interruption. Without this
+    /// option, only Ctrl-C saves it, to drive.unfinished or run.unfinished
     #[arg(long, value_name = "FILE")]
     unfinished: Option<PathBuf>,
 }
@@ -51,7 +51,7 @@ impl GoingOn {
     }
 }
 
-/// What a run depends on: its verb, then its flags with their values.
+/// Words on which a run depends: its verb, then its flags with their values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Call(Vec<(String, String)>);
 
@@ -194,14 +194,14 @@ fn read(path: &Path) -> Result<Former, Failure> {
     })
 }
 
-/// When a run is saved.
+/// Moments at which a run is saved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Saving {
     /// Never: its driver cannot be made to do the same again.
     Never,
-    /// When Ctrl-C interrupts it.
+    /// Saved when Ctrl-C interrupts it.
     AtItsEnd,
-    /// Also about once a second, in case something else ends it.
+    /// Also saved about once a second, in case something else ends it.
     WhileItGoes,
 }
 

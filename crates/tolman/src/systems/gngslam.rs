@@ -157,7 +157,7 @@ struct Ground {
     start: Pose,
 }
 
-/// What a robot is sent out with.
+/// Task, robot and world of an outing.
 struct Mission {
     system: OnlineSlam,
     /// True position of the robot when each place that it already knows was made, m.
@@ -304,7 +304,7 @@ impl LearnedMap for MapFile {
         let Origin { world, seed, .. } = &self.origin;
         let goal = match goal_of(self) {
             Some(place) => format!(
-                "the goal was sensed at {} places, amid them place {place}",
+                "the goal was sensed at {} places, with place {place} in the middle",
                 goals(self)
             ),
             None => "the goal was never sensed: learn longer".to_owned(),

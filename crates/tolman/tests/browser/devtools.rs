@@ -17,7 +17,7 @@ const PATIENCE: Duration = Duration::from_secs(30);
 
 const SWITCHES: [&str; 10] = [
     "--headless",
-    // A root without a sandbox, as in containers, is no reason to fail.
+    // A root without a sandbox, as in containers, does not make the test fail.
     "--no-sandbox",
     "--disable-gpu",
     // Nor is a small /dev/shm.

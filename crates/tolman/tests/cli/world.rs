@@ -1,4 +1,4 @@
-//! Worlds that are no mazes.
+//! Worlds that are not mazes.
 
 use std::fs;
 

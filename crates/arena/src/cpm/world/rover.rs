@@ -15,9 +15,9 @@ use tolman_systems::cpm::{Aim, Done, Explorer, JunctionDecision, Leg};
 pub struct WalkerNoise {
     /// Probability that an observation is replaced by another random pattern, 0 … 1.
     pub substitution: f64,
-    /// The chance of an additional observation, any pattern, after each; 0 to 1.
+    /// Probability of an additional observation, any pattern, after each; 0 to 1.
     pub insertion: f64,
-    /// The chance that an observation is not made; 0 to 1.
+    /// Probability that an observation is not made; 0 to 1.
     pub deletion: f64,
     /// Slip: maximum error of a fragment's length, as a share of it; 0 to less than 1. The number
     /// of observations changes with it.
@@ -27,7 +27,7 @@ pub struct WalkerNoise {
 }
 
 impl WalkerNoise {
-    /// No errors.
+    /// A rover without errors.
     pub const NONE: Self = Self {
         substitution: 0.0,
         insertion: 0.0,
@@ -69,10 +69,10 @@ pub struct PlaneWalker<'a> {
 /// Result of a walk.
 #[derive(Clone, Debug, PartialEq)]
 pub enum WalkOutcome {
-    /// It reached the end of the fragment.
+    /// The rover reached the end of the fragment.
     Arrived(Traversal),
-    /// It gave up, having observed this, and is back where it was, with the port it tried behind
-    /// it.
+    /// The rover gave up, having observed this, and is back where it was, with the port it tried
+    /// behind it.
     TurnedBack(Vec<PatternId>),
 }
 
@@ -89,13 +89,14 @@ impl<'a> PlaneWalker<'a> {
         }
     }
 
-    /// Returns where it truly is: the port behind it.
+    /// Returns the true place of the rover: the port behind it.
     #[must_use]
     pub const fn at(&self) -> WorldPort {
         self.at
     }
 
-    /// Puts it somewhere, with this port behind it. A port that is not there leaves it where it is.
+    /// Puts the rover down at a place, with the port `at` behind it. A port that does not exist
+    /// leaves the rover where it is.
     pub fn place(&mut self, at: WorldPort) {
         if self.world.end_at(at).is_some() {
             self.at = at;
@@ -192,8 +193,8 @@ impl<'a> PlaneWalker<'a> {
         }
     }
 
-    /// Puts it into a corridor, entered at an end, after `passed` observations, and lets it walk on
-    /// to the other end. Returns `None` if there is no such corridor.
+    /// Puts the rover into a corridor, entered at an end, after `passed` observations, and lets it
+    /// walk on to the other end. Returns `None` if there is no such corridor.
     pub fn walk_on(
         &mut self,
         enter: CorridorEnd,
@@ -233,7 +234,7 @@ impl<'a> PlaneWalker<'a> {
         Bearings::of_directions(&ways?).ok()
     }
 
-    /// Returns what is to be observed of a corridor.
+    /// Returns the true observations of a corridor.
     fn truth(&self, corridor: &MazeCorridor, enter: Sign) -> Vec<PatternId> {
         match enter {
             Sign::Minus => corridor.patterns.clone(),

@@ -11,7 +11,7 @@ use super::identities::Joined;
 /// one place lies beyond another at most. The tightest of each pair is kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Constraints {
-    /// By the places' classes, from one to the other.
+    /// Tightest bounds from class to class of places.
     tightest: BTreeMap<usize, BTreeMap<usize, [Most; 2]>>,
     /// Whether they were found to contradict each other: that stays so, whatever comes later.
     contradict: bool,

@@ -10,9 +10,9 @@ use crate::diktiometry::{Action, Config, WorldKind};
 #[derive(Clone, Debug)]
 pub(super) struct Identities<'a> {
     config: &'a Config,
-    /// By visit: another one of the class, or itself.
+    /// For each visit, another visit of its class, or itself.
     parents: Vec<usize>,
-    /// By visit that stands for a class: where actions lead from it.
+    /// For each visit that stands for a class, the visits to which actions lead from it.
     leads: Vec<BTreeMap<Action, usize>>,
 }
 

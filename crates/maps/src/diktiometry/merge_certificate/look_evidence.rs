@@ -4,7 +4,7 @@ use super::{LookEvidence, LookPair};
 use crate::diktiometry::{Config, Journal, Looks, Percepts, Signature, alike};
 
 impl LookEvidence {
-    /// Returns the evidence of two visits alone, with a provisional chance of 1.
+    /// Returns the evidence of two visits alone, with a provisional probability of 1.
     pub(super) fn first(visits: [usize; 2], looks: Looks) -> Self {
         let after = None;
         Self {

@@ -17,7 +17,7 @@ use crate::diktiometry::{
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CertifiedMerges {
-    /// In the order of the merges: each rests on what is before it.
+    /// Certificates in the order of the merges: each rests on those before it.
     pub certificates: Vec<MergeCertificate>,
     /// Visits that the map takes to be to one place, without a certificate.
     pub unproven: Vec<[usize; 2]>,
@@ -64,9 +64,9 @@ struct Prover<'a> {
     /// Identities that hold without looks.
     proven: Identities<'a>,
     constraints: Constraints,
-    /// By class: visits that look different.
+    /// Visits of each class that look different.
     views: BTreeMap<usize, Vec<usize>>,
-    /// By place of the map: a visit to it.
+    /// A visit to each place of the map.
     visits: BTreeMap<PlaceId, usize>,
     said: CertifiedMerges,
 }

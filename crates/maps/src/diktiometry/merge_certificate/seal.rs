@@ -2,7 +2,7 @@ use super::{JournalSpan, LookEvidence, MergeCertificate, MergeProof};
 use crate::diktiometry::Action;
 
 /// A checksum of numbers: FNV-1a, 64 bits (Fowler, Noll and Vo). It detects accidental changes, and
-/// is no protection against manipulation.
+/// does not protect against manipulation.
 struct Seal(u64);
 
 impl Seal {

@@ -11,7 +11,7 @@ use crate::diktiometry::{Config, Journal, MoveOutcome, Percepts};
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MergeCertificateError {
-    /// It is not as it was made.
+    /// The certificate is not as it was made.
     #[error("certificate {number} was changed: its seal does not fit")]
     Changed {
         /// Number of the certificate.
@@ -35,21 +35,22 @@ pub enum MergeCertificateError {
         /// Number of the certificate.
         number: usize,
     },
-    /// It claims to rest on looks and does not, or the reverse.
+    /// The certificate claims to rest on looks and does not, or the reverse.
     #[error("certificate {number} states wrongly whether it rests on looks")]
     Ground {
         /// Number of the certificate.
         number: usize,
     },
-    /// Its looks prove nothing: there is no pair, or they are as likely as not at two places.
-    #[error("certificate {number} has looks that two places would have as well")]
+    /// The certificate's looks prove nothing: there is no pair, or they are as likely as not at two
+    /// places.
+    #[error("certificate {number} has looks that fit two places as well as one")]
     NoEvidence {
         /// Number of the certificate.
         number: usize,
     },
-    /// Looks at one place agree anyhow.
+    /// Both looks are at the same place, so they agree without being evidence.
     #[error(
-        "certificate {number} counts looks at visits {one} and {other}, which are to one place anyhow"
+        "certificate {number} counts looks at visits {one} and {other}, which are to the same place"
     )]
     OnePlace {
         /// Number of the certificate.
@@ -87,8 +88,8 @@ pub enum MergeCertificateError {
         /// The other.
         other: usize,
     },
-    /// The chance is another.
-    #[error("certificate {number} states a chance of {stated}, but it is {found}")]
+    /// The probability is another.
+    #[error("certificate {number} states a probability of {stated}, but it is {found}")]
     Chance {
         /// Number of the certificate.
         number: usize,

@@ -86,7 +86,7 @@ enum Way {
     Unknown,
     /// The width of the narrowest way so far, m.
     Seen(f64),
-    /// Its number among those reached.
+    /// The frame's number among those reached.
     Reached(u32),
 }
 

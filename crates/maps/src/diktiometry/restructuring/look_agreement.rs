@@ -19,7 +19,7 @@ const COMPARED: usize = 64;
 
 /// Number of places that one may be mistaken for if an action relates the two to one place
 /// ([`share_a_way`]). It is the maximum rate at which the action leads elsewhere than before, or
-/// not back, because the world has changed or the place is two.
+/// not back. The world may have changed, or the place may be two.
 const ELSEWHERE: f64 = 1e-3;
 
 /// Returns the opinion on merging two places by their looks, and those of the places along the same

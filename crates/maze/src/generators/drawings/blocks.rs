@@ -6,7 +6,7 @@ use super::super::{GenerateError, chance};
 use super::pen::Pen;
 use crate::{Cell, Direction, Maze};
 
-/// From one crossing to the next, cells.
+/// Distance between neighbouring crossings, cells.
 const STREET: u16 = 2;
 
 /// Draws city blocks: streets along every other row and column. A quarter of the ways between two
@@ -47,7 +47,7 @@ pub fn blocks(size: (u16, u16), rng: &mut impl Rng) -> Result<Maze, GenerateErro
     Ok(pen.finish(Cell::new(0, 0), rng))
 }
 
-/// Walls a way up unless that cuts something off, and returns whether it did.
+/// Puts a wall across a way unless that cuts something off, and returns whether it did.
 fn wall_up(pen: &mut Pen, crossing: Cell, way: Direction) -> bool {
     let Some(middle) = crossing.beyond(way) else {
         return false;

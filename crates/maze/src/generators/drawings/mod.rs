@@ -1,4 +1,4 @@
-//! Drawings that a person recognizes, each from its size and chance: what is the same of all of one
+//! Drawings that a person recognizes, each from its size and seed: what is the same of all of one
 //! name is its shape.
 //!
 //! All are closed and joined, mark a start and a goal, and wall off what they do not use.

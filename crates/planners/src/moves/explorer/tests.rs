@@ -1,4 +1,4 @@
-//! The stops that are made for, held to the definitions written as plainly as it goes.
+//! The stops that the mouse makes for, compared with the definitions in their plainest form.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -32,7 +32,7 @@ impl Walls for Glimpsed {
 }
 
 impl Glimpsed {
-    /// A maze after a walk of as many leaps, and where it ended.
+    /// Returns a maze after a walk of random leaps, and the cell in which it ended.
     fn after_walk(seed: u64) -> (Self, Cell) {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let shape = Braided {
@@ -68,7 +68,7 @@ impl Glimpsed {
         Direction::ALL.iter().filter(is_unknown).count()
     }
 
-    /// Fewest steps from some cells to every cell, by [`Grid::index`].
+    /// Returns the fewest steps from some cells to every cell, by [`Grid::index`].
     fn steps(&self, from: &[Cell], open: impl Fn(Cell, Direction) -> bool) -> Vec<Option<u16>> {
         let grid = self.grid();
         let mut steps = vec![None; grid.cell_count()];
@@ -95,14 +95,14 @@ fn leaps(from: Cell, open: impl Fn(Cell, Direction) -> bool) -> Vec<Leap> {
     Direction::ALL.into_iter().flat_map(along).collect()
 }
 
-/// The cells that a leap drives out of.
+/// Returns the cells that a leap drives out of.
 fn driven(from: Cell, leap: Leap) -> Vec<Cell> {
     let next = |cell: &Cell| cell.beyond(leap.direction);
     let cells = core::iter::successors(Some(from), next);
     cells.take(leap.cells.into()).collect()
 }
 
-/// What is known of a maze, with all numbers of steps.
+/// Knowledge of a maze, with all numbers of steps.
 struct Plain<'a> {
     known: &'a Glimpsed,
     from_start: Vec<Option<u16>>,
@@ -133,12 +133,12 @@ impl<'a> Plain<'a> {
         })
     }
 
-    /// The best run over one side.
+    /// Returns the steps of the best run over one side.
     fn run_over(&self, cell: Cell, side: Direction) -> Option<u16> {
         self.runs[self.known.grid().index(cell)][side.index()]
     }
 
-    /// The best run over each side, by cell and [`Direction::index`].
+    /// Computes the best run over each side, by cell and [`Direction::index`].
     fn with_runs(mut self) -> Self {
         let grid = self.known.grid();
         let hoped = |cell, side| self.known.may_pass(cell, side);
@@ -167,7 +167,7 @@ impl<'a> Plain<'a> {
         self
     }
 
-    /// What a stop for the proof counts, by the documentation of the weights.
+    /// Returns the value of a stop for the proof, as the weights document it.
     fn told(&self, config: &MoveExplorerConfig, cell: Cell, limit: u16, open: u16) -> f32 {
         let sides = Direction::ALL.into_iter();
         let unknown = sides.filter(|side| !self.known.knowledge(cell, *side).is_known());
@@ -177,7 +177,7 @@ impl<'a> Plain<'a> {
         better.map(worth).sum()
     }
 
-    /// The fewest unknown sides on a way of fewest steps from each cell to the goal.
+    /// Returns, for each cell, the fewest unknown sides on a way of fewest steps to the goal.
     fn unknown_walls(&self) -> Vec<f32> {
         let grid = self.known.grid();
         let mut walls = vec![f32::INFINITY; grid.cell_count()];
@@ -207,7 +207,7 @@ impl<'a> Plain<'a> {
     }
 }
 
-/// Weights under which every one of them matters.
+/// Returns weights every one of which matters.
 fn weights() -> MoveExplorerConfig {
     MoveExplorerConfig {
         known_step: 0.97,

@@ -10,7 +10,7 @@ pub struct Light {
     pub brightness: f64,
     /// Average brightness of red, green and blue, each 1 in white light.
     pub cast: [f64; 3],
-    /// From where most of it comes.
+    /// Direction from which most of the light comes.
     pub from: Heading,
     /// Additional brightness of a wall that faces the light, as a share; one that faces away is as
     /// much darker.
@@ -25,13 +25,13 @@ pub struct Light {
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LightDrift {
-    /// Over how many pictures it forgets how it was.
+    /// Number of pictures over which the light forgets how it was.
     pub pictures: f64,
     /// Standard deviation of the brightness, as a share.
     pub brightness_sd: f64,
     /// Standard deviation of each colour's brightness, as a share.
     pub cast_sd: f64,
-    /// Standard deviation of the direction it comes from, rad.
+    /// Standard deviation of the direction of the light, rad.
     pub from_sd: f64,
     /// Standard deviation of the brightness outside, which windows show, as a share.
     pub outside_sd: f64,

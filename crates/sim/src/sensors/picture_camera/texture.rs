@@ -1,4 +1,4 @@
-/// Returns the brightness change of a surface at a point of the room, −1 to 1: stains at fixed
+/// Returns the brightness change of a surface at a point of the room, −1 to 1. Stains are at fixed
 /// places, larger ones with smaller ones on top.
 pub(super) fn stain(x: f64, y: f64, height: f64) -> f64 {
     0.6 * patch([x, y, height], 0.43, 1) + 0.4 * patch([x, y, height], 0.11, 2)

@@ -26,13 +26,13 @@ pub enum PlayError {
     /// The maze is larger than the mouse's map.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
-    /// It sees walls where it has seen none, or the reverse.
+    /// The mouse sees walls where it has seen none, or the reverse.
     #[error("the reading contradicts the mouse's map")]
     Observe(#[from] ObserveError),
     /// No way leads to the goal.
-    #[error("the mouse has found that no way leads to the goal")]
+    #[error("the mouse has found that no way leads to the goal: open a wall")]
     NoWay,
-    /// It runs against walls it does not see.
+    /// The mouse runs against walls it does not see.
     #[error("the mouse crashed {crashes} times: walls are not where the simulator says they are")]
     Crashes {
         /// Number of crashes.

@@ -32,7 +32,7 @@ impl LatticePoint {
         }
     }
 
-    /// Returns what a mouse comes to half a step ahead.
+    /// Returns the obstacle half a step ahead of a mouse.
     #[must_use]
     pub fn gate(self, heading: LatticeHeading, grid: Grid) -> Gate {
         let Self { x, y } = self.ahead(heading);
@@ -59,7 +59,7 @@ impl LatticePoint {
     }
 }
 
-/// What lies half a step ahead of a position.
+/// Obstacle half a step ahead of a position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gate {
     /// The middle of a cell: nothing can stand there.

@@ -81,7 +81,7 @@ enum Goal {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Course {
     Kept,
-    /// It is back at the start.
+    /// The mouse is back at the start.
     Lost,
 }
 

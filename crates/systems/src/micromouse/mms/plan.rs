@@ -5,8 +5,8 @@ use super::LatticePoint;
 use super::roads::{Roads, Stand, TurnsAtStart, edges};
 
 /// Returns the score of the best run to the middle of a maze of at most 32 × 32 cells, in
-/// half-steps, without the tenth of all movements. Unknown walls count as standing. `None` if no
-/// way leads there. O(n log n) for n cells.
+/// half-steps. The tenth of all movements is not part of it. Unknown walls count as standing.
+/// `None` if no way leads there. O(n log n) for n cells.
 ///
 /// # Errors
 /// If the maze has more than 32 columns or rows.

@@ -31,7 +31,7 @@ pub(super) struct Roads<'a, const N: usize> {
 /// Cost of turns at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TurnsAtStart {
-    /// The same cost as everywhere.
+    /// They cost what they cost everywhere.
     Count,
     /// Nothing: a run begins with the first movement that leaves the start.
     Free,

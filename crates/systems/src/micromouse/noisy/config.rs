@@ -3,13 +3,13 @@ use tolman_maps::wall_belief::{FilterError, PoseFilterConfig};
 use tolman_maps::wall_map::TooLarge;
 use tolman_planners::moves::MoveExplorerConfigError;
 
-/// What a noisy mouse knows of its body and its maze.
+/// Knowledge of a noisy mouse about its body and its maze.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct NoisyMouseConfig {
-    /// How it estimates its pose.
+    /// Estimate of the pose.
     pub localization: PoseSource,
-    /// How it estimates its motion in a time step.
+    /// Estimate of the motion in a time step.
     pub motion: MotionSource,
     /// Noise that its filter assumes.
     pub filter: PoseFilterConfig,
@@ -24,9 +24,9 @@ pub struct NoisyMouseConfig {
 }
 
 impl NoisyMouseConfig {
-    /// Returns the configuration for cells `pitch` m apart between walls without thickness: a
-    /// particle filter that trusts wheels and sensors to a few percent
-    /// ([`PoseFilterConfig::for_pitch`]), moved by the commands.
+    /// Returns the configuration for cells `pitch` apart, m, between walls without thickness. The
+    /// particle filter trusts wheels and sensors to a few percent
+    /// ([`PoseFilterConfig::for_pitch`]), and the commands move it.
     #[must_use]
     pub const fn new(pitch: f64, turn_per_step: f64, translate_per_step: f64) -> Self {
         Self {
@@ -41,7 +41,7 @@ impl NoisyMouseConfig {
     }
 }
 
-/// How a mouse estimates its pose.
+/// Source of a mouse's estimate of its pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PoseSource {
     /// Assumes that its wheels do what they are told.
@@ -50,12 +50,12 @@ pub enum PoseSource {
     ParticleFilter,
 }
 
-/// How a mouse estimates its motion.
+/// Source of a mouse's estimate of its motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionSource {
-    /// From the commands.
+    /// The commands.
     Commands,
-    /// From the encoders, and from the commands where the encoders give nothing.
+    /// The encoders, and the commands where the encoders give nothing.
     Encoders,
 }
 

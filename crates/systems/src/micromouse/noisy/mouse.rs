@@ -18,7 +18,7 @@ pub trait NoisyBody: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps + Ro
 
 impl<R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps + Rolls>> NoisyBody for R {}
 
-/// What a noisy mouse has done in a step.
+/// Result of a noisy mouse's step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoisyNext {
     /// One step of the paper's rules.
@@ -48,11 +48,11 @@ pub struct NoisyMouse {
 /// Minimum number of readings per stop; and the maximum, while a visible side of the cell is
 /// unknown.
 const LOOKS: (u32, u32) = (4, 16);
-/// Distance from the mouse's middle to a wall ahead at which it stops, as a share of the pitch; and
-/// the number of readings in a row that must agree.
+/// Distance from the mouse's middle to a wall ahead at which it stops, as a share of the pitch. The
+/// second value is the number of readings in a row that must agree.
 const TOO_NEAR: (f64, u32) = (0.055 / 0.18, 3);
-/// Range of positions ahead of the cell's middle in which a bump is with the cell's wall, not with
-/// a post; as a share of the pitch.
+/// Range of positions ahead of the cell's middle, as shares of the pitch. A bump in it is with the
+/// cell's wall, not with a post.
 const AT_WALL: (f64, f64) = (0.1, 0.4);
 /// Number of times that beliefs are doubted before the mouse gives up as stuck.
 const DOUBTS: u32 = 12;

@@ -8,7 +8,7 @@ use tolman_robot::{Standing, Task};
 use super::MazeMouse;
 use crate::micromouse::{Next, Search, SearchView};
 
-/// What to do in a cell.
+/// Choice of a mouse in a cell.
 pub(super) enum Choice {
     /// Leave it and the next ones by these sides, the last one first.
     Drive(Vec<Direction>),

@@ -4,11 +4,11 @@ use tolman_maze::Cell;
 
 use super::super::MouseError;
 
-/// What a [`MazeMouse`](super::MazeMouse) knows of the maze and of its own drive.
+/// Knowledge of a [`MazeMouse`](super::MazeMouse) about the maze and its own drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MazeMouseConfig {
-    /// From the middle of a cell to the next, m. > 0.
+    /// Distance between the middles of neighbouring cells, m. > 0.
     pub pitch: f64,
     /// Thickness of a wall, m. ≥ 0, below half of the pitch.
     pub wall_thickness: f64,
@@ -23,14 +23,14 @@ pub struct MazeMouseConfig {
 #[non_exhaustive]
 pub enum MazeMouseError {
     /// A number of the configuration is out of its range.
-    #[error(
-        "`{field}` is {value}; give a finite number in the range that its documentation states"
-    )]
+    #[error("`{field}` is {value}; give {range}")]
     Field {
         /// The name of the field.
         field: &'static str,
         /// Its value.
         value: f64,
+        /// Values that the field may have.
+        range: &'static str,
     },
     /// The mouse cannot hold the maze or search in it.
     #[error(transparent)]
@@ -58,18 +58,27 @@ impl MazeMouseConfig {
 
     pub(super) fn check(&self) -> Result<(), MazeMouseError> {
         let thin = (0.0..0.5 * self.pitch).contains(&self.wall_thickness);
-        let positive = |field, value| (field, value, value > 0.0);
+        let positive = |field, value| (field, value, value > 0.0, "a number above 0");
         let fields = [
             positive("pitch", self.pitch),
-            ("wall_thickness", self.wall_thickness, thin),
+            (
+                "wall_thickness",
+                self.wall_thickness,
+                thin,
+                "a number from 0 to less than half of `pitch`",
+            ),
             positive("turn_per_step", self.turn_per_step),
             positive("translate_per_step", self.translate_per_step),
         ];
         let wrong = fields
             .into_iter()
-            .find(|(_, value, holds)| !(*holds && value.is_finite()));
+            .find(|(_, value, holds, _)| !(*holds && value.is_finite()));
         match wrong {
-            Some((field, value, _)) => Err(MazeMouseError::Field { field, value }),
+            Some((field, value, _, range)) => Err(MazeMouseError::Field {
+                field,
+                value,
+                range,
+            }),
             None => Ok(()),
         }
     }

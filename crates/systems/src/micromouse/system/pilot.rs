@@ -33,7 +33,7 @@ impl<R: Robot<Command = TurnTranslate, Sensing: Ranges + Compass + Rolls>> Body 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Arrival {
     Arrived,
-    /// It is not there after [`PATIENCE`] time steps.
+    /// The robot is not there after [`PATIENCE`] time steps.
     OutOfPatience,
 }
 

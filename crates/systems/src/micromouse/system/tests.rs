@@ -39,7 +39,7 @@ o   o   o---o   o
 o---o---o---o---o
 ";
 
-/// What the scripted robot senses.
+/// Readings of the scripted robot.
 struct Sensed {
     scan: Option<Scan>,
     heading: Option<Heading>,
@@ -198,7 +198,7 @@ fn pursue<S: Search>(
     panic!("{task:?} has no end");
 }
 
-/// Steps of the paper's rules in a walk: a turn and up to three cells each.
+/// Returns the number of steps of a walk by the paper's rules: a turn and up to three cells each.
 fn moves(walk: &[Cell]) -> u16 {
     let mut moves = 0;
     let mut row = (None, 0);

@@ -48,20 +48,20 @@ pub struct BetterConfigError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BetterPart {
-    /// Positions are corrected by the walls; without it they are what the wheels say.
+    /// Corrects positions by the walls. Without it, positions are what the wheels say.
     Fit,
-    /// It goes where its map has gaps; without it, it wanders like Avoid until there are none.
+    /// Goes where the map has gaps. Without it, wanders like Avoid until there are none.
     Exploration,
     /// Plans for motors that err. Without it, plans for exact ones.
     Chances,
     /// Chooses the action that is best on average over the belief. Without it, chooses the best one
     /// at the likeliest standpoint.
     Average,
-    /// It takes the absence of the goal's landmark as evidence.
+    /// Takes the absence of the goal's landmark as evidence.
     Absence,
-    /// Its layers see scans straightened.
+    /// Shows the layers straightened scans.
     Straightening,
-    /// It notices that it was lifted while it learned, and begins another map.
+    /// Notices that the robot was lifted while it learned, and begins another map.
     Lifts,
 }
 

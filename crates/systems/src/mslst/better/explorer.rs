@@ -27,7 +27,7 @@ pub struct BetterExplorer {
     plan: Plan,
     /// Its believed position after each action.
     trail: Vec<Point>,
-    /// What it sensed when its last action ended, until it sets off.
+    /// Readings when its last action ended, until it sets off.
     stop: Option<Stop>,
     /// Number of maps that it dropped because it was lifted, and of actions that made them.
     dropped: u32,
@@ -48,8 +48,8 @@ enum Plan {
 /// of the arena.
 const DOUBTFUL: f64 = 0.01;
 const SURE: f64 = 0.98;
-/// Number of dropped maps from which on walls that contradict one another are no sign of a lift:
-/// those of rooms may do so without one.
+/// Number of dropped maps from which on contradicting walls are no sign of a lift. Walls of rooms
+/// may contradict one another without a lift.
 const MOST_DROPPED: u32 = 3;
 /// Cost of a quarter turn, in metres of way.
 const TURN: f64 = 0.35;

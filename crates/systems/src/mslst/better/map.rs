@@ -57,7 +57,7 @@ impl BetterMap {
         Self::of(chart, self.standpoints.ring(), &self.config).ok()
     }
 
-    /// Returns what was learned.
+    /// Returns the learned map.
     #[must_use]
     pub const fn chart(&self) -> &ScanChart {
         self.standpoints.chart()

@@ -5,7 +5,7 @@ use tolman_robot::Scan;
 
 use crate::RolledStep;
 
-/// What the robot sensed when its last action ended. By this it notices that it was lifted since.
+/// Readings of the robot when its last action ended. By this it notices that it was lifted since.
 #[derive(Clone, Debug)]
 pub(super) struct Stop {
     heading: Heading,

@@ -52,7 +52,7 @@ pub(in crate::cli) struct Now<'a> {
     pub(in crate::cli) bump: bool,
     /// The action under way, or what the robot is doing.
     pub(in crate::cli) action: &'a str,
-    /// How an action ended with this step; `None` if none did.
+    /// Outcome of an action that ended with this step; `None` if none did.
     pub(in crate::cli) ended: Option<&'a str>,
     pub(in crate::cli) scan: Option<&'a Scan>,
 }

@@ -21,9 +21,9 @@ pub(super) const EXAMPLES: &str = "\
 The folder gets:
   report.html                     pictures and figures
   replay.html                     the log played beside its map
-  map.svg                         occupancy, the way found and the odometry
-  trajectory.tum                  the way found, in the format of evo: time x y z qx qy qz qw
-  odometry.tum, noted.tum         the ways by the wheels and as noted in the log, in the same format
+  map.svg                         occupancy, the trajectory and the odometry
+  trajectory.tum                  the estimated trajectory, as evo reads it: time x y z qx qy qz qw
+  odometry.tum, noted.tum         the wheels' trajectory and the one noted in the log, in the same format
   map.yaml, map.pgm               the map for map_server of ROS, and for `tolman run --world`
 A map of places adds:
   places.graphml, places.dot
@@ -35,7 +35,7 @@ Examples:
   tolman map --log logs/office.clf.gz --system matching --out office-open
   tolman score --trajectory office/trajectory.tum --truth office/noted.tum";
 
-/// How a log is mapped.
+/// Settings for mapping a log.
 #[derive(clap::Args)]
 #[group(skip)]
 pub(super) struct Arguments {
@@ -43,7 +43,7 @@ pub(super) struct Arguments {
     /// `mcap`)
     #[arg(long, value_name = "FILE", required = true)]
     log: Option<PathBuf>,
-    /// System that finds the way
+    /// System that estimates the trajectory
     #[arg(long, value_enum, default_value = "scan-matching")]
     system: System,
     /// Folder for the results; made if it does not exist
@@ -193,7 +193,7 @@ struct Mapped<'a> {
     log: &'a RobotLog,
     found: &'a MappedLog,
     picture: &'a MapPicture,
-    /// What was found, one line each.
+    /// Findings, one line each.
     told: &'a [String],
 }
 

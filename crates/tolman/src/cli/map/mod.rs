@@ -17,8 +17,8 @@ use crate::cli::kind::Kind;
 use crate::cli::{App, Failure, OrBadInput, file};
 use crate::system::{LearnedMap, MapText};
 
-/// Finds the way of a robot from its log and maps what its laser saw; with a subcommand, shows,
-/// checks or plans on a learned map
+/// Maps what a robot's laser saw, from its log; with a subcommand, shows, checks or plans on a
+/// learned map
 #[derive(clap::Args)]
 #[command(
     args_conflicts_with_subcommands = true,
@@ -73,7 +73,7 @@ pub(in crate::cli) struct Show {
     json: bool,
 }
 
-/// Plans a way over a learned map, from place to place or to the goal; exits 1 if none is known
+/// Plans a path over a learned map, from place to place or to the goal; exits 1 if none is known
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:

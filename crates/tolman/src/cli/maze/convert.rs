@@ -10,7 +10,7 @@ use super::{Failure, input};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Formats: numbers (of the micromouse test program), mazefiles (drawings), num (of the simulator
-mms), tolman (docs/maze-format.md). The format read is found out from the text.
+mms), tolman (docs/maze-format.md). The format of the input is recognized by its text.
 
 Example:
   tolman maze convert mazes/grid/braided-2.txt --to num --out braided-2.num")]

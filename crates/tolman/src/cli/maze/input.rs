@@ -22,7 +22,7 @@ pub(in crate::cli) fn read(path: &Path) -> Result<MazeFile, Failure> {
         .or_bad_input()
 }
 
-/// Like [`read`], but also accepts a maze without a way to the goal.
+/// Reads a maze like [`read`], but also accepts one without a way to the goal.
 ///
 /// # Errors
 /// As [`read`].

@@ -9,7 +9,7 @@ use tolman_maze::{Format, MazeFile, write};
 
 use super::{Failure, OrBadInput, file};
 
-/// Where to write a maze, and in which format.
+/// Destination and format of a maze that is written.
 #[derive(clap::Args)]
 pub(super) struct Output {
     /// Format to write

@@ -18,7 +18,7 @@ pub(super) struct WallsKnown {
     sides: BTreeMap<u32, SideKnown>,
 }
 
-/// What a mouse knows of one side.
+/// Knowledge of a mouse about one side.
 #[derive(Clone, Copy, Debug)]
 struct SideKnown {
     /// Step at which it was first seen.

@@ -35,7 +35,7 @@ pub(in crate::cli) struct Way {
     header: Value,
     /// Pose before the first step, and after each step.
     poses: Vec<Pose>,
-    /// What the mouse did in each step.
+    /// Result of each of the mouse's steps.
     steps: Vec<WayStep>,
     walls: WallsKnown,
     /// Number of steps before its last run, where that is to be drawn apart; `None` otherwise.
@@ -46,7 +46,7 @@ pub(in crate::cli) struct Way {
     live: Option<Live>,
 }
 
-/// What a mouse did in one step.
+/// Result of one of the mouse's steps.
 #[derive(Debug)]
 pub(in crate::cli) struct WayStep {
     pub(in crate::cli) pose: Pose,
@@ -54,11 +54,11 @@ pub(in crate::cli) struct WayStep {
     pub(in crate::cli) words: String,
     /// Line of the trace.
     pub(in crate::cli) line: Value,
-    /// How the step ended.
+    /// End of the step.
     pub(in crate::cli) came: Came,
 }
 
-/// How a step ended.
+/// End of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::cli) enum Came {
     /// The mouse went where it wanted.
@@ -79,8 +79,8 @@ impl Way {
         Self::of_pitch(name, maze, header, PITCH)
     }
 
-    /// Like [`new`](Self::new), for cells of another size: `pitch` is the distance between the
-    /// middles of two cells, m.
+    /// Returns the same as [`new`](Self::new), for cells of another size: `pitch` is the distance
+    /// between the middles of two cells, m.
     ///
     /// # Errors
     /// If the maze marks no start.

@@ -27,7 +27,7 @@ use crate::cli::unfinished::{Done, GoingOn};
 use crate::cli::{Failure, OrBadInput, file};
 use crate::start::Start;
 
-/// Where and how a robot runs, and which files are written.
+/// Settings of a robot's run, and the files that are written.
 #[derive(clap::Args)]
 #[command(group(required()))]
 pub(in crate::cli) struct Outing {
@@ -46,8 +46,8 @@ pub(in crate::cli) struct Outing {
         allow_hyphen_values = true
     )]
     start: Start,
-    /// Give up after this many time steps; by default in proportion to the length of the corridors,
-    /// with as many steps per metre as the Large maze's 500
+    /// Give up after this many time steps [default: in proportion to the corridors' length, at the
+    /// rate of the Large maze's 500]
     #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
     steps: Option<u32>,
     #[command(flatten)]
@@ -59,9 +59,9 @@ pub(in crate::cli) struct Outing {
 /// Names of a brain.
 #[derive(Clone, Copy)]
 pub(in crate::cli) struct Name<'a> {
-    /// On the command line and in sentences.
+    /// Name on the command line and in sentences.
     pub(in crate::cli) word: &'static str,
-    /// In tables and titles.
+    /// Name in tables and titles.
     pub(in crate::cli) title: &'static str,
     /// Positions of its map's nodes, by id; empty without a map.
     pub(in crate::cli) nodes: &'a [Point],

@@ -19,7 +19,7 @@ pub(super) struct ColumnIndex {
     /// One tree per group, or a single one for groups beginning at any column if views may be
     /// rotated.
     trees: Vec<FeatureTree>,
-    /// In the order in which they were taken in, which numbers them.
+    /// Views in the order in which they were taken in, which numbers them.
     views: Vec<Signature>,
 }
 

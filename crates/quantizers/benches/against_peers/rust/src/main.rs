@@ -26,7 +26,7 @@ fn main() -> Result<(), Failure> {
         "ours" => ours(&inputs, units, period, Lanes::Widest)?,
         "ours-plain" => ours(&inputs, units, period, Lanes::Baseline)?,
         "scirs2" => scirs2(&inputs, units, period as usize)?,
-        other => return Err(format!("{other} is no learner").into()),
+        other => return Err(format!("{other} is not a learner").into()),
     };
     println!("{} {} {}", outcome.rate, outcome.mse, outcome.units);
     Ok(())
@@ -68,7 +68,8 @@ fn scirs2(_: &[Vec<f64>], _: usize, _: usize) -> Result<Outcome, Failure> {
     Err("built without the feature scirs2".into())
 }
 
-/// It learns from inputs drawn at random, as many as there are; the rate is that of the last fifth.
+/// Trains scirs2's network on as many inputs as there are, drawn at random. Measures the rate of
+/// the last fifth.
 #[cfg(feature = "scirs2")]
 fn scirs2(inputs: &[Vec<f64>], units: usize, period: usize) -> Result<Outcome, Failure> {
     use scirs2_cluster::competitive_learning::GrowingNeuralGas;

@@ -12,7 +12,7 @@ pub(super) const BEAMS: Color = Color::DarkGray;
 pub(super) const DESTINATION: Color = Color::Green;
 /// The map that the robot learned.
 pub(super) const MAP: Color = Color::Blue;
-/// Where the robot believes it is.
+/// Colour of the pose in which the robot believes.
 pub(super) const BELIEF: Color = Color::Yellow;
 pub(super) const ROBOT: Color = Color::Magenta;
 /// The robot while it bumps.

@@ -29,9 +29,9 @@ pub(in crate::cli) struct Screen {
     terminal: DefaultTerminal,
     view: View,
     pace: Pace,
-    /// When the next step is due.
+    /// Time at which the next step is due.
     due: Instant,
-    /// When the last frame was drawn, and whether it is out of date.
+    /// Time at which the last frame was drawn, and whether it is out of date.
     drawn: Instant,
     stale: bool,
     interrupted: Arc<AtomicBool>,

@@ -52,7 +52,7 @@ pub(super) struct View {
     pub(super) bump: bool,
     /// The action under way, or just ended.
     action: String,
-    /// How the last action ended.
+    /// Outcome of the last action.
     ended: String,
     pub(super) scan: Option<Scan>,
     pub(super) trail: VecDeque<Point>,

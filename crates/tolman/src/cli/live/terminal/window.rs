@@ -15,9 +15,9 @@ const HOPS: f64 = 4.0;
 /// walls look alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Window {
-    /// Of the leftmost and the rightmost dot, m.
+    /// Positions of the leftmost and the rightmost dot, m.
     pub(super) x: [f64; 2],
-    /// Of the lowest and the uppermost dot, m.
+    /// Positions of the lowest and the uppermost dot, m.
     pub(super) y: [f64; 2],
     /// Distance between two dots, m.
     pub(super) metres_per_dot: f64,
