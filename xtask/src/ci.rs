@@ -20,7 +20,7 @@ use crate::{docs, fuzz, golden, layers, mazes, mutants, playground, prose, pytho
 /// Outcome of a step that did not fail.
 pub(crate) enum Outcome {
     Passed,
-    /// Not run, with the reason.
+    /// The step did not run, for this reason.
     Skipped(String),
 }
 

@@ -98,7 +98,7 @@ pub enum CourseError {
     /// The world cannot be built.
     #[error("no world can be built from the maze")]
     World(#[from] WorldError),
-    /// The world has no form as a file.
+    /// The world cannot be written as a file.
     #[error("the world cannot be written as a file")]
     Unwritten(#[from] WorldFileError),
 }
@@ -142,7 +142,7 @@ const STEPS_PER_METRE: f64 = 500.0 / (63.0 * CORRIDOR_WIDTH);
 const LEAST_STEPS: u32 = 100;
 
 impl Course {
-    /// Returns a maze of thin walls with corridors of this width, m.
+    /// Returns a maze of thin walls with corridors `corridor_width` wide, m.
     ///
     /// # Errors
     /// [`CourseError::World`] if the corridors have no width.
@@ -151,7 +151,7 @@ impl Course {
         Ok(Self::in_world(name, maze, corridor_width, world))
     }
 
-    /// Returns a maze whose walls stand in `world`, with corridors of this width, m.
+    /// Returns a maze whose walls stand in `world`, with corridors `corridor_width` wide, m.
     #[must_use]
     pub fn in_world(name: &str, maze: Maze, corridor_width: f64, world: World) -> Self {
         Self {

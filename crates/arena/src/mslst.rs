@@ -29,7 +29,7 @@ pub enum LearnError {
     /// The robot cannot wander there.
     #[error("the robot cannot wander")]
     Wander(#[from] EpisodeError),
-    /// The robot's scans make no states.
+    /// No states can be learned from the robot's scans.
     #[error("no states can be learned from the scans")]
     States(#[from] StatesError),
 }

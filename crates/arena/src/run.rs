@@ -20,7 +20,7 @@ pub struct Limited<R: Robot> {
     stepping: Duration,
 }
 
-/// Reason why a robot in a run makes no step.
+/// Reason why a robot cannot make a step in a run.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum LimitedError<E> {
     /// The run has as many time steps as it may have.
@@ -117,7 +117,7 @@ pub trait InRun {
     /// Returns the number of time steps that the robot has made.
     fn steps(&self) -> u32;
 
-    /// Returns whether it may make no further step.
+    /// Returns whether the robot may make no further step.
     fn is_out_of_time(&self) -> bool;
 }
 
@@ -157,7 +157,7 @@ pub enum TaskEnd {
 }
 
 impl TaskEnd {
-    /// Returns why the system gave up; empty if it did not.
+    /// Returns the reason for which the system gave up; empty if it did not.
     #[must_use]
     pub fn why(&self) -> &str {
         match self {

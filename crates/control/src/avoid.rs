@@ -20,8 +20,8 @@ pub struct Avoid {
         serde(deserialize_with = "crate::read::at_least_zero")
     )]
     pub buffer: f64,
-    /// A range this near beside the middle ends the action too, m. Paper: "much less than the
-    /// buffer"; here half of it.
+    /// Range beside the middle at or below which the action ends, too, m. Paper: "much less than
+    /// the buffer"; here half of it.
     #[cfg_attr(
         feature = "serde",
         serde(deserialize_with = "crate::read::at_least_zero")

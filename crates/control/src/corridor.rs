@@ -85,7 +85,7 @@ pub struct CorridorDetector {
     ring: Ring,
     /// Opposite pairs in the ring.
     pairs: usize,
-    /// A sum below this counts as two near walls, m.
+    /// Sum of two ranges below which they count as two near walls, m.
     near: f64,
     /// Number of near sums in a row that make a corridor.
     run: usize,

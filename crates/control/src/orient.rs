@@ -29,7 +29,7 @@ pub struct Orient {
     /// Misalignment at which the robot stands square across the corridor, beams: a quarter circle.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub square_beams: f64,
-    /// Narrower than this is a corner, m. Paper: "noticeably less than the width"; here 0.95
+    /// Width below which it is a corner, m. Paper: "noticeably less than the width"; here 0.95
     /// widths, since in a corridor the least sum is the width to within half a percent.
     #[cfg_attr(
         feature = "serde",

@@ -6,10 +6,10 @@ pub enum Outcome {
     /// A wall came close after at least one step of translation. MSLST does not record this as a
     /// failure.
     CutShort,
-    /// Not carried out: no step was made in the direction of travel.
+    /// The action was not carried out: no step was made in the direction of travel.
     Failed,
-    /// Not ended by any layer: [`Drive`](crate::Drive) broke it off after its
-    /// [longest action](crate::Drive::longest_action). Counts as not carried out.
+    /// No layer ended the action: [`Drive`](crate::Drive) broke it off after its [longest
+    /// action](crate::Drive::longest_action). Counts as not carried out.
     TimedOut,
 }
 

@@ -17,7 +17,7 @@ pub trait Record: Serialize + DeserializeOwned {
     /// Refuses a record whose values are in their columns' ranges, but do not fit together.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The first fault of the record.
     fn check(&self) -> Result<(), String> {
         Ok(())
     }

@@ -50,7 +50,7 @@ impl<'a> Job<'a> {
 }
 
 impl Run {
-    /// Returns whether it belongs to this row of this table.
+    /// Returns whether the run belongs to `row` of `table`.
     pub fn is_of(&self, table: &str, row: &str) -> bool {
         self.table == table && self.row == row
     }

@@ -733,7 +733,7 @@ impl Tolerance {
         Self { within, reason }
     }
 
-    /// Returns a tolerance of this share of the paper's value.
+    /// Returns a tolerance of `share` times the paper's value.
     #[must_use]
     pub const fn relative(share: f64, reason: &'static str) -> Self {
         let within = Within::Relative(share);

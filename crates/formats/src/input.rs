@@ -22,7 +22,7 @@ pub enum SourceError {
     #[error(transparent)]
     System(#[from] io::Error),
     /// The file goes on for too long.
-    #[error("it has more than {most} bytes; give a file that ends before")]
+    #[error("it has more than {most} bytes; give a smaller file")]
     TooLong {
         /// Maximum number of bytes that are read.
         most: u64,

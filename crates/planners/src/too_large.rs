@@ -17,7 +17,7 @@ impl TooLarge {
     /// Returns the error if a maze of the size of `grid` has more than `side` columns or rows.
     ///
     /// # Errors
-    /// That one.
+    /// [`TooLarge`] if the maze does not fit.
     pub const fn check(grid: Grid, side: usize) -> Result<(), Self> {
         if grid.width() as usize > side || grid.height() as usize > side {
             return Err(Self { grid, side });

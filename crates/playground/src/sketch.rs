@@ -137,8 +137,8 @@ impl Sketch {
         tolman_maze::write(&file, Format::Tolman).unwrap_or_else(|_| self.maze.to_string())
     }
 
-    /// Returns why no robot can be sent into it, as a sentence without a full stop; `None` if one
-    /// can.
+    /// Returns the reason why no robot can be sent into the maze, as a sentence without a full
+    /// stop; `None` if one can.
     #[must_use]
     pub fn fault(&self) -> Option<String> {
         let Some((start, _)) = self.maze.start() else {

@@ -9,7 +9,7 @@ use crate::UnitId;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Event {
-    /// A unit came, without edges so far.
+    /// A unit was inserted, without edges so far.
     Inserted {
         /// The unit.
         id: UnitId,

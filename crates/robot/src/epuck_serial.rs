@@ -79,9 +79,9 @@ pub struct SerialEpuck<P, W> {
 }
 
 impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
-    /// Stops the robot, sees that it is told to stand still, and asks what it senses. Lines of
-    /// before are passed over, so that opening the port of a robot that failed is how to go on.
-    /// Each step lasts `step_us` microseconds, for which `wait` is called.
+    /// Stops the robot, checks that it stands still, and reads its sensors. Earlier lines are
+    /// skipped: after a failure, open the port again. Each step lasts `step_us` microseconds, for
+    /// which `wait` is called.
     ///
     /// # Errors
     /// [`SerialError`] if it does not answer as it should.

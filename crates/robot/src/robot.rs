@@ -40,7 +40,7 @@ pub trait Robot {
     /// Carries out `command` for one time step and senses again.
     ///
     /// # Errors
-    /// Whatever keeps the robot from carrying it out; it then stands still.
+    /// The reason why the robot does not carry out the command. It then stands still.
     fn step(&mut self, command: &Self::Command) -> Result<(), Self::Error>;
 
     /// Tells the robot to stand still, for one time step.

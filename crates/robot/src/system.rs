@@ -35,20 +35,20 @@ pub trait System<R: Robot>: Mapper {
 /// Task of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Task {
-    /// To learn the world until it knows all of it, or as much as it wants to.
+    /// Learn the world until the system knows all of it, or as much as it wants to.
     Explore,
-    /// To go to a goal.
+    /// Go to a goal.
     Reach(Goal),
-    /// To find out where it is.
+    /// Find out where the robot is.
     Localize,
 }
 
 /// Goal of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Goal {
-    /// To a landmark, which the robot senses when it is there.
+    /// A landmark, which the robot senses when it is there.
     Landmark(Landmark),
-    /// To a place of the system's own map, by id.
+    /// A place of the system's own map, by id.
     Place(u32),
 }
 

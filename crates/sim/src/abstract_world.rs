@@ -241,7 +241,7 @@ pub struct AbstractRobot {
 pub struct AbstractMove {
     /// Place where the move began.
     pub from: u32,
-    /// The direction that was gone.
+    /// Direction of the move.
     pub direction: Direction,
     /// Place where the move ended.
     pub to: u32,

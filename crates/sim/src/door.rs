@@ -6,7 +6,7 @@ use crate::{Material, WallSegment};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum DoorState {
-    /// Not there for bodies and sensors.
+    /// Bodies and sensors pass through it.
     Open,
     /// A wall like any other.
     Shut,

@@ -41,7 +41,7 @@ pub struct CorridorSize {
 }
 
 impl CorridorSize {
-    /// Returns corridors of this width, m, between walls that are lines.
+    /// Returns corridors `corridor_width` wide, m, between walls that are lines.
     #[must_use]
     pub const fn thin(corridor_width: f64) -> Self {
         Self {

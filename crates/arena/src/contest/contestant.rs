@@ -250,8 +250,8 @@ impl Contestant {
         )
     }
 
-    /// Returns why it cannot work in a drawing, in a sentence without a full stop; `None` if it
-    /// can.
+    /// Returns the reason why it cannot work in a drawing, in a sentence without a full stop;
+    /// `None` if it can.
     ///
     /// It decides by its own features and the robot's sensors alone. A system that cannot work
     /// abstains, and is not sent. O(cells).

@@ -143,7 +143,7 @@ enum Matched {
     Way(usize),
     /// The beginning of a way that was not driven to its end.
     Stub,
-    /// Not a true way, or one that is on the map already.
+    /// No true way, or one that is on the map already.
     Nothing,
 }
 

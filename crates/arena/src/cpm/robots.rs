@@ -60,8 +60,8 @@ fn curve(response: &ResponseCurve) -> Result<RangeCurve, RangeCurveError> {
     RangeCurve::new(points.collect())
 }
 
-/// Returns the measures by which CPM takes a laser Pioneer in corridors of this width, m, for the
-/// paper's e-puck.
+/// Returns the measures by which a laser Pioneer in corridors `width` wide, m, looks like the
+/// paper's e-puck to CPM.
 ///
 /// The tolerance of turns is twice the error of the motors.
 #[must_use]

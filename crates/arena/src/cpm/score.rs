@@ -22,7 +22,7 @@ pub struct Closures {
     /// or by a map that became the likeliest later. Each counts once, however much of the map is
     /// wrong by it, and even if it is corrected later.
     pub wrong: u32,
-    /// A fragment was walked again, and still is on the map at the end as another one.
+    /// Number of fragments that were walked again and are on the map at the end as another one.
     pub missed: u32,
 }
 

@@ -131,7 +131,7 @@ pub fn learn_by(
 }
 
 impl CpmTrial<'_> {
-    /// Returns the robot of the paper with wheels that slip by this share.
+    /// Returns the robot of the paper with wheels that slip by `share`, 0 to 1.
     #[must_use]
     pub fn slipping(share: f64) -> EpuckConfig {
         let mut config = epuck();

@@ -66,7 +66,7 @@ pub struct ErrorSummary {
 
 /// Number of moves in a window.
 pub const WINDOW: usize = 25;
-/// Moves are at their asymptote in this last share of a run.
+/// Last share of a run in which the moves are at their asymptote.
 pub const TAIL: f64 = 0.25;
 /// Margin above the asymptote that counts as near, as a share of the odometry's error.
 pub const NEAR: f64 = 0.2;

@@ -24,7 +24,7 @@ pub(super) struct Memory {
     led: BTreeMap<(u32, Direction), End>,
     /// Ways that were shut when they were last seen.
     shut: BTreeSet<(u32, Direction)>,
-    /// Places that the robot went past and did not meet.
+    /// Numbers of the places that the robot went past and did not meet.
     missed: BTreeSet<u32>,
 }
 

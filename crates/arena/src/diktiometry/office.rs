@@ -87,7 +87,7 @@ pub struct Office {
     config: OfficeConfig,
 }
 
-/// Reason why a maze makes no office.
+/// Reason why a maze cannot become an office.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OfficeError {

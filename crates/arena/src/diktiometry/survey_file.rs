@@ -48,7 +48,7 @@ pub enum SurveyFileError {
     /// The maze is invalid.
     #[error("its maze is invalid")]
     Maze(#[from] MazeError),
-    /// The maze makes no world.
+    /// The maze cannot become a world.
     #[error("no world can be built from its maze")]
     Office(#[from] OfficeError),
     /// The map is invalid, or its journal was not kept.

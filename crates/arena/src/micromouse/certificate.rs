@@ -71,12 +71,12 @@ pub enum CertificateError {
 /// planners.
 const MOST_CELLS: u32 = 3;
 
-/// Checks that the certificate holds in this maze. Its statements about walls must be true, its run
+/// Checks that `certificate` holds in `maze`. Its statements about walls must be true, its run
 /// possible, and no run shorter in any maze that agrees with it. Uses only the maze types.
 /// O(cells).
 ///
 /// # Errors
-/// The first thing that is wrong.
+/// [`CertificateError`] names the first fault.
 pub fn check(certificate: &Certificate, maze: &Maze) -> Result<(), CertificateError> {
     let Certificate { grid, start, .. } = *certificate;
     let mut goals = certificate.goals.clone();

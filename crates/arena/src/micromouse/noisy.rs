@@ -23,7 +23,7 @@ use super::{MAX_STEPS, RefereeError, brief};
 pub struct NoisyConfig {
     /// Source of the mouse's pose.
     pub localization: PoseSource,
-    /// Wheels slip: distances and turns are off by a share uniform in ± this. ≥ 0.
+    /// Maximum slip of the wheels, as a share of distances and turns, uniform in ±. ≥ 0.
     pub slip: f64,
     /// Standard deviation of unwanted turns, rad per metre. ≥ 0.
     pub drift: f64,

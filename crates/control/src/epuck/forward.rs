@@ -55,7 +55,7 @@ pub struct ForwardConfig {
 }
 
 impl ForwardConfig {
-    /// Returns the values for corridors of this width, m. The speed is 4.5 cm/s, so that half a
+    /// Returns the values for corridors `width` wide, m. The speed is 4.5 cm/s, so that half a
     /// second takes the robot on by 2 cm. The gains bring the robot back to the middle without a
     /// swing.
     #[must_use]

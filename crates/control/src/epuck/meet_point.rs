@@ -46,7 +46,7 @@ impl TryFrom<Unchecked> for MeetPointConfig {
 }
 
 impl MeetPointConfig {
-    /// Returns the values for corridors of this width, m: up to half of it away, to 5 mm.
+    /// Returns the values for corridors `width` wide, m: up to half of it away, to 5 mm.
     #[must_use]
     pub const fn for_width(width: f64) -> Self {
         Self {

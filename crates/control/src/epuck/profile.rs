@@ -164,7 +164,7 @@ impl Profile {
     }
 }
 
-/// Reason why a sweep makes no [`Profile`].
+/// Reason why a sweep cannot become a [`Profile`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ProfileError {

@@ -35,7 +35,7 @@ pub struct Segments {
 /// A part of a profile that does not change much.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
-    /// Its mean value.
+    /// Mean value of the segment.
     pub mean: f64,
     /// Bearing of its middle, rad, counter-clockwise from ahead, from -π to π.
     pub bearing: f64,
@@ -64,15 +64,15 @@ pub struct SegmentConfig {
         serde(deserialize_with = "crate::read::positive_or_infinite")
     )]
     pub ceiling: f64,
-    /// A segment whose mean lies below this raw value is a space: a way on. The paper gives no
+    /// Raw value below which the mean of a segment makes it a space: a way on. The paper gives no
     /// value.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub space_below: f64,
     /// Minimum number of samples of a space. Fewer are the foot of a wall's edge, or a gap between
     /// walls far away. The paper has no such rule, which is 1.
     pub narrowest_space: u32,
-    /// Neighbouring segments whose means lie both below this, or both not, are made one, so that
-    /// ways and walls alternate. The paper joins none, which is 0.
+    /// Raw value for joining segments: neighbours whose means lie both below it, or both not,
+    /// become one, so that ways and walls alternate. The paper joins none, which is 0.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub way_below: f64,
 }

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::{Contrast, ExperimentOutcome, VerdictTally, duration};
 
-/// Corrected p-values below this count as a difference.
+/// Corrected p-value below which there is a difference.
 pub(super) const SIGNIFICANT: f64 = 0.05;
 
 /// Returns title, source, provenance, and the command that repeats the results.

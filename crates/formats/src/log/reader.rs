@@ -30,7 +30,7 @@ pub struct LogReader<R> {
     times: [Option<f64>; 2],
 }
 
-/// A greater step of the clock is a jump, s.
+/// Step of the clock above which it is a jump, s.
 const JUMP_S: f64 = 60.0;
 
 impl LogReader<Box<dyn BufRead + Send>> {

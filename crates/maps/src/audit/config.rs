@@ -11,8 +11,8 @@ pub struct AuditConfig {
     /// Maximum error of a cycle, k, in standard deviations (default 5; with Gaussian errors 2 in
     /// 100,000 right cycles exceed it).
     pub bound: f64,
-    /// A cycle is tight if its region of k standard deviations fills at most this share of all
-    /// poses near by (default 0.003).
+    /// Maximum share of all poses near by that the region of k standard deviations of a tight cycle
+    /// fills (default 0.003).
     pub tight_share: f64,
     /// Radius of the region of poses near by, m (default 5); their headings are any.
     pub near: f64,

@@ -180,7 +180,7 @@ impl CpMapper {
         }
     }
 
-    /// Returns why the map is not to be trusted in a world whose places are at least `apart` m
+    /// Returns the reason not to trust the map in a world whose places are at least `apart` m
     /// apart. `None` if nothing contradicts it, and for a mapper that keeps one hypothesis, which
     /// cannot tell. Complexity as [`certainty`](Self::certainty).
     #[must_use]

@@ -36,9 +36,9 @@ pub enum MapDoubt {
 }
 
 impl CpMap {
-    /// Returns why the map cannot be one world of corridors with places at least `apart` m apart.
-    /// `None` if nothing contradicts it. `from` is the robot's junction. O(places · ports · log
-    /// places).
+    /// Returns the reason why the map cannot be one world of corridors with places at least `apart`
+    /// m apart. `None` if nothing contradicts it. `from` is the robot's junction. O(places · ports
+    /// · log places).
     #[must_use]
     pub fn doubt(&self, from: JunctionId, apart: f64) -> Option<MapDoubt> {
         let all = self.junctions().len();

@@ -311,8 +311,9 @@ impl Localizer {
         });
     }
 
-    /// Takes in the arrival at the end of a fragment. It is told the junction, dead end or landmark
-    /// seen, and the bearings of its ways if the robot looks. O(all sequences' lengths).
+    /// Takes in the arrival at the end of a fragment. `sighting` is the junction, dead end or
+    /// landmark seen. `bearings` are those of its ways, if the robot looks. O(all sequences'
+    /// lengths).
     pub fn arrive(&mut self, sighting: Sighting, bearings: Option<&Bearings>) {
         self.pass_all();
         self.weigh(|track| {

@@ -210,8 +210,8 @@ pub enum PatternDifference {
 pub enum Span {
     /// All of both: the shorter sequence is stretched over the longer one.
     Whole,
-    /// Up to the end of the shorter one, taken literally: a fragment is similar to all that begin
-    /// like it.
+    /// Compares up to the end of the shorter one, taken literally: a fragment is similar to all
+    /// that begin like it.
     Shorter,
 }
 

@@ -20,7 +20,7 @@ use super::Action;
 pub struct Config {
     /// The robot's control routines.
     pub actions: Vec<ActionKind>,
-    /// δ_sep: two places are never nearer than this, m, > 0. (*Geometric constraints*)
+    /// δ_sep: minimum distance of two places, m, > 0. (*Geometric constraints*)
     pub separation: f64,
     /// Minimum distance of two places that look alike, m; at least `separation`. Where views tell
     /// places apart, this lets boxes be wider.
@@ -28,14 +28,14 @@ pub struct Config {
     /// Measure of the distances above.
     #[cfg_attr(feature = "serde", serde(default))]
     pub apart: Apart,
-    /// Places at both ends of an action that [leads](ActionKind::leads) straight lie within this of
-    /// one line along its axis, m, ≥ 0.
+    /// Maximum distance from one line of the places at both ends of an action that
+    /// [leads](ActionKind::leads) straight, across its axis, m, ≥ 0.
     #[cfg_attr(feature = "serde", serde(default))]
     pub across: f64,
     /// Whether the world may change.
     #[cfg_attr(feature = "serde", serde(default))]
     pub world: WorldKind,
-    /// The robot ends a move within this of the place's point, m, ≥ 0.
+    /// Maximum distance from the place's point at which the robot ends a move, m, ≥ 0.
     pub place_radius: f64,
     /// Bound of an error of scale that all odometry shares, as a share of the distance, 0 ≤ … < 1.
     /// It cancels round every loop, so it widens no box and only brings places nearer together: the
@@ -256,8 +256,8 @@ pub struct Matching {
     /// Number of visits of the old place below which α-MATCH goes before a new place: young boxes
     /// are the ones that errors spoil.
     pub alpha_visits: u32,
-    /// β-MATCH snaps to places nearer than this share of the distance since the last CONTINUE, ≥ 0,
-    /// and never farther than `separation`.
+    /// Maximum distance of a place to which β-MATCH snaps, as a share of the distance since the
+    /// last CONTINUE, ≥ 0. It is never farther than `separation`.
     pub beta_reach: f64,
     /// Number of traversals from which a cell of the grid is well traversed.
     pub well_traversed: u32,
@@ -292,11 +292,11 @@ pub enum Precedence {
 pub struct Tracking {
     /// Tracks at most, ≥ 1.
     pub cap: usize,
-    /// Tracks with less confidence die, 0 … 1.
+    /// Minimum confidence of a track, 0 … 1; below it the track dies.
     pub least_confidence: f64,
-    /// A track of at least this confidence is confident, 0 … 1.
+    /// Minimum confidence of a confident track, 0 … 1.
     pub high: f64,
-    /// A track of at most this confidence is not, 0 … `high`.
+    /// Maximum confidence of a track that is not confident, 0 … `high`.
     pub low: f64,
     /// Number of matches that a history holds.
     pub history: usize,
@@ -333,10 +333,10 @@ pub struct Restructuring {
     pub non_local_merge: Use,
     /// W: the weight of an estim that counts.
     pub weight: f64,
-    /// Q: two estims split a place when their weights' ratio, larger to smaller, is below this.
+    /// Q: ratio of the weights of two estims, larger to smaller, below which they split a place.
     pub ratio: f64,
-    /// φ: places merge when the weight of every other estim of the union is below this share of the
-    /// first's.
+    /// φ: share of the first estim's weight below which the weight of every other estim of the
+    /// union has to be for places to merge.
     pub minority: f64,
     /// Share of common links that proposes a merge; below the second, it is rejected.
     pub links: [f64; 2],

@@ -50,7 +50,7 @@ impl Memory {
         }
     }
 
-    /// Returns the newest first; at most as many as the memory is long.
+    /// Returns the experiences, the newest first; at most as many as the memory is long.
     pub fn newest_first(&self) -> impl Iterator<Item = Experience> {
         self.experiences.iter().rev().copied()
     }

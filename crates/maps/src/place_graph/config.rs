@@ -5,9 +5,10 @@ use crate::pose_graph::OptimizerConfig;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct PlaceGraphConfig {
-    /// A place is new if it lies at least this far from all others, m, …
+    /// Minimum distance of a new place from all others, m.
     pub place_distance: f64,
-    /// … or if none that near looks in the same direction within this angle, rad.
+    /// Minimum turn of a new place from all nearer ones, rad: a place is also new if no near one
+    /// looks in the same direction.
     pub place_turn: f64,
     /// Standard deviation of the scale error of a robot's wheels.
     pub scale_deviation: f64,

@@ -35,9 +35,9 @@ pub(super) struct Fit {
 /// Rounds of finding the nearest surfaces and moving there.
 const ROUNDS: u32 = 8;
 
-/// A surface is looked for within this distance at first, m, …
+/// Distance within which a surface is looked for at first, m.
 const FIRST_GATE: f64 = 0.5;
-/// … and within this at last.
+/// Distance within which a surface is looked for at last, m.
 const LAST_GATE: f64 = 0.12;
 /// Factor of the gate from round to round.
 const GATE_SHRINKS: f64 = 0.75;
@@ -51,13 +51,14 @@ const NORMAL_GATE: f64 = 0.88;
 /// Residual, in standard deviations, at which a point counts a quarter.
 const DOUBT: f64 = 2.5;
 
-/// A residual of more standard deviations is as good as none found.
+/// Number of standard deviations above which a residual counts as none found.
 const MOST_OFF: f64 = 3.0;
 
 /// Angle beyond its cone in which a sonar hears, rad: its mount is not known better.
 const CONE_SLACK: f64 = 0.03;
 
-/// Points of one outline err together: each brings this share of what it would alone.
+/// Share that each point of an outline counts of what it would alone: points of one outline err
+/// together.
 const INDEPENDENT: f64 = 0.3;
 
 /// Weight of an arc relative to a point; an arc may be a miss or another sonar's echo.

@@ -25,11 +25,12 @@ const FLOOR_ROWS: u32 = 3;
 /// Number of rows above the foot whose mean is the colour of what stands there.
 const COLOUR_ROWS: u32 = 3;
 
-/// A pixel differs from the floor by this share of its brightness, or it is floor.
+/// Share of its brightness by which a pixel differs from the floor; with a smaller difference it is
+/// floor.
 const UNLIKE: f64 = 0.22;
 
-/// A foot has to be seen under at least this angle below the horizon, as a tangent: farther things
-/// have too vague a distance.
+/// Minimum angle below the horizon at which a foot is seen, as a tangent: farther things have too
+/// vague a distance.
 const LEAST_DOWN: f64 = 0.09;
 
 /// Nothing stands nearer, m: it would be under the camera.

@@ -30,7 +30,7 @@ const SPREAD: (f64, f64) = (0.25, 0.25);
 /// Number of directions that hypotheses look into, wherever a place lies.
 const DIRECTIONS: u32 = 14;
 
-/// Places that are nearer to each other make hypotheses but once, m.
+/// Distance of two places below which they make only one hypothesis, m.
 const APART: f64 = 0.4;
 
 /// Difference of log-likelihood to the best at which a hypothesis is given up.

@@ -53,7 +53,7 @@ pub struct ChartParts {
     pub rows: Vec<String>,
 }
 
-/// Reason why parts make no [`ScanChart`].
+/// Reason why parts cannot become a [`ScanChart`].
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ChartError {
@@ -252,8 +252,8 @@ impl ScanChart {
         Clearings::new(grid, self.radius)
     }
 
-    /// Returns why the map is doubtful, by what it says itself, in a sentence without a full stop;
-    /// `None` if nothing speaks against it.
+    /// Returns the reason, found in the map itself, why the map is doubtful, in a sentence without
+    /// a full stop. `None` if nothing speaks against it.
     #[must_use]
     pub fn doubt(&self) -> Option<&'static str> {
         if self.goal.is_empty() {

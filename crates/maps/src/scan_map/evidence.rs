@@ -46,7 +46,7 @@ const GOOD: f64 = 0.6;
 const UNSHOWN: f64 = 2.0;
 /// Mean square misfit from which a scan fits nowhere.
 const SURPRISE: f64 = 3.0;
-/// A scan fits well where it is off by less, mean square.
+/// Misfit below which a scan fits well, mean square.
 const WELL: f64 = 1.5;
 /// Minimum number of adjacent beams that a new wall ends.
 const BEAMS_OF_A_WALL: u32 = 8;

@@ -101,7 +101,7 @@ impl Standpoints {
         self.stands.slots().map(|slot| middle(self.index(slot)))
     }
 
-    /// Returns the position of standpoint `number`, or `None` if there are not that many. O(log
+    /// Returns the position of standpoint `number`, m, or `None` if it does not exist. O(log
     /// cells).
     #[must_use]
     pub fn position(&self, number: u32) -> Option<Point> {

@@ -49,7 +49,7 @@ const REFINED_POINTS: usize = 600;
 const STEPS_ON_THE_WAY: u32 = 3;
 /// Iterations of each.
 const ITERATIONS_ON_THE_WAY: usize = 150;
-/// A closure of a greater squared error moves the map at once.
+/// Squared error above which a closure moves the map at once.
 const OFF: f64 = 4.0;
 
 impl ScanMatching {

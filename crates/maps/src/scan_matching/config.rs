@@ -5,7 +5,7 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ScanMatchingConfig {
-    /// Beams that end farther off are not used.
+    /// Maximum range of the beams that are used.
     pub farthest: f64,
     /// Standard deviation of a beam's end from the surface that it met.
     pub kernel: f64,
@@ -61,7 +61,7 @@ pub struct ClosureConfig {
     pub every: f64,
     /// Minimum way after which a place counts as seen again.
     pub least_way: f64,
-    /// Keyframes whose scans are put together and looked for.
+    /// Number of keyframes whose scans are put together and looked for.
     pub query_keyframes: usize,
     /// Number of keyframes of the old place that they are compared with.
     pub old_keyframes: usize,

@@ -28,7 +28,7 @@ pub(super) struct Prior {
 const STEPS: u32 = 12;
 /// Size of a step at which the search ends, m and rad.
 const SMALL: f64 = 1e-5;
-/// Points of one scan err together: each says this share of what it would alone.
+/// Share that each point of a scan counts of what it would alone: points of one scan err together.
 const INDEPENDENT: f64 = 0.1;
 
 /// The sum of the points' likelihoods near a pose, to second order.

@@ -8,9 +8,9 @@ use tolman_robot::{Ring, Scan};
 
 use super::ScanMatching;
 
-/// Keyframes before and after that show what is around.
+/// Number of keyframes before and after that show what is around.
 const SHOWN: usize = 14;
-/// Keyframes before and after whose surfaces tell how the heading has drifted.
+/// Number of keyframes before and after whose surfaces show how the heading has drifted.
 const ABOUT: usize = 20;
 
 impl ScanMatching {

@@ -223,7 +223,7 @@ pub fn parse_as(text: &str, format: Format) -> Result<MazeFile, MazeError> {
 /// [`Format::Tolman`].
 ///
 /// # Errors
-/// What of the maze the format cannot hold.
+/// [`WriteError`] names the part of the maze that the format cannot hold.
 pub fn write(file: &MazeFile, format: Format) -> Result<String, WriteError> {
     file.maze.check_structure()?;
     let grid = file.maze.grid();

@@ -33,7 +33,7 @@ const PAPERS_RULE: &str = " offline (paper's rule)";
 /// Suffix of rows with our own version.
 pub(super) const BETTER: &str = " better";
 
-/// An episode is long from this multiple of the shortest path.
+/// Multiple of the shortest path from which on an episode is long.
 const LONG: f64 = 10.0;
 
 /// A table, and the setting of each of its rows.

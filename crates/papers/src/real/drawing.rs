@@ -74,7 +74,8 @@ impl MapPicture {
         }
     }
 
-    /// Returns why the map is doubtful, in a sentence without a full stop; `None` if it is not.
+    /// Returns the reason why the map is doubtful, in a sentence without a full stop; `None` if it
+    /// is not.
     #[must_use]
     pub fn doubt(&self) -> Option<String> {
         let percent = 100.0 * self.contradicted;

@@ -84,7 +84,7 @@ pub enum MoveDecision {
 pub(super) enum Task {
     /// Nothing to weigh.
     Decided(MoveDecision),
-    /// To drive there.
+    /// Drive to this cell.
     DriveTo(Cell),
     /// The mouse was at the goal and knows a run of this length: to look at what might make a
     /// better one.

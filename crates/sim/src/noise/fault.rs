@@ -81,10 +81,10 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// Checks that every number of it has a sense.
+    /// Checks the range of every number.
     ///
     /// # Errors
-    /// The first that has none.
+    /// [`FaultError`] names the first number out of its range.
     pub fn check(&self) -> Result<(), FaultError> {
         let (any, size) = (f64::MIN..=f64::MAX, 0.0..=f64::MAX);
         let probable = |probability| ("probability", probability, 0.0..=1.0);

@@ -319,7 +319,7 @@ impl<B: CpmRobot> Walker<B> {
         self.pilot.robot().steps
     }
 
-    /// Returns the number of observations it has made.
+    /// Returns the number of observations the walker has made.
     pub const fn observations(&self) -> u32 {
         self.memory.observations
     }

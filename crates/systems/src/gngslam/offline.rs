@@ -42,7 +42,7 @@ impl OfflineSlamConfig {
     }
 }
 
-/// Reason why the records make no map.
+/// Reason why no map can be learned from the records.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OfflineSlamError {
@@ -61,7 +61,7 @@ pub enum OfflineSlamFailure<R> {
     /// No record came, or the robot failed.
     #[error(transparent)]
     Robot(#[from] WandererError<R>),
-    /// The records make no map.
+    /// No map can be learned from the records.
     #[error(transparent)]
     Map(#[from] OfflineSlamError),
 }

@@ -35,8 +35,8 @@ pub struct OnlineSlamConfig {
     /// Number of looks in a row without a new place after which all is explored. It counts only if
     /// no place is left from which the floor goes on.
     pub quiet_looks: u32,
-    /// The floor goes on where nothing stands in a lane of half this width, m. It is narrower than
-    /// the robot, since places are seldom in the middle of a corridor.
+    /// Half-width of the lane in which nothing may stand where the floor goes on, m. It is narrower
+    /// than the robot, since places are seldom in the middle of a corridor.
     pub lane: f64,
     /// Maximum number of time steps to stand still for a snapshot, at least 1.
     pub patience: u32,
@@ -96,8 +96,8 @@ impl OnlineSlamConfig {
 pub enum ExplorationPolicy {
     /// Straight on until something is near, then in a random direction, as in the paper.
     ByChance,
-    /// To the nearest point where the floor goes on beyond the map, as long as there are any; then
-    /// at random.
+    /// Goes to the nearest point where the floor goes on beyond the map, as long as there are any;
+    /// then wanders at random.
     ToTheUnknown,
 }
 

@@ -17,7 +17,7 @@ pub struct PlacePilotConfig {
     pub drive: UntilNearConfig,
     /// Distance by its odometry at which it has come to a node, m.
     pub arrival: f64,
-    /// It goes round what is in the way by this angle, rad.
+    /// Angle by which the pilot goes round what is in the way, rad.
     pub round: f64,
 }
 

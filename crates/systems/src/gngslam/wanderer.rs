@@ -16,8 +16,8 @@ use crate::stream;
 pub struct WandererConfig {
     /// Parameters of driving and turning.
     pub drive: UntilNearConfig,
-    /// Smallest share of the limit ahead to which it goes, 0 to 1. The share of each leg is drawn
-    /// between this and 1; at 1, the paper's value, it is always the limit.
+    /// Smallest share of the limit ahead up to which it goes, 0 to 1. The share of each leg is
+    /// drawn between this value and 1; at 1, the paper's value, it is always the limit.
     pub nearest: f64,
     /// Minimum length of a leg, m; a shorter one is followed by another before a record is taken.
     /// Ours: 0.3.

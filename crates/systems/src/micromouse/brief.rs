@@ -18,7 +18,7 @@ impl Brief {
     /// Returns the cells where a goal is reached. A place is a cell, by [`Grid::index`].
     ///
     /// # Errors
-    /// Why the mouse gives up, if the goal is not in this maze.
+    /// The reason for which the mouse gives up, if the goal is not in this maze.
     pub(super) fn cells_of(&self, goal: Goal) -> Result<Vec<Cell>, Standing> {
         let cells = match goal {
             Goal::Landmark(Landmark::Start) => Some(vec![self.start]),

@@ -50,8 +50,8 @@ impl BetterMslst {
         }
     }
 
-    /// Returns why its map is unfinished or doubtful, in a sentence without a full stop; `None` if
-    /// nothing speaks against it.
+    /// Returns the reason why the map is unfinished or doubtful, in a sentence without a full stop;
+    /// `None` if nothing speaks against it.
     #[must_use]
     pub fn doubt(&self) -> Option<&'static str> {
         match &self.phase {

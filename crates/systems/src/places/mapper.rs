@@ -29,7 +29,7 @@ pub struct PlacesMapper {
     config: PlacesConfig,
     matching: ScanMatching,
     detector: CorridorDetector,
-    /// Keyframes that have been judged.
+    /// Number of keyframes that have been judged.
     judged: usize,
     /// Keyframes without a corridor since the last with one.
     open: Vec<usize>,
@@ -50,7 +50,7 @@ struct Visit {
 /// of iterations of the search for it.
 const MIDDLE_WIDTHS: f64 = 1.0;
 const CLIMBED: u32 = 8;
-/// A closure of a greater squared error is not believed.
+/// Squared error above which a closure is not believed.
 const DOUBT: f64 = 16.0;
 
 impl PlacesMapper {

@@ -82,7 +82,8 @@ impl Light {
         }
     }
 
-    /// Returns the numbers of it, with their names and the least and the most that has a sense.
+    /// Returns the numbers of the light, with their names and their least and greatest valid
+    /// values.
     pub(super) fn parts(&self) -> [(&'static str, f64, f64, f64); 13] {
         let [red, green, blue] = self.cast;
         let drift = &self.drift;

@@ -36,7 +36,7 @@ pub struct BetterExplorer {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Plan {
-    /// To a gap.
+    /// Go to a gap.
     Go(Direction),
     /// A gap is left, but no action seems to lead nearer.
     Stuck,
@@ -89,8 +89,8 @@ impl BetterExplorer {
         CorridorMap::of(&self.map.chart(), self.config.corridor_width)
     }
 
-    /// Returns why its map is unfinished or doubtful, in a sentence without a full stop; `None` if
-    /// nothing speaks against it.
+    /// Returns the reason why the map is unfinished or doubtful, in a sentence without a full stop;
+    /// `None` if nothing speaks against it.
     #[must_use]
     pub fn doubt(&self) -> Option<&'static str> {
         if self.plan != Plan::Finished {
