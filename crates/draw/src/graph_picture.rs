@@ -71,9 +71,9 @@ pub enum NodeMark {
 /// One edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GraphEdge {
-    /// The index of the node it begins at.
+    /// Index of the node at which the edge begins.
     pub from: usize,
-    /// The index of the node it ends at.
+    /// Index of the node at which the edge ends.
     pub to: usize,
     /// Its class by colour.
     pub series: Series,

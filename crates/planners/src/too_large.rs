@@ -14,7 +14,7 @@ pub struct TooLarge {
 }
 
 impl TooLarge {
-    /// Returns the error if a maze of the size of `grid` has more than `side` columns or rows.
+    /// Checks that a maze of the size of `grid` has at most `side` columns and rows.
     ///
     /// # Errors
     /// [`TooLarge`] if the maze does not fit.

@@ -60,7 +60,7 @@ pub struct SystemChoice {
     pub name: &'static str,
     /// Task of the system, in one line.
     pub about: &'static str,
-    /// Whether it is as its paper has it.
+    /// Whether the system is as its paper has it.
     pub is_paper: bool,
 }
 

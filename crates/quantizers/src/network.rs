@@ -561,7 +561,7 @@ impl<S: Scalar> Network<S> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Edge {
-    /// The units it joins, the smaller id first.
+    /// Units that the edge joins, the smaller id first.
     pub ends: (UnitId, UnitId),
     /// Number of inputs that one of the edge's ends has won since it was renewed.
     pub age: u32,

@@ -212,7 +212,7 @@ const LEAST_WEIGHT: f64 = 0.01;
 /// One state of a [`Belief`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeliefAt {
-    /// First step at which it holds.
+    /// First step at which this holds.
     pub step: u32,
     /// The whole belief; empty for none.
     pub shapes: Vec<Shape>,
@@ -285,7 +285,7 @@ pub struct Field {
 /// One change of a [`Field`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldChange {
-    /// First step at which it holds.
+    /// First step at which this holds.
     pub step: u32,
     /// Number of the cell.
     pub cell: u32,
@@ -333,7 +333,7 @@ impl TimeSeries {
 /// One value of a [`TimeSeries`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// First step at which it holds.
+    /// First step at which this holds.
     pub step: u32,
     /// The value.
     pub value: f64,
@@ -379,7 +379,7 @@ impl Notes {
 /// One of [`Notes`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
-    /// First step at which it holds.
+    /// First step at which this holds.
     pub step: u32,
     /// Text of the note.
     pub text: String,

@@ -117,9 +117,9 @@ pub struct MapPlace {
 /// A way from one place of a learned map to another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct MapLink {
-    /// The place it leaves.
+    /// Place that the link leaves.
     pub from: u32,
-    /// The place it leads to.
+    /// Place to which the link leads.
     pub to: u32,
 }
 

@@ -29,7 +29,7 @@ use crate::{BoxError, Outing};
 pub struct Contest<'a> {
     /// The system or baseline.
     pub contestant: Contestant,
-    /// The robot that it drives.
+    /// Robot that the contestant drives.
     pub robot: ContestRobot,
     /// The drawing, which marks start and goal.
     pub maze: &'a Maze,
@@ -37,7 +37,7 @@ pub struct Contest<'a> {
     pub name: &'a str,
     /// Change of robot and world.
     pub condition: Condition,
-    /// Number of times that it is put down to localize, and again to drive to the goal.
+    /// Number of times that the robot is put down to localize, and again to drive to the goal.
     pub starts: u32,
     /// Seed of all random numbers.
     pub seed: u64,
@@ -222,7 +222,7 @@ pub struct Home {
     pub over_shortest: Option<f64>,
     /// Number of time steps in which it touched something.
     pub bumps: u32,
-    /// Reason why it gave up before it arrived; empty if it did not give up.
+    /// Reason why the system gave up before it arrived; empty if it did not give up.
     pub gave_up: String,
 }
 

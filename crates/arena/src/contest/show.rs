@@ -32,7 +32,8 @@ pub struct ShowRecord {
 pub struct FoundOut {
     /// Its answer.
     pub outcome: LocateOutcome,
-    /// Whether it stayed where it was put down. A system that only tracks its robot is put back.
+    /// Whether the robot stayed where it was put down. The robot of a system that only tracks it is
+    /// put back.
     pub was_put_down: bool,
     /// Number of actions.
     pub actions: u32,

@@ -14,7 +14,7 @@ use super::world::shortest_covering_walk;
 /// A maze explored to its end: "the task is to obtain the complete map" (section 6).
 #[derive(Clone, Debug, Default)]
 pub struct Exploration {
-    /// Reason why it ended, or `None` if it broke off.
+    /// Reason why the exploration ended, or `None` if it broke off.
     pub done: Option<Done>,
     /// Whether each place and fragment of the maze is on the map once, and all are joined as they
     /// truly are.
@@ -33,7 +33,7 @@ pub struct Exploration {
     pub bound: f64,
     /// Number of time steps in which its body touched a wall.
     pub bumps: u32,
-    /// Reason why it broke off.
+    /// Reason why the exploration broke off.
     pub trouble: Option<String>,
 }
 

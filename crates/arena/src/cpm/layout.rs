@@ -41,7 +41,7 @@ pub struct OpenPort {
     pub port: Port,
     /// The cell of its junction.
     pub cell: Cell,
-    /// The cell it leads to.
+    /// Cell to which the port leads.
     pub next: Cell,
 }
 

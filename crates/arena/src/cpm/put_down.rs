@@ -57,7 +57,7 @@ pub struct PutDownRecord {
     /// Probability that the observer would know them if it saw more: the place ahead, and the ways
     /// to the sides of the place behind, if it stands beside that. No robot knows more on average.
     pub knowable_by_places: f64,
-    /// Whether the robot knew them then; not if it had observed nothing.
+    /// Whether the robot knew maze, fragment and direction then; false if it had observed nothing.
     pub is_right_under_way: bool,
     /// Whether the robot was right at that place.
     pub is_right_at_first_place: bool,

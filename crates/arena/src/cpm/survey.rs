@@ -10,15 +10,15 @@ use crate::course::Course;
 /// One walk along a true fragment of a maze.
 #[derive(Clone, Debug)]
 pub struct SurveyedWalk {
-    /// The place it was to be walked from.
+    /// Place from which the fragment was to be walked.
     pub from: Cell,
-    /// The fragment, and which way it was to be walked.
+    /// The fragment, and the direction in which it was to be walked.
     pub way: WayOut,
-    /// The place it truly led to, or `None` outside the maze.
+    /// True place to which the walk led; `None` outside the maze.
     pub to: Option<Cell>,
     /// Observations on the way.
     pub observations: Vec<Observation>,
-    /// The place it led to.
+    /// Sighting of the place to which the walk led.
     pub sighting: Sighting,
 }
 

@@ -61,7 +61,7 @@ pub struct TrialRecord {
     pub traversals: u32,
     /// Number of fragments of the map at the end of it.
     pub fragments: u32,
-    /// Common patterns that it knows at the end.
+    /// Number of common patterns that the robot knows at the end.
     pub patterns: u32,
     /// Number of fragments that were truly walked.
     pub true_fragments: u32,
@@ -77,7 +77,7 @@ pub struct TrialRecord {
     pub map: CpMap,
     /// The true fragment of each fragment of the map.
     pub truth: BTreeMap<FragmentId, WayOut>,
-    /// Reason why it broke off.
+    /// Reason why the trial broke off.
     pub trouble: Option<String>,
 }
 

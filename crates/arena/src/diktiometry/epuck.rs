@@ -88,7 +88,7 @@ pub struct EpuckSurvey {
     pub moves: u32,
     /// Number of moves whose true displacement lies within odometry's bounds.
     pub bounded: u32,
-    /// Reason why it broke off.
+    /// Reason why the run broke off.
     pub trouble: Option<String>,
 }
 

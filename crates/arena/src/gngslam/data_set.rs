@@ -21,14 +21,14 @@ pub struct DataSet {
     pub goals: GoalRecords,
 }
 
-/// A record, and where it was truly taken.
+/// A record, with the true pose and cell where it was taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelledRecord {
     /// The record, as the robot has it.
     pub record: PlaceRecord,
     /// True pose of the robot.
     pub truth: Pose,
-    /// The cell where it truly was.
+    /// True cell of the robot.
     pub cell: Cell,
     /// The cell that was written down by hand: of a few records a wrong one.
     pub label: Cell,

@@ -34,9 +34,9 @@ pub struct AuditCycle {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CycleStep {
-    /// The pose it leaves.
+    /// Pose that the step leaves.
     pub from: u32,
-    /// The pose it leads to.
+    /// Pose to which the step leads.
     pub to: u32,
     /// The closure it leads over, by its edge; `None` if it leads along the odometry, by as many
     /// poses as there are between.

@@ -16,9 +16,9 @@ pub struct Audit {
 pub struct AuditedClosure {
     /// The edge of the graph.
     pub edge: u32,
-    /// The run it is of, from 0. Closures of one run err together.
+    /// Number of the closure's run, from 0. Closures of one run err together.
     pub run: u32,
-    /// The verdict on it.
+    /// Verdict on the closure.
     pub verdict: ClosureVerdict,
 }
 

@@ -57,7 +57,7 @@ struct Learned {
 /// Memory recalled by one sequence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recollection {
-    /// The environment it is of.
+    /// Environment of the sequence.
     pub environment: u32,
     /// The recognized fragment and those that follow it on the learned path, each by the end at
     /// which it is entered. Stops at the end of the path, or before a fragment that comes again.

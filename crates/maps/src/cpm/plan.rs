@@ -10,9 +10,9 @@ use super::turn::Turn;
 /// another junction, perform Δ, and make observation again to confirm the correct destination".
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Plan {
-    /// One fragment after the other; none where the robot is there already.
+    /// Fragments in order; empty if the robot is there already.
     pub legs: Vec<PlanLeg>,
-    /// ℓ of all of them together: observations.
+    /// Length ℓ of all legs together, observations.
     pub length: u32,
 }
 
@@ -23,7 +23,7 @@ pub struct PlanLeg {
     pub turn: Turn,
     /// The fragment, by the end to enter it at.
     pub enter: End,
-    /// Port at which it arrives.
+    /// Port at which the leg arrives.
     pub arrive: Port,
     /// Number of observations along the fragment, "used to estimate how many observation the robot
     /// can skip"; 0 if it was too short for any.

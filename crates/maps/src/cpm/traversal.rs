@@ -56,7 +56,7 @@ pub struct Traversal {
     pub patterns: Vec<PatternId>,
     /// Dead reckoning of the walk, or `None` if the robot has none, like the paper's.
     pub motion: Option<DeadReckoning>,
-    /// The place it led to.
+    /// Sighting of the place to which the walk led.
     pub sighting: Sighting,
     /// Bearings of the ways out, counted from the one by which the robot came. `None` if it did not
     /// look, like the paper's.

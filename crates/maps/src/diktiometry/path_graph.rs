@@ -14,7 +14,7 @@ use super::{
 pub struct Place {
     /// Whether it is still part of the map.
     pub fate: Fate,
-    /// The frame its position is given in.
+    /// Frame in which the place's position is given.
     pub frame: FrameId,
     /// Bounds of its position in its frame, m.
     pub position: PointBox,
@@ -37,7 +37,7 @@ pub struct Place {
     pub visits: u32,
     /// Number of times that the robot was expected here, and that it was.
     pub counts: Counts,
-    /// Whether it was there when it was last expected, and how often that changed.
+    /// Whether the place was there when it was last expected, and how often that changed.
     pub constancy: Constancy,
     /// Histories of tracks left here, the oldest first.
     pub histories: Vec<Vec<TrackEntry>>,
@@ -132,17 +132,17 @@ pub enum Ground {
 /// action.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// Place where it begins.
+    /// Place where the link begins.
     pub from: PlaceId,
     /// The action.
     pub action: Action,
-    /// Place where it leads.
+    /// Place to which the link leads.
     pub to: PlaceId,
     /// Number of times that the robot is thought to have gone along it.
     pub traversed: u32,
     /// Number of times that the robot was expected to go along it, and that it did.
     pub counts: Counts,
-    /// Whether it worked when it was last expected to, and how often that changed.
+    /// Whether the link worked when it was last expected to, and how often that changed.
     pub constancy: Constancy,
     /// Links taken after it, with counts.
     pub then: Vec<Successor>,

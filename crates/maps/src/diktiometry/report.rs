@@ -24,11 +24,11 @@ pub struct StepReport {
 pub struct TrackReport {
     /// Id of the track.
     pub track: TrackId,
-    /// Place where it was.
+    /// Place of the track before the move.
     pub from: PlaceId,
-    /// Matcher by which it came to its place, or `None` if the move was blocked.
+    /// Matcher by which the track came to its place, or `None` if the move was blocked.
     pub matcher: Option<Matcher>,
-    /// Place where it is.
+    /// Place of the track after the move.
     pub place: PlaceId,
     /// Confidence in the track, 0 to 1.
     pub confidence: f64,
@@ -42,9 +42,10 @@ pub struct TrackReport {
 /// Prediction of the map for an action at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Predicted {
-    /// Place where it leads.
+    /// Place to which the action leads.
     pub place: PlaceId,
-    /// Its probability, by the counts of the links; those of an action at a place sum to 1.
+    /// Probability of that place, by the counts of the links. Those of an action at a place sum to
+    /// 1.
     pub probability: f64,
     /// The displacement there, m, or `None` if the reference graph does not relate the two.
     pub displacement: Option<PointBox>,
@@ -107,6 +108,6 @@ pub enum Restructured {
 pub struct PlanStep {
     /// Action to take.
     pub action: Action,
-    /// Place where it most often led.
+    /// Place to which the action most often led.
     pub to: PlaceId,
 }

@@ -15,9 +15,9 @@ pub struct Track {
     pub id: TrackId,
     /// The robot's place if the track is right.
     pub place: PlaceId,
-    /// Confidence by its recent matches, 0 to 1.
+    /// Confidence of the track by its recent matches, 0 to 1.
     pub confidence: f64,
-    /// The link it came along, or `None` where it began or came along none.
+    /// Link by which the track came, or `None` where it began or came by no link.
     pub link: Option<LinkId>,
     /// Distance gone since the last CONTINUE, m.
     pub astray: f64,

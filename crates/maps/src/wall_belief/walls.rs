@@ -45,11 +45,11 @@ pub struct WallBelief<const N: usize> {
 /// One reading of a range sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RangeReading {
-    /// Direction in which it looks, rad counter-clockwise from ahead.
+    /// Direction in which the beam looks, rad counter-clockwise from ahead.
     pub bearing: f64,
-    /// Distance of what it meets, m.
+    /// Distance of the thing that the beam meets, m.
     pub range: f64,
-    /// Reading if it meets nothing, m.
+    /// Reading of a beam that meets nothing, m.
     pub max_range: f64,
 }
 

@@ -70,7 +70,7 @@ pub struct StepRecord<M: Recordable> {
     pub command: M::Command,
     /// Its pose afterwards.
     pub pose: Pose,
-    /// Whether its motion was cut by a contact.
+    /// Whether a contact cut the robot's motion.
     pub bump: bool,
     /// Its readings then, if they were recorded.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -5,7 +5,7 @@ use super::walker::Walker;
 /// Result of an episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EpisodeSummary {
-    /// Reason why it ended.
+    /// Reason why the episode ended.
     pub done: Done,
     /// Duration, s.
     pub seconds: f64,

@@ -9,7 +9,7 @@ pub struct EpuckMeasures {
     pub curve: RangeCurve,
     /// Length of its time step, µs.
     pub step_us: u64,
-    /// Fastest turn of a wheel, rad/s.
+    /// Maximum speed of a wheel, rad/s.
     pub most_wheel_speed: f64,
 }
 

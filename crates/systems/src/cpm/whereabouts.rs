@@ -20,7 +20,7 @@ pub(super) const SURE: f64 = 0.95;
 /// Knowledge of a robot that was put down somewhere about its place.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Whereabouts {
-    /// Whether it turned round before the first place.
+    /// Whether the robot turned round before the first place.
     pub has_turned_round: bool,
     /// Belief at each visited place: the fragment that it came by, and the port behind it.
     pub at_places: Vec<Location>,

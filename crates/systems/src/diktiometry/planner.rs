@@ -26,11 +26,11 @@ pub struct PlannedMove {
 /// Reason why a robot goes somewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
-    /// Moves at random.
+    /// A random move.
     Walk,
-    /// Because of this script, which begins now.
+    /// This script, which begins now.
     Advice(Opportunity),
-    /// Because of the script that is under way.
+    /// The script under way.
     Script,
 }
 

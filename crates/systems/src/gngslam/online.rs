@@ -26,7 +26,7 @@ use crate::stream;
 pub struct OnlineSlamConfig {
     /// Parameters of driving. A leg is one piece of the way: it looks after each.
     pub drive: UntilNearConfig,
-    /// Maximum turn before it looks again, rad.
+    /// Maximum turn before the robot looks again, rad.
     pub turn_piece: f64,
     /// Number of looks round the place where it is put down, before it drives.
     pub first_looks: u32,
@@ -40,7 +40,7 @@ pub struct OnlineSlamConfig {
     pub lane: f64,
     /// Maximum number of time steps to stand still for a snapshot, at least 1.
     pub patience: u32,
-    /// Distance at which it has come to a place, m.
+    /// Distance at which the robot has come to a place, m.
     pub arrival: f64,
     /// Factor of its limits where it has driven before, 0 to 1: it got through there, however near
     /// the walls are.

@@ -10,9 +10,9 @@ use super::route::Target;
 pub struct LandmarkSighting {
     /// The landmark.
     pub landmark: Landmark,
-    /// The place nearest to where it was sensed.
+    /// Place nearest to where the landmark was sensed.
     pub place: u32,
-    /// Position where it was sensed, in the place's frame, m.
+    /// Position at which the landmark was sensed, in the place's frame, m.
     pub at: Point,
 }
 

@@ -22,7 +22,8 @@ pub struct WandererConfig {
     /// Minimum length of a leg, m; a shorter one is followed by another before a record is taken.
     /// Ours: 0.3.
     pub least_way: f64,
-    /// Number of legs it tries before it takes a record wherever it is, at least 1. Ours: 12.
+    /// Number of legs that the robot tries before it takes a record wherever it is, at least 1.
+    /// Ours: 12.
     pub most_tries: u32,
     /// Factor of all thresholds each time that no direction is free, 0 to 1. Ours: 0.7.
     pub give_way: f64,

@@ -19,7 +19,7 @@ pub struct Certificate {
     pub grid: Grid,
     /// Cell where the run begins.
     pub start: Cell,
-    /// Cells where it may end.
+    /// Cells where the run may end.
     pub goals: Vec<Cell>,
     /// All walls that were looked at, and whether they stand, by number.
     pub walls: Vec<(Wall, Knowledge)>,

@@ -31,7 +31,7 @@ pub struct SearchView<'a> {
     pub at: Cell,
     /// Cell where runs begin.
     pub start: Cell,
-    /// Cells where they end.
+    /// Cells where runs end.
     pub goals: &'a [Cell],
 }
 

@@ -11,9 +11,9 @@ use super::MazeMouseConfig;
 /// A mouse's view of the walls from one cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CellSight {
-    /// The cell it stands in.
+    /// Cell in which the mouse stands.
     pub cell: Cell,
-    /// One ray for each side it sees.
+    /// One ray for each side that the mouse sees.
     pub rays: Vec<CellRay>,
 }
 

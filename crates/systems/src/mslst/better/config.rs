@@ -120,7 +120,7 @@ impl BetterConfig {
         }
     }
 
-    /// Returns whether it has a part.
+    /// Returns whether `part` is in use.
     #[must_use]
     pub fn has(&self, part: BetterPart) -> bool {
         self.without != Some(part)

@@ -92,7 +92,7 @@ pub(super) enum CertificateFileError {
         told: usize,
         found: usize,
     },
-    #[error("k is {told}; this program audits with {expected}")]
+    #[error("k is {told}; this program audits with {expected}: audit again without --verify")]
     Bound { told: f64, expected: f64 },
     #[error("line {line} of the graph holds no edge from {from} to {to}")]
     NoEdge { line: usize, from: u64, to: u64 },
