@@ -718,7 +718,7 @@ pub struct Tolerance {
 pub enum Within {
     /// This difference, in the metric's unit.
     Absolute(f64),
-    /// By this share of the paper's value: 0.35 is ± 35 %.
+    /// This share of the paper's value: 0.35 is ± 35 %.
     Relative(f64),
     /// This factor, at least 1: 1.5 is from two thirds of the paper's value to one and a half times
     /// that value.

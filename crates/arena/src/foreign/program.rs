@@ -29,9 +29,9 @@ pub struct Launch<'a> {
 /// Whether the stderr of a foreign program is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Log {
-    /// Our stderr.
+    /// Shown on our stderr.
     Shown,
-    /// Nowhere.
+    /// Dropped.
     Dropped,
 }
 

@@ -11,7 +11,7 @@ use super::traversal::DeadReckoning;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum FragmentMatching {
-    /// Position by position, equations (3) to (5).
+    /// Compares position by position, equations (3) to (5).
     Positions(Similarity),
     /// Compares with insertions, deletions and changes of speed.
     Alignment(Alignment),
@@ -208,7 +208,7 @@ pub enum PatternDifference {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Span {
-    /// All of both: the shorter sequence is stretched over the longer one.
+    /// Compares all of both: the shorter sequence is stretched over the longer one.
     Whole,
     /// Compares up to the end of the shorter one, taken literally: a fragment is similar to all
     /// that begin like it.

@@ -171,7 +171,7 @@ pub struct SignatureKind {
 pub enum ViewRotation {
     /// No: a compass turns them all north.
     Aligned,
-    /// Any number of columns.
+    /// Yes, by any number of columns.
     Free,
 }
 
@@ -218,8 +218,8 @@ pub enum PerceptualIndexing {
     Off,
     /// Indexes views by their columns.
     Columns,
-    /// By triples of the edges between columns, as triangles. Asks for three columns or more; views
-    /// with fewer than three edges are not found.
+    /// Indexes views by triples of the edges between columns, as triangles. Needs three columns or
+    /// more; views with fewer than three edges are not found.
     Triangles,
 }
 

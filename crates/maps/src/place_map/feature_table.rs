@@ -13,9 +13,9 @@ pub enum ImageForm {
     /// The values of the images' pixels.
     #[default]
     Pixels,
-    /// As orthonormal coordinates in the span of the table's images: at most one per record,
-    /// instead of 3600 or 14400 values per picture. All distances stay the same, up to what is left
-    /// out, and so does every map.
+    /// Orthonormal coordinates in the span of the table's images: at most one per record, instead
+    /// of 3600 or 14400 values per picture. All distances stay the same, up to what is left out,
+    /// and so does every map.
     Span {
         /// Maximum distance of an image from the span, as a share of the images' mean squared
         /// distance from their mean. 0 leaves out only the rounding of `f32`.

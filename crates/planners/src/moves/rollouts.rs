@@ -32,7 +32,7 @@ pub struct RolloutConfig {
 
 impl RolloutConfig {
     /// Returns the one configuration that all our figures are made with: as many mazes as there is
-    /// time for (`docs/micromouse.md`).
+    /// time for (`docs/notebook/micromouse.md`).
     #[must_use]
     pub const fn tuned() -> Self {
         Self {

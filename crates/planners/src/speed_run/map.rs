@@ -37,10 +37,10 @@ pub struct SpeedRunMap<const N: usize> {
 /// Extent of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// To every state.
+    /// Searches every state.
     Everywhere,
-    /// Until the duration from this state is certain. So are those of all states nearer to a goal;
-    /// those farther away may be too long, or missing.
+    /// Searches until the duration from this state is certain. So are those of all states nearer to
+    /// a goal; those farther away may be too long, or missing.
     Until(RunState),
 }
 

@@ -42,7 +42,8 @@ pub fn soinn() -> SoinnConfig {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Lesson {
-    /// Until it has this many observations. The paper's simulated robot had 1000 (section 5).
+    /// Learns until it has this many observations. The paper's simulated robot had 1000 (section
+    /// 5).
     Observations(usize),
     /// Learns for this many seconds, and then to the end of its current fragment. The paper's real
     /// robot had 5400 (section 7).

@@ -94,7 +94,7 @@ impl OnlineSlamConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ExplorationPolicy {
-    /// Straight on until something is near, then in a random direction, as in the paper.
+    /// Goes straight on until something is near, then in a random direction, as in the paper.
     ByChance,
     /// Goes to the nearest point where the floor goes on beyond the map, as long as there are any;
     /// then wanders at random.
