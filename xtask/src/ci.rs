@@ -15,7 +15,7 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
-use crate::{docs, fuzz, golden, layers, mazes, mutants, playground, prose, python};
+use crate::{docs, fuzz, golden, layers, mazes, mutants, playground, prose, python, rerun};
 
 /// Outcome of a step that did not fail.
 pub(crate) enum Outcome {
@@ -86,6 +86,7 @@ const THOROUGH: &[Step] = &[
     ("mutants", || mutants::check(MUTANTS, &[])),
     ("golden, all", || passed(golden::run(&[], false))),
     ("python", python::check),
+    ("rerun", rerun::check),
     ("playground", playground::check),
     ("packages", || passed(packages::all())),
     // Every set of a crate's features by itself: the other steps turn on all of them or none.

@@ -19,6 +19,7 @@ mod mutants;
 mod playground;
 mod prose;
 mod python;
+mod rerun;
 mod workspace;
 
 use std::ffi::OsString;
@@ -51,7 +52,7 @@ enum Verb {
         #[arg(long)]
         keep_going: bool,
         /// Also run the long steps: fuzzing, programs that misbehave or are killed, mutants, the
-        /// slowest golden runs, the Python module
+        /// slowest golden runs, the Python module, replays for Rerun
         #[arg(long)]
         thorough: bool,
     },
@@ -103,6 +104,9 @@ enum Verb {
     /// Builds the Python module, installs it into target/python and runs its tests; skipped with a
     /// note if Python or a package is missing
     Python,
+    /// Tests the package that writes replays for Rerun; skipped with a note if its crates cannot be
+    /// fetched
+    Rerun,
     /// Builds the playground, a page on which robots learn a maze that the reader draws. Needs a
     /// target of rustc and wasm-bindgen; if one is missing, says how to install it
     Playground {
@@ -135,6 +139,7 @@ fn main() -> ExitCode {
         } => fuzz::run(seconds, seed, &targets),
         Verb::Mutants { shard, packages } => mutants::run(shard, &packages),
         Verb::Python => python::run(),
+        Verb::Rerun => rerun::run(),
         Verb::Playground { out } => playground::run(out.as_deref()),
         Verb::Docs => docs::run(),
     };

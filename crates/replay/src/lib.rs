@@ -47,6 +47,7 @@ pub use tolman_sim as sim;
 mod blob;
 mod difference;
 mod encode;
+mod events;
 mod floor;
 mod knowledge;
 #[cfg(feature = "mcap")]
@@ -60,6 +61,7 @@ mod scenery;
 
 pub use difference::{Difference, Differs};
 pub use encode::{EncodeError, json};
+pub use events::{EventContent, FloorDisc, FloorDrawing, ReplayEvent, Rgba, WORLD, events};
 pub use floor::Floor;
 pub use knowledge::{
     Belief, BeliefAt, EdgeKind, Exemplar, Field, FieldChange, MapEdge, MapGrowth, MapNode, Mark,

@@ -12,7 +12,6 @@
 //! | `/log` | `foxglove.Log` | notes and marks |
 
 use alloc::collections::BTreeMap;
-use core::f64::consts::TAU;
 use std::io::Cursor;
 
 use mcap::records::MessageHeader;
@@ -20,12 +19,10 @@ use mcap::{McapError, WriteOptions, Writer};
 use serde_json::{Value, json};
 use thiserror::Error;
 use tolman_geom::{Heading, Point, Pose};
-use tolman_robot::Body;
-use tolman_sim::DoorState;
+use tolman_robot::Ring;
 
 use super::{
-    Belief, EncodeError, MapEdge, MapGrowth, MapNode, Marks, Notes, Replay, RobotTrack, Scans,
-    Scenery, Shape, json as checked,
+    EncodeError, EventContent, FloorDisc, FloorDrawing, Replay, ReplayEvent, Rgba, WORLD, events,
 };
 
 /// Reason why a replay cannot be written as MCAP.
@@ -41,132 +38,80 @@ pub enum McapExportError {
 }
 
 /// Returns a replay as the bytes of an MCAP file; the same replay gives the same bytes. Times are
-/// those of the run, from 0. Fields over the floor are left out.
+/// those of the run, from 0. It holds the [`events`] of the replay.
 ///
 /// # Errors
 /// As [`json`](super::json), and if there are more than 65,535 topics.
 pub fn mcap(replay: &Replay) -> Result<Vec<u8>, McapExportError> {
-    checked(replay)?;
-    let mut events = Events::new(replay.step_s);
-    scenery(&replay.scenery, &mut events);
-    marks(&replay.marks, "", &mut events);
-    for track in &replay.tracks {
-        follow(track, &mut events);
-    }
-    Ok(events.written()?)
+    let events = events(replay)?;
+    Ok(written(replay, &events)?)
 }
 
-/// Messages that still have to be sorted by time.
-struct Events {
-    /// Length of a step, s.
-    step_s: f64,
-    messages: Vec<Event>,
+fn written(replay: &Replay, events: &[ReplayEvent<'_>]) -> Result<Vec<u8>, McapError> {
+    let options = WriteOptions::new().library("tolman-replay");
+    let mut writer = Writer::with_options(Cursor::new(Vec::new()), options)?;
+    let mut channels: BTreeMap<&str, u16> = BTreeMap::new();
+    for (sequence, event) in (0..).zip(events) {
+        let channel_id = match channels.get(event.topic.as_str()) {
+            Some(id) => *id,
+            None => {
+                let name = schema_name(&event.content);
+                let data = schema(name).to_string();
+                let schema = writer.add_schema(name, "jsonschema", data.as_bytes())?;
+                let id = writer.add_channel(schema, &event.topic, "json", &BTreeMap::new())?;
+                channels.insert(&event.topic, id);
+                id
+            }
+        };
+        let log_time = replay.nanos(event.step);
+        let header = MessageHeader {
+            channel_id,
+            sequence,
+            log_time,
+            publish_time: log_time,
+        };
+        let message = message(&event.content, &timestamp(log_time));
+        writer.write_to_known_channel(&header, message.to_string().as_bytes())?;
+    }
+    writer.finish()?;
+    Ok(writer.into_inner().into_inner())
 }
 
-struct Event {
-    step: u32,
-    topic: String,
-    schema: &'static str,
-    message: Value,
-}
-
-impl Events {
-    const fn new(step_s: f64) -> Self {
-        Self {
-            step_s,
-            messages: Vec::new(),
-        }
-    }
-
-    /// Returns the time of a step, ns.
-    fn nanos(&self, step: u32) -> u64 {
-        (f64::from(step) * self.step_s * 1e9).round() as u64
-    }
-
-    /// Returns the time of a step in the form that messages use.
-    fn timestamp(&self, step: u32) -> Value {
-        let nanos = self.nanos(step);
-        json!({ "sec": nanos / 1_000_000_000, "nsec": nanos % 1_000_000_000 })
-    }
-
-    fn send(&mut self, step: u32, topic: &str, schema: &'static str, message: Value) {
-        self.messages.push(Event {
-            step,
-            topic: topic.to_owned(),
-            schema,
-            message,
-        });
-    }
-
-    /// Draws the entity called `id`, or replaces it.
-    fn draw(&mut self, step: u32, topic: &str, frame: &str, id: &str, mut entity: Value) {
-        entity["timestamp"] = self.timestamp(step);
-        entity["frame_id"] = frame.into();
-        entity["id"] = id.into();
-        let update = json!({ "entities": [entity] });
-        self.send(step, topic, SCENE, update);
-    }
-
-    /// Removes the entity called `id`.
-    fn erase(&mut self, step: u32, topic: &str, id: &str) {
-        let gone = json!({ "timestamp": self.timestamp(step), "type": 0, "id": id });
-        self.send(step, topic, SCENE, json!({ "deletions": [gone] }));
-    }
-
-    fn log(&mut self, step: u32, name: &str, text: &str) {
-        let message = json!({
-            "timestamp": self.timestamp(step), "level": 2, "name": name, "message": text,
-        });
-        self.send(step, "/log", "foxglove.Log", message);
-    }
-
-    /// Returns the file with all messages, in order of time.
-    fn written(mut self) -> Result<Vec<u8>, McapError> {
-        self.messages.sort_by_key(|event| event.step);
-        let options = WriteOptions::new().library("tolman-replay");
-        let mut writer = Writer::with_options(Cursor::new(Vec::new()), options)?;
-        let mut channels: BTreeMap<String, u16> = BTreeMap::new();
-        for (sequence, event) in (0..).zip(&self.messages) {
-            let channel_id = match channels.get(&event.topic) {
-                Some(id) => *id,
-                None => {
-                    let data = schema(event.schema).to_string();
-                    let schema = writer.add_schema(event.schema, "jsonschema", data.as_bytes())?;
-                    let none = BTreeMap::new();
-                    let id = writer.add_channel(schema, &event.topic, "json", &none)?;
-                    channels.insert(event.topic.clone(), id);
-                    id
-                }
-            };
-            let log_time = self.nanos(event.step);
-            let header = MessageHeader {
-                channel_id,
-                sequence,
-                log_time,
-                publish_time: log_time,
-            };
-            writer.write_to_known_channel(&header, event.message.to_string().as_bytes())?;
-        }
-        writer.finish()?;
-        Ok(writer.into_inner().into_inner())
-    }
+/// Returns a time in the form that messages use.
+fn timestamp(nanos: u64) -> Value {
+    json!({ "sec": nanos / 1_000_000_000, "nsec": nanos % 1_000_000_000 })
 }
 
 const SCENE: &str = "foxglove.SceneUpdate";
+const TRANSFORM: &str = "foxglove.FrameTransform";
+const SCAN: &str = "foxglove.LaserScan";
+const LOG: &str = "foxglove.Log";
+const NUMBER: &str = "tolman.Number";
+
+/// Returns the name of the schema of the event's message.
+const fn schema_name(content: &EventContent<'_>) -> &'static str {
+    match content {
+        EventContent::Pose { .. } => TRANSFORM,
+        EventContent::Draw { .. } | EventContent::Erase { .. } => SCENE,
+        EventContent::Scan { .. } => SCAN,
+        EventContent::Number { .. } => NUMBER,
+        EventContent::Text { .. } => LOG,
+    }
+}
 
 /// Returns the schema of a message, as far as these messages use it.
 fn schema(name: &str) -> Value {
     let (object, array, number) = ("object", "array", "number");
     let fields: &[(&str, &str)] = match name {
         SCENE => &[("entities", array), ("deletions", array)],
-        "foxglove.FrameTransform" => &[
+        TRANSFORM => &[
             ("timestamp", object),
             ("parent_frame_id", "string"),
             ("child_frame_id", "string"),
             ("translation", object),
             ("rotation", object),
         ],
-        "foxglove.LaserScan" => &[
+        SCAN => &[
             ("timestamp", object),
             ("frame_id", "string"),
             ("pose", object),
@@ -175,7 +120,7 @@ fn schema(name: &str) -> Value {
             ("ranges", array),
             ("intensities", array),
         ],
-        "foxglove.Log" => &[
+        LOG => &[
             ("timestamp", object),
             ("level", "integer"),
             ("message", "string"),
@@ -191,8 +136,48 @@ fn schema(name: &str) -> Value {
     json!({ "title": name, "type": "object", "properties": properties })
 }
 
-fn point(point: Point, height: f64) -> Value {
-    json!({ "x": point.x, "y": point.y, "z": height })
+/// Returns the message of an event.
+fn message(content: &EventContent<'_>, timestamp: &Value) -> Value {
+    match content {
+        EventContent::Pose { frame, pose } => json!({
+            "timestamp": timestamp, "parent_frame_id": WORLD, "child_frame_id": frame,
+            "translation": point(pose.position), "rotation": rotation(pose.heading),
+        }),
+        EventContent::Draw { frame, id, drawing } => {
+            let mut entity = entity(drawing);
+            entity["timestamp"] = timestamp.clone();
+            entity["frame_id"] = frame.as_str().into();
+            entity["id"] = id.as_str().into();
+            json!({ "entities": [entity] })
+        }
+        EventContent::Erase { id, .. } => {
+            let gone = json!({ "timestamp": timestamp, "type": 0, "id": id });
+            json!({ "deletions": [gone] })
+        }
+        EventContent::Scan {
+            frame,
+            ring,
+            ranges,
+        } => scan(frame, ring, ranges, timestamp),
+        EventContent::Number { value, unit } => json!({ "value": value, "unit": unit }),
+        EventContent::Text { source, text } => json!({
+            "timestamp": timestamp, "level": 2, "name": source, "message": text,
+        }),
+    }
+}
+
+fn scan(frame: &str, ring: &Ring, ranges: &[f64], timestamp: &Value) -> Value {
+    let last = ring.beams.saturating_sub(1);
+    let none: [f64; 0] = [];
+    json!({
+        "timestamp": timestamp, "frame_id": frame, "pose": at(Pose::IDENTITY),
+        "start_angle": ring.bearing(0), "end_angle": ring.bearing(0) + ring.spacing * f64::from(last),
+        "ranges": ranges, "intensities": none,
+    })
+}
+
+fn point(point: Point) -> Value {
+    json!({ "x": point.x, "y": point.y, "z": 0.0 })
 }
 
 fn rotation(heading: Heading) -> Value {
@@ -201,230 +186,44 @@ fn rotation(heading: Heading) -> Value {
 }
 
 fn at(pose: Pose) -> Value {
-    json!({ "position": point(pose.position, 0.0), "orientation": rotation(pose.heading) })
+    json!({ "position": point(pose.position), "orientation": rotation(pose.heading) })
 }
 
-fn colour([r, g, b]: [f64; 3], a: f64) -> Value {
+fn colour([r, g, b, a]: Rgba) -> Value {
     json!({ "r": r, "g": g, "b": b, "a": a })
 }
-
-/// Colour of walls.
-const DARK: [f64; 3] = [0.25, 0.27, 0.3];
-/// Colour of zones of the floor.
-const GREEN: [f64; 3] = [0.2, 0.6, 0.3];
-/// Colour of what a robot learned.
-const BLUE: [f64; 3] = [0.15, 0.45, 0.8];
-/// Colour of a robot and of its belief.
-const RED: [f64; 3] = [0.85, 0.3, 0.2];
 
 /// Line types of Foxglove: a closed loop, and pairs of points.
 const LOOP: u8 = 1;
 const PAIRS: u8 = 2;
 
-fn lines(kind: u8, points: impl IntoIterator<Item = Point>, ink: &Value) -> Value {
-    let points: Vec<Value> = points.into_iter().map(|at| point(at, 0.0)).collect();
+/// Returns the entity of a drawing, without time, frame and id.
+fn entity(drawing: &FloorDrawing) -> Value {
+    match drawing {
+        FloorDrawing::Segments(segments, ink) => {
+            lines(PAIRS, segments.iter().flatten().copied(), *ink)
+        }
+        FloorDrawing::Outline(corners, ink) => lines(LOOP, corners.iter().copied(), *ink),
+        FloorDrawing::Discs(discs) => {
+            let discs: Vec<Value> = discs.iter().map(disc).collect();
+            json!({ "spheres": discs })
+        }
+    }
+}
+
+fn lines(kind: u8, points: impl Iterator<Item = Point>, ink: Rgba) -> Value {
+    let points: Vec<Value> = points.map(point).collect();
     json!({ "lines": [{
         "type": kind, "pose": at(Pose::IDENTITY), "thickness": 2.0, "scale_invariant": true,
-        "points": points, "color": ink,
+        "points": points, "color": colour(ink),
     }] })
 }
 
-fn disc(centre: Point, radius: f64, ink: &Value) -> Value {
+fn disc(disc: &FloorDisc) -> Value {
+    let diameter = 2.0 * disc.radius;
     json!({
-        "pose": at(Pose::new(centre, Heading::EAST)), "color": ink,
-        "size": { "x": 2.0 * radius, "y": 2.0 * radius, "z": 0.01 },
-    })
-}
-
-fn scenery(scenery: &Scenery, events: &mut Events) {
-    let walls = scenery.walls.iter().flatten().copied();
-    let walls = lines(PAIRS, walls, &colour(DARK, 1.0));
-    events.draw(0, "/scene", "world", "walls", walls);
-    for zone in &scenery.zones {
-        let corners = zone.corners.iter().copied();
-        let outline = lines(LOOP, corners, &colour(GREEN, 1.0));
-        let id = format!("zone {}", zone.name);
-        events.draw(0, "/scene", "world", &id, outline);
-    }
-    for door in &scenery.doors {
-        let id = format!("door {}", door.name);
-        for change in &door.changes {
-            match change.state {
-                DoorState::Shut => {
-                    let wall = lines(PAIRS, door.ends, &colour(DARK, 1.0));
-                    events.draw(change.step, "/scene", "world", &id, wall);
-                }
-                DoorState::Open => events.erase(change.step, "/scene", &id),
-            }
-        }
-    }
-}
-
-fn marks(marks: &[Marks], robot: &str, events: &mut Events) {
-    for mark in marks {
-        for step in &mark.steps {
-            events.log(*step, robot, &mark.name);
-        }
-    }
-}
-
-fn follow(track: &RobotTrack, events: &mut Events) {
-    let name = &track.name;
-    let frame = format!("robot {name}");
-    for (step, pose) in (0..).zip(&track.poses) {
-        let transform = json!({
-            "timestamp": events.timestamp(step), "parent_frame_id": "world",
-            "child_frame_id": frame, "translation": point(pose.position, 0.0),
-            "rotation": rotation(pose.heading),
-        });
-        events.send(step, "/tf", "foxglove.FrameTransform", transform);
-    }
-    let outline = lines(LOOP, outline(&track.body), &colour(RED, 1.0));
-    events.draw(0, &format!("/{name}/body"), &frame, "body", outline);
-    if let Some(recorded) = &track.scans {
-        scans(recorded, &format!("/{name}/scan"), &frame, events);
-    }
-    for map in &track.maps {
-        grow(map, &format!("/{name}/map/{}", map.name), events);
-    }
-    for belief in &track.beliefs {
-        believe(
-            belief,
-            track,
-            &format!("/{name}/belief/{}", belief.name),
-            events,
-        );
-    }
-    for series in &track.series {
-        let topic = format!("/{name}/{}", series.name);
-        for sample in &series.samples {
-            let number = json!({ "value": sample.value, "unit": series.unit });
-            events.send(sample.step, &topic, "tolman.Number", number);
-        }
-    }
-    for Notes { name: about, notes } in &track.notes {
-        for note in notes {
-            events.log(note.step, &format!("{name} {about}"), &note.text);
-        }
-    }
-    marks(&track.marks, name, events);
-}
-
-/// Returns the corners of a body. A disc has a notch ahead.
-fn outline(body: &Body) -> Vec<Point> {
-    match body {
-        Body::Polygon { corners } => corners.clone(),
-        Body::Circle { radius } => {
-            let corner = |corner: u32| {
-                let heading = Heading::from_radians(TAU * f64::from(corner) / 24.0);
-                Point::from(*radius * heading.unit())
-            };
-            core::iter::once(Point::origin())
-                .chain((0..=24).map(corner))
-                .collect()
-        }
-    }
-}
-
-fn scans(scans: &Scans, topic: &str, frame: &str, events: &mut Events) {
-    let ring = &scans.ring;
-    let last = ring.beams.saturating_sub(1);
-    for (step, ranges) in scans.steps.iter().zip(&scans.ranges) {
-        let none: [f64; 0] = [];
-        let scan = json!({
-            "timestamp": events.timestamp(*step), "frame_id": frame, "pose": at(Pose::IDENTITY),
-            "start_angle": ring.bearing(0), "end_angle": ring.bearing(0) + ring.spacing * f64::from(last),
-            "ranges": ranges, "intensities": none,
-        });
-        events.send(*step, topic, "foxglove.LaserScan", scan);
-    }
-}
-
-/// Draws nodes and edges when they appear, again when they move, and removes them when they
-/// disappear.
-fn grow(map: &MapGrowth, topic: &str, events: &mut Events) {
-    let nodes: BTreeMap<u32, &MapNode> = map.nodes.iter().map(|node| (node.id, node)).collect();
-    for node in &map.nodes {
-        let id = format!("node {}", node.id);
-        let moves = node.moves.iter().map(|moved| (moved.step, moved.position));
-        for (step, position) in core::iter::once((node.born, node.position)).chain(moves) {
-            let sphere = json!({ "spheres": [disc(position, 0.05, &colour(BLUE, 1.0))] });
-            events.draw(step, topic, "world", &id, sphere);
-        }
-        if let Some(died) = node.died {
-            events.erase(died, topic, &id);
-        }
-    }
-    for (number, edge) in map.edges.iter().enumerate() {
-        let Some(ends) = nodes.get(&edge.a).zip(nodes.get(&edge.b)) else {
-            continue; // There is none: such a replay was refused.
-        };
-        let id = format!("edge {number}");
-        for step in redrawn(edge, [ends.0, ends.1]) {
-            let ends = [place(ends.0, step), place(ends.1, step)];
-            events.draw(
-                step,
-                topic,
-                "world",
-                &id,
-                lines(PAIRS, ends, &colour(BLUE, 0.6)),
-            );
-        }
-        if let Some(died) = edge.died {
-            events.erase(died, topic, &id);
-        }
-    }
-}
-
-/// Returns the steps at which an edge is drawn: when it appears, and when one of its ends moves.
-fn redrawn(edge: &MapEdge, ends: [&MapNode; 2]) -> Vec<u32> {
-    let lives = |step: &u32| *step > edge.born && edge.died.is_none_or(|died| *step < died);
-    let moves = ends.into_iter().flat_map(|node| &node.moves);
-    let moves = moves.map(|moved| moved.step).filter(lives);
-    let mut steps: Vec<u32> = core::iter::once(edge.born).chain(moves).collect();
-    steps.sort_unstable();
-    steps.dedup();
-    steps
-}
-
-/// Returns the position of a node at a step.
-fn place(node: &MapNode, step: u32) -> Point {
-    let moved = node.moves.iter().rev().find(|moved| moved.step <= step);
-    moved.map_or(node.position, |moved| moved.position)
-}
-
-fn believe(belief: &Belief, track: &RobotTrack, topic: &str, events: &mut Events) {
-    for entry in &belief.entries {
-        let discs = entry.shapes.iter().filter_map(|shape| {
-            let (centre, radius, weight) = extent(shape, track, entry.step)?;
-            Some(disc(centre, radius, &colour(RED, weight)))
-        });
-        let discs: Vec<Value> = discs.collect();
-        let spheres = json!({ "spheres": discs });
-        events.draw(entry.step, topic, "world", "belief", spheres);
-    }
-}
-
-/// Returns a disc for a part of a belief: its centre, radius (m) and weight. `None` for a node that
-/// is on no map.
-fn extent(shape: &Shape, track: &RobotTrack, step: u32) -> Option<(Point, f64, f64)> {
-    Some(match *shape {
-        Shape::Point { position, weight } => (position, 0.1, weight),
-        Shape::Pose { pose, weight } => (pose.position, 0.1, weight),
-        Shape::Node { id, weight } => {
-            let mut nodes = track.maps.iter().flat_map(|map| &map.nodes);
-            (place(nodes.find(|node| node.id == id)?, step), 0.1, weight)
-        }
-        Shape::Box { min, max, weight } => {
-            let half = 0.5 * (max - min);
-            (min + half, half.norm(), weight)
-        }
-        Shape::Ellipse {
-            centre,
-            semi_axes: [a, b],
-            weight,
-            ..
-        } => (centre, a.max(b), weight),
+        "pose": at(Pose::new(disc.centre, Heading::EAST)), "color": colour(disc.colour),
+        "size": { "x": diameter, "y": diameter, "z": 0.01 },
     })
 }
 
@@ -433,7 +232,11 @@ mod tests {
     use mcap::MessageStream;
 
     use super::*;
-    use crate::{Mark, NodeMove, TimeSeries};
+    use tolman_robot::Body;
+
+    use crate::{
+        MapEdge, MapGrowth, MapNode, Mark, Marks, NodeMove, RobotTrack, Scenery, TimeSeries,
+    };
 
     fn replay() -> Replay {
         let pose = |x| Pose::new(Point::new(x, 0.5), Heading::NORTH);

@@ -54,6 +54,12 @@ impl Replay {
         let steps = |track: &RobotTrack| track.poses.len().saturating_sub(1);
         self.tracks.iter().map(steps).max().unwrap_or(0)
     }
+
+    /// Returns the time of a step since step 0, ns.
+    #[must_use]
+    pub fn nanos(&self, step: u32) -> u64 {
+        (f64::from(step) * self.step_s * 1e9).round() as u64
+    }
 }
 
 /// A fact about a run, in words.

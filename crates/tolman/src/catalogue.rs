@@ -1,10 +1,11 @@
 use tolman_experiment::Entry;
 
 use crate::Family;
+use crate::replay_format::{self, ReplayFormat};
 use crate::system::SystemEntry;
 use crate::systems::{CpmEntry, DiktiometryEntry, GngSlamEntry, MslstBetterEntry, MslstEntry};
 
-/// The systems, families of worlds and experiments that the command knows by name.
+/// The systems, families of worlds, experiments and formats that the command knows by name.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Catalogue {
@@ -16,6 +17,8 @@ pub struct Catalogue {
     pub families: Vec<Family>,
     /// The experiments.
     pub experiments: Vec<Entry>,
+    /// The formats of replays beside HTML.
+    pub replay_formats: Vec<ReplayFormat>,
 }
 
 impl Catalogue {
@@ -33,6 +36,7 @@ impl Catalogue {
             ],
             families: Family::all(),
             experiments: tolman_papers::catalogue().to_vec(),
+            replay_formats: replay_format::built_in(),
         }
     }
 
@@ -60,6 +64,13 @@ impl Catalogue {
     #[must_use]
     pub fn experiment(mut self, experiment: Entry) -> Self {
         self.experiments.push(experiment);
+        self
+    }
+
+    /// Returns the catalogue with one more format of replays.
+    #[must_use]
+    pub fn replay_format(mut self, format: ReplayFormat) -> Self {
+        self.replay_formats.push(format);
         self
     }
 }

@@ -19,12 +19,14 @@ extern crate alloc;
 
 mod catalogue;
 mod cli;
+mod replay_format;
 mod start;
 pub mod system;
 pub mod systems;
 
 pub use catalogue::Catalogue;
 pub use cli::run;
+pub use replay_format::ReplayFormat;
 pub use start::Start;
 pub use tolman_arena::family::Family;
 pub use tolman_experiment::Build;

@@ -20,7 +20,8 @@ pub(super) struct Looks {
     #[arg(long, value_name = "FILE")]
     pub(super) trace: Option<PathBuf>,
     /// Write a replay: one HTML file that plays the run in any browser. If the name ends in .mcap
-    /// and the feature `mcap` is on, the file is for Foxglove
+    /// and the feature `mcap` is on, the file is for Foxglove. The command tolman-rerun writes
+    /// .rrd, for Rerun
     #[arg(long, value_name = "FILE")]
     pub(super) replay: Option<PathBuf>,
     /// Overwrite the replay's file even if it is not a replay

@@ -183,6 +183,7 @@ impl App<'_> {
 #[must_use]
 pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
     called::set(catalogue.program);
+    replay_file::set_formats(&catalogue.replay_formats);
     let arguments = Arguments::parse();
     let mut out = Stdout::lock();
     let done = arguments

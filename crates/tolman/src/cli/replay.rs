@@ -28,7 +28,8 @@ pub(super) struct Arguments {
     #[arg(required = true, value_name = "TRACE")]
     traces: Vec<PathBuf>,
     /// File to write [default: the first trace's name with .html]. If the name ends in .mcap and
-    /// the feature `mcap` is on, the file is for Foxglove
+    /// the feature `mcap` is on, the file is for Foxglove. The command tolman-rerun writes .rrd,
+    /// for Rerun
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Overwrite the file even if it is not a replay

@@ -3,11 +3,13 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use std::sync::OnceLock;
 
 use anyhow::{Context, Error, anyhow};
 use tolman_replay::{Replay, is_replay, page};
 
 use super::{Failure, OrBadInput, called, file};
+use crate::ReplayFormat;
 
 /// Rule for the existing files that may be overwritten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,52 +27,56 @@ impl Overwrite {
     }
 }
 
-/// Writes a replay to the file at `path`, completely or not at all. It is a web page, or a file for
-/// Foxglove if the name ends in `.mcap`.
+static FORMATS: OnceLock<Vec<ReplayFormat>> = OnceLock::new();
+
+/// Sets the formats in which this program writes replays, beside HTML.
+pub(super) fn set_formats(formats: &[ReplayFormat]) {
+    // A second call in one process has the same formats.
+    let _ = FORMATS.set(formats.to_vec());
+}
+
+fn formats() -> &'static [ReplayFormat] {
+    FORMATS.get().map_or(&[], Vec::as_slice)
+}
+
+/// Endings of names that ask for a format, with what to do where the program lacks it.
+const ELSEWHERE: [(&str, &str); 2] = [
+    ("mcap", "build it with --features mcap"),
+    (
+        "rrd",
+        "call tolman-rerun, which `cargo install --path crates/rerun` builds",
+    ),
+];
+
+/// Writes a replay to the file at `path`, completely or not at all. The ending of the name decides
+/// the format; it is a web page if no other format has that ending.
 ///
 /// # Errors
 /// Bad input if the file exists and is not a replay; a failure if it cannot be written.
 pub(super) fn write(path: &Path, replay: Replay, overwrite: Overwrite) -> Result<(), Failure> {
     check(path, overwrite)?;
     let replay = replay.fact("made by", called::command());
-    let context = "cannot write the replay";
-    if is_mcap(path) {
-        return file::write(path, mcap(&replay).context(context)?);
-    }
-    file::write(path, &page(&replay).context(context)?)
+    let format = formats()
+        .iter()
+        .find(|format| ends_in(path, format.extension));
+    let contents = match format {
+        Some(format) => (format.write)(&replay),
+        None => page(&replay).map(String::into_bytes).map_err(Error::from),
+    };
+    file::write(path, contents.context("cannot write the replay")?)
 }
 
-fn is_mcap(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|extension| extension == "mcap")
+fn ends_in(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|ending| ending == extension)
 }
-
-#[cfg(feature = "mcap")]
-fn mcap(replay: &Replay) -> Result<Vec<u8>, Error> {
-    Ok(tolman_replay::mcap(replay)?)
-}
-
-/// Returns an error. It is never called, because [`check`] has refused the file before.
-#[cfg(not(feature = "mcap"))]
-fn mcap(_: &Replay) -> Result<Vec<u8>, Error> {
-    Err(anyhow!(NO_MCAP))
-}
-
-const NO_MCAP: &str =
-    "this tolman writes no MCAP: build it with --features mcap, or name a file that ends in .html";
-
-/// First bytes of an MCAP file.
-const MCAP: &[u8] = b"\x89MCAP0\r\n";
 
 /// Checks that the file at `path` does not exist, or is a replay. It is called before the work
 /// begins.
 ///
 /// # Errors
-/// Bad input if it is another file, or an MCAP file that this build cannot write.
+/// Bad input if it is another file, or of a format that this program cannot write.
 pub(super) fn check(path: &Path, overwrite: Overwrite) -> Result<(), Failure> {
-    if is_mcap(path) && !cfg!(feature = "mcap") {
-        return Err(Failure::BadInput(anyhow!("{}: {NO_MCAP}", path.display())));
-    }
+    refuse_unknown(path)?;
     if overwrite == Overwrite::Anything || !path.is_file() {
         return Ok(());
     }
@@ -79,13 +85,34 @@ pub(super) fn check(path: &Path, overwrite: Overwrite) -> Result<(), Failure> {
         .and_then(|file| file.take(1000).read_to_end(&mut beginning))
         .with_context(|| format!("cannot read {}", path.display()))
         .or_bad_input()?;
-    if beginning.is_empty() || is_replay(&beginning) || beginning.starts_with(MCAP) {
+    if beginning.is_empty() || is_replay(&beginning) || begins_as_format(&beginning) {
         return Ok(());
     }
     Err(Failure::BadInput(anyhow!(
         "{} exists and is not a replay; give another name, or --force to overwrite it",
         path.display()
     )))
+}
+
+/// Refuses a name that asks for a format which this program lacks.
+fn refuse_unknown(path: &Path) -> Result<(), Failure> {
+    let mut elsewhere = ELSEWHERE.iter();
+    let asked = elsewhere.find(|(extension, _)| ends_in(path, extension));
+    match asked {
+        Some((extension, remedy)) if !formats().iter().any(|have| have.extension == *extension) => {
+            Err(Failure::BadInput(anyhow!(
+                "{}: this program writes no .{extension}: {remedy}, or name a file that ends in .html",
+                path.display()
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn begins_as_format(beginning: &[u8]) -> bool {
+    formats()
+        .iter()
+        .any(|format| beginning.starts_with(format.magic))
 }
 
 /// Returns the address with which a browser opens the file.

@@ -200,3 +200,19 @@ fn a_replay_for_foxglove_needs_the_feature() {
     let written = fs::read(folder.join("run.mcap")).unwrap();
     assert!(written.starts_with(b"\x89MCAP0\r\n") && written.ends_with(b"\x89MCAP0\r\n"));
 }
+
+#[test]
+fn a_replay_for_rerun_needs_another_command() {
+    let folder = folder("replay-rrd");
+    fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
+    let run = [
+        "run",
+        "avoid",
+        "--maze",
+        "corridor.maze",
+        "--replay",
+        "run.rrd",
+    ];
+    tolman_in(&folder, &run).refused(2, &["run.rrd", "tolman-rerun"]);
+    assert!(!folder.join("run.rrd").exists());
+}
