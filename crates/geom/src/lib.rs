@@ -40,6 +40,7 @@
 // What the signatures need, whole: see docs/architecture.md, API boundaries.
 pub use nalgebra;
 
+mod floor;
 mod heading;
 mod interval;
 mod point_box;
@@ -47,6 +48,7 @@ mod pose;
 mod pose_box;
 mod twist;
 
+pub use floor::floor_index;
 pub use heading::Heading;
 pub use interval::{Interval, IntervalError};
 pub use point_box::PointBox;

@@ -6,6 +6,7 @@
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use super::Interval;
+use crate::floor_index;
 
 /// π/2 in three parts (Cody and Waite). Multiples of the first are exact, since its last 22 bits
 /// are 0; what is left of π/2 behind the second lies within the third.
@@ -56,7 +57,7 @@ impl Interval {
         }
         // Between the ends both are monotonic, except at the quarter turns inside. The quotients
         // are rounded, so one more is tried.
-        let [first, last] = [self.low, self.high].map(|end| libm::floor(end / FRAC_PI_2) as i32);
+        let [first, last] = [self.low, self.high].map(|end| floor_index(end / FRAC_PI_2));
         for quarter in first..=last + 1 {
             if multiple_of_half_pi(quarter).meets(self) {
                 let (of_sin, of_cos) = EXTREMES[quarter.rem_euclid(4) as usize];

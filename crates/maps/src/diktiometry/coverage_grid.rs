@@ -3,7 +3,7 @@
 
 use alloc::collections::BTreeMap;
 
-use tolman_geom::{Point, Vector};
+use tolman_geom::{Point, Vector, floor_index};
 
 /// Record of traversals of the area around a frame's origin, in square cells; the caller gives
 /// their side.
@@ -44,7 +44,7 @@ impl CoverageGrid {
 
 fn number(at: Point, cell: f64) -> CellNumber {
     // The cell of the origin has it in its middle. Casts saturate, so that nothing is out of range.
-    let along = |coordinate: f64| libm::floor(coordinate / cell + 0.5) as i32;
+    let along = |coordinate: f64| floor_index(coordinate / cell + 0.5);
     (along(at.x), along(at.y))
 }
 

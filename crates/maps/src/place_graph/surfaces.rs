@@ -1,6 +1,6 @@
 use alloc::collections::BTreeMap;
 
-use tolman_geom::{Point, Pose, Vector};
+use tolman_geom::{Point, Pose, Vector, floor_index};
 
 use super::{Outline, OutlinePoint};
 
@@ -100,7 +100,7 @@ impl Surfaces {
 }
 
 fn key(position: Vector, normal: Vector, colour: Option<[f64; 2]>) -> Key {
-    let cell = |along: f64| libm::floor(along / CELL) as i32;
+    let cell = |along: f64| floor_index(along / CELL);
     let eighth = libm::floor(libm::atan2(normal.y, normal.x) / core::f64::consts::FRAC_PI_4);
     // Whether there is more red than blue and green, and so on: colours that a change of light does
     // not confuse.

@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-use tolman_geom::{Heading, Point};
+use tolman_geom::{Heading, Point, floor_index};
 use tolman_robot::{Ring, Scan};
 
 use super::evidence::{Misfit, ends_before};
@@ -159,11 +159,12 @@ impl Standpoints {
     /// Returns the standpoints round a point, with the share that each has of it.
     pub(super) fn around(&self, point: Point) -> [(Option<u32>, f64); 4] {
         let scaled = (point - middle([0, 0])) / Self::SPACING;
-        let corner = [libm::floor(scaled.x), libm::floor(scaled.y)];
-        let [right, up] = [scaled.x - corner[0], scaled.y - corner[1]];
-        let number = |column: i32, row: i32| {
-            self.number([corner[0] as i32 + column, corner[1] as i32 + row])
-        };
+        let corner = [scaled.x, scaled.y].map(floor_index);
+        let [right, up] = [
+            scaled.x - f64::from(corner[0]),
+            scaled.y - f64::from(corner[1]),
+        ];
+        let number = |column: i32, row: i32| self.number([corner[0] + column, corner[1] + row]);
         [
             (number(0, 0), (1.0 - right) * (1.0 - up)),
             (number(1, 0), right * (1.0 - up)),

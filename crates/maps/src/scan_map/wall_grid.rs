@@ -2,7 +2,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
-use tolman_geom::{Heading, Point, Vector};
+use tolman_geom::{Heading, Point, Vector, floor_index};
 use tolman_robot::Scan;
 
 use super::GroundKind;
@@ -77,7 +77,7 @@ impl WallGrid {
     #[must_use]
     pub fn wall_distance(&self, at: Point) -> Option<f64> {
         let scaled = at.coords / Self::CELL - Vector::new(0.5, 0.5);
-        let corner = [libm::floor(scaled.x) as i32, libm::floor(scaled.y) as i32];
+        let corner = [scaled.x, scaled.y].map(floor_index);
         let [right, up] = [
             scaled.x - f64::from(corner[0]),
             scaled.y - f64::from(corner[1]),
@@ -382,7 +382,7 @@ pub(super) fn sees(from: Point, to: Point, is_wall: impl Fn(Point) -> bool) -> b
 
 /// Returns the cell in which a point lies.
 pub(super) fn index_of(at: Point) -> GridIndex {
-    let index = |value: f64| libm::floor(value / WallGrid::CELL) as i32;
+    let index = |value: f64| floor_index(value / WallGrid::CELL);
     [index(at.x), index(at.y)]
 }
 

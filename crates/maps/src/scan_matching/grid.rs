@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-use tolman_geom::{Point, Pose, Vector};
+use tolman_geom::{Point, Pose, Vector, floor_index};
 
 use super::outline::ScanOutline;
 
@@ -120,12 +120,11 @@ impl LikelihoodGrid {
 
     fn stamp(&mut self, stamp: &Stamp, point: Point) {
         let scaled = point.coords / self.cell;
-        let corner = scaled.map(libm::floor);
-        let place = (scaled - corner) * PLACES as f64;
+        let corner = scaled.map(floor_index);
+        let place = (scaled - corner.map(f64::from)) * PLACES as f64;
         let place = [place.x, place.y].map(|place| (place as usize).min(PLACES - 1));
         let bell = stamp.bell(place[0], place[1]);
-        let [column, row] =
-            [corner.x as i32, corner.y as i32].map(|index| index.wrapping_sub(stamp.reach));
+        let [column, row] = [corner.x, corner.y].map(|index| index.wrapping_sub(stamp.reach));
         let side = stamp.side();
         let column = column.wrapping_sub(self.first[0]);
         let row = row.wrapping_sub(self.first[1]);
@@ -143,7 +142,7 @@ impl LikelihoodGrid {
 
     /// Returns the cell in which a point lies.
     fn index(&self, point: Point) -> [i32; 2] {
-        [point.x, point.y].map(|value| libm::floor(value / self.cell) as i32)
+        [point.x, point.y].map(|value| floor_index(value / self.cell))
     }
 
     /// Returns the place of a point among the cells of [`Self::value`].
@@ -166,10 +165,10 @@ impl LikelihoodGrid {
     /// along the axes, 1/m.
     pub(super) fn slope(&self, at: Point) -> (f64, Vector) {
         let scaled = at.coords / self.cell - Vector::new(0.5, 0.5);
-        let corner = scaled.map(libm::floor);
-        let part = scaled - corner;
-        let column = corner.x as i32 - self.first[0];
-        let row = corner.y as i32 - self.first[1];
+        let corner = scaled.map(floor_index);
+        let part = scaled - corner.map(f64::from);
+        let column = corner.x - self.first[0];
+        let row = corner.y - self.first[1];
         let value = |x, y| f64::from(self.value([column + x, row + y])) / 255.0;
         let [a, b, c, d] = [value(0, 0), value(1, 0), value(0, 1), value(1, 1)];
         let below = a + (b - a) * part.x;

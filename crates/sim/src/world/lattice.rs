@@ -1,4 +1,4 @@
-use tolman_geom::Point;
+use tolman_geom::{Point, floor_index};
 use tolman_maze::{Direction, Maze};
 
 use super::{BitRows, Bounds, Material, WallSegment, WorldError};
@@ -84,14 +84,17 @@ impl Axis {
 
     /// Returns the cell that holds `value`, if one does.
     fn cell(&self, value: f64) -> Option<usize> {
-        let index = if self.thickness > 0.0 {
+        if self.thickness > 0.0 {
             let from_first = value - self.origin + 0.5 * self.thickness;
-            let whole = (from_first / self.pitch).floor();
-            2.0 * whole + f64::from(u8::from(from_first - whole * self.pitch >= self.thickness))
+            let along = from_first / self.pitch;
+            let whole = floor_index(along);
+            let beyond = from_first - f64::from(whole) * self.pitch >= self.thickness;
+            let index = 2 * i64::from(whole) + i64::from(beyond);
+            (along >= 0.0 && index < self.cells as i64).then_some(index as usize)
         } else {
-            ((value - self.origin) / self.pitch).floor()
-        };
-        (index >= 0.0 && index < self.cells as f64).then_some(index as usize)
+            let index = (value - self.origin) / self.pitch;
+            (index >= 0.0 && index < self.cells as f64).then_some(index as usize)
+        }
     }
 }
 

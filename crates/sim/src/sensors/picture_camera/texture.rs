@@ -1,3 +1,5 @@
+use tolman_geom::floor_index;
+
 /// Returns the brightness change of a surface at a point of the room, −1 to 1. Stains are at fixed
 /// places, larger ones with smaller ones on top.
 pub(super) fn stain(x: f64, y: f64, height: f64) -> f64 {
@@ -7,7 +9,7 @@ pub(super) fn stain(x: f64, y: f64, height: f64) -> f64 {
 /// Returns a number for each cube of the room's space, −1 … 1. No wall at a round coordinate lies
 /// between two cubes.
 fn patch(point: [f64; 3], size: f64, layer: u32) -> f64 {
-    let cube = point.map(|along| ((along + 0.0737) / size).floor() as i32 as u32);
+    let cube = point.map(|along| floor_index((along + 0.0737) / size) as u32);
     let mixed = cube.iter().fold(layer, |hash, index| mix(hash ^ index));
     f64::from(mixed) / f64::from(u32::MAX) * 2.0 - 1.0
 }
