@@ -39,11 +39,17 @@ impl Heading {
     /// assert!((Heading::from_radians(2.5 * PI).radians() - FRAC_PI_2).abs() < 1e-12);
     /// assert_eq!(Heading::from_radians(-PI), Heading::WEST);
     /// ```
+    #[inline]
     #[must_use]
     pub fn from_radians(radians: f64) -> Self {
         if radians > -PI && radians <= PI {
-            return Self(radians);
+            Self(radians)
+        } else {
+            Self::wrapped(radians)
         }
+    }
+
+    fn wrapped(radians: f64) -> Self {
         // fmod is exact, so wrapping loses nothing beyond the addition that follows it.
         let turned = libm::fmod(radians, TAU);
         let wrapped = if turned > PI {
@@ -71,6 +77,7 @@ impl Heading {
     ///
     /// assert_eq!(Heading::of(Vector::new(0.0, -2.0)), Heading::SOUTH);
     /// ```
+    #[inline]
     #[must_use]
     pub fn of(vector: Vector) -> Self {
         Self::from_radians(libm::atan2(vector.y, vector.x))
@@ -89,6 +96,7 @@ impl Heading {
     }
 
     /// Returns the unit vector in this direction.
+    #[inline]
     #[must_use]
     pub fn unit(self) -> Vector {
         let (sin, cos) = libm::sincos(self.0);
@@ -102,6 +110,7 @@ impl Heading {
     /// let north = Heading::NORTH.rotate(Vector::new(2.0, 0.0));
     /// assert!((north - Vector::new(0.0, 2.0)).norm() < 1e-12);
     /// ```
+    #[inline]
     #[must_use]
     pub fn rotate(self, vector: Vector) -> Vector {
         let unit = self.unit();
@@ -112,18 +121,21 @@ impl Heading {
     }
 
     /// Returns the signed smallest turn, in (−π, π] radians, that takes this heading to `target`.
+    #[inline]
     #[must_use]
     pub fn turn_to(self, target: Self) -> f64 {
         Self::from_radians(target.0 - self.0).0
     }
 
     /// Returns this heading turned counter-clockwise by `radians`.
+    #[inline]
     #[must_use]
     pub fn turned(self, radians: f64) -> Self {
         Self::from_radians(self.0 + radians)
     }
 
     /// Returns the opposite direction.
+    #[inline]
     #[must_use]
     pub fn reversed(self) -> Self {
         self.turned(PI)

@@ -33,6 +33,7 @@ impl Pose {
     }
 
     /// Returns `a_from_c` for `a_from_b.compose(b_from_c)`.
+    #[inline]
     #[must_use]
     pub fn compose(self, inner: Self) -> Self {
         Self::new(
@@ -42,6 +43,7 @@ impl Pose {
     }
 
     /// Returns `b_from_a` for `a_from_b.inverse()`.
+    #[inline]
     #[must_use]
     pub fn inverse(self) -> Self {
         let heading = Heading::from_radians(-self.heading.radians());
@@ -53,12 +55,14 @@ impl Pose {
 
     /// Returns the pose of `other` as seen from this one: `world_from_a.between(world_from_b)` is
     /// `a_from_b`.
+    #[inline]
     #[must_use]
     pub fn between(self, other: Self) -> Self {
         self.inverse().compose(other)
     }
 
     /// Returns a point of this pose's own frame, in the frame the pose is given in.
+    #[inline]
     #[must_use]
     pub fn transform(self, point: Point) -> Point {
         self.position + self.heading.rotate(point.coords)

@@ -29,6 +29,7 @@ impl Cell {
     }
 
     /// Returns the cell one step in a direction, on a plane without an end in the north or east.
+    #[inline]
     #[must_use]
     pub fn beyond(self, direction: Direction) -> Option<Self> {
         let (east, north) = direction.step();

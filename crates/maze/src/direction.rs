@@ -35,24 +35,28 @@ impl Direction {
     }
 
     /// Returns a quarter turn clockwise.
+    #[inline]
     #[must_use]
     pub const fn right(self) -> Self {
         Self::ALL[(self.index() + 1) % 4]
     }
 
     /// Returns a half turn.
+    #[inline]
     #[must_use]
     pub const fn opposite(self) -> Self {
         Self::ALL[(self.index() + 2) % 4]
     }
 
     /// Returns a quarter turn counter-clockwise.
+    #[inline]
     #[must_use]
     pub const fn left(self) -> Self {
         Self::ALL[(self.index() + 3) % 4]
     }
 
     /// Returns the direction that is at `side` of a viewer who looks this way; north is ahead.
+    #[inline]
     #[must_use]
     pub const fn turned(self, side: Self) -> Self {
         Self::ALL[(self.index() + side.index()) % 4]
@@ -60,6 +64,7 @@ impl Direction {
 
     /// Returns the side at which a viewer who looks to `heading` has this direction: the inverse of
     /// [`turned`](Self::turned).
+    #[inline]
     #[must_use]
     pub const fn seen_from(self, heading: Self) -> Self {
         Self::ALL[(self.index() + 4 - heading.index()) % 4]

@@ -112,6 +112,7 @@ impl Grid {
     }
 
     /// Returns the edge of `cell` that looks to `direction`. `cell` must lie on the grid.
+    #[inline]
     #[must_use]
     pub const fn wall(self, cell: Cell, direction: Direction) -> Wall {
         let (x, y) = (cell.x as usize, cell.y as usize);
@@ -168,6 +169,7 @@ impl Grid {
     }
 
     /// Returns the cell beyond the `direction` edge of `cell`, or none outside the grid.
+    #[inline]
     #[must_use]
     pub fn neighbour(self, cell: Cell, direction: Direction) -> Option<Cell> {
         cell.beyond(direction).filter(|next| self.contains(*next))

@@ -80,6 +80,7 @@ impl Maze {
     }
 
     /// Returns whether a wall stands on this edge.
+    #[inline]
     #[must_use]
     pub fn stands(&self, wall: Wall) -> bool {
         let word = self.standing.get(wall.0 as usize / 64);
@@ -87,6 +88,7 @@ impl Maze {
     }
 
     /// Returns whether one can go from `cell` to `direction`.
+    #[inline]
     #[must_use]
     pub fn is_open(&self, cell: Cell, direction: Direction) -> bool {
         !self.stands(self.grid.wall(cell, direction))
@@ -106,6 +108,7 @@ impl Maze {
     }
 
     /// Returns the cell one step from `cell` to that side, or `None` if a wall stands there.
+    #[inline]
     #[must_use]
     pub fn beside(&self, cell: Cell, direction: Direction) -> Option<Cell> {
         let next = self.grid.neighbour(cell, direction)?;
