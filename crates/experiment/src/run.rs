@@ -87,6 +87,22 @@ impl Fields {
             record: type_name::<T>(),
             source,
         })?;
+        Self::of_table(written)
+    }
+
+    /// Returns the record with these fields.
+    ///
+    /// # Errors
+    /// [`FieldsError::Read`] if a field is missing or has another type.
+    pub fn record<T: Record>(&self) -> Result<T, FieldsError> {
+        self.table().try_into().map_err(|source| FieldsError::Read {
+            record: type_name::<T>(),
+            source,
+        })
+    }
+
+    /// The part of [`of`](Self::of) that is compiled once for all records.
+    fn of_table(written: toml::Table) -> Result<Self, FieldsError> {
         let fields = written.into_iter().map(|(name, value)| {
             let field = Field::read(&value).ok_or_else(|| FieldsError::NoField {
                 field: name.clone(),
@@ -97,19 +113,12 @@ impl Fields {
         fields.collect::<Result<_, _>>().map(Self)
     }
 
-    /// Returns the record with these fields.
-    ///
-    /// # Errors
-    /// [`FieldsError::Read`] if a field is missing or has another type.
-    pub fn record<T: Record>(&self) -> Result<T, FieldsError> {
+    /// The part of [`record`](Self::record) that is compiled once for all records.
+    fn table(&self) -> toml::Table {
         let fields = self.0.iter();
-        let table: toml::Table = fields
+        fields
             .map(|(name, field)| (name.clone(), field.written()))
-            .collect();
-        table.try_into().map_err(|source| FieldsError::Read {
-            record: type_name::<T>(),
-            source,
-        })
+            .collect()
     }
 
     /// Returns the field called `name`.
