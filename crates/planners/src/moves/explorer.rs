@@ -187,7 +187,6 @@ impl<const N: usize> MoveExplorer<N> {
     /// Returns where to look while no way to the goal is known.
     fn best_approach(&self, chart: &Chart<N>, at: Cell) -> Option<Cell> {
         let config = &self.config;
-        let outlook = Outlook::new(chart);
         let unknown = chart.unknown().cells();
         let mut stops = Stops::<1>::new();
         for (moves, front) in chart.around(at) {
@@ -195,10 +194,16 @@ impl<const N: usize> MoveExplorer<N> {
                 let Some(onward) = chart.to_goal.moves(cell) else {
                     continue;
                 };
-                let onward = f32::from(onward)
-                    + config.unknown_wall * f32::from(outlook.unknown_walls(cell));
                 let seen = chart.unknown_sides(cell).count() as f32;
-                let score = config.sight * seen - config.known_step * f32::from(moves) - onward;
+                let score = |unknown: u8| {
+                    let onward = f32::from(onward) + config.unknown_wall * f32::from(unknown);
+                    config.sight * seen - config.known_step * f32::from(moves) - onward
+                };
+                // Unknown walls make no stop better, and to count them takes longest.
+                if score(0) < stops.lowest() {
+                    continue;
+                }
+                let score = score(Outlook::unknown_walls(chart, cell));
                 stops.offer(score, cell);
             }
         }

@@ -3,52 +3,50 @@ use tolman_maze::{Cell, Direction};
 use super::cell_set::CellSet;
 use super::chart::Chart;
 
-/// Minimum number of unknown walls on the hoped-for way to the goal, from every cell.
+/// Minimum number of unknown walls on the hoped-for ways of fewest steps from one cell to the goal.
 pub(super) struct Outlook<const N: usize> {
     unknown: [[u8; N]; N],
 }
 
 impl<const N: usize> Outlook<N> {
-    /// Returns the outlook on the ways of fewest steps with the fewest unknown walls. O(N²).
-    pub(super) fn new(chart: &Chart<N>) -> Self {
+    /// Returns the number of unknown walls on the way from `cell`; the greatest number if there is
+    /// no way. O(cells on ways of fewest steps).
+    pub(super) fn unknown_walls(chart: &Chart<N>, cell: Cell) -> u8 {
+        let Some(mut moves) = chart.to_goal.moves(cell) else {
+            return u8::MAX;
+        };
         let mut outlook = Self {
             unknown: [[u8::MAX; N]; N],
         };
-        for goal in chart.goals.iter() {
-            outlook.lower(goal, 0);
-        }
-        // Step by step away from the goal: all cells one step nearer are done before a cell's turn
-        // comes.
-        let mut front = chart.goals;
-        while !front.is_empty() {
+        outlook.lower(cell, 0);
+        // All cells as far from the goal are done before the turn of those a step nearer comes.
+        let mut front = CellSet::of([cell]);
+        while let Some(nearer) = moves.checked_sub(1) {
             let mut next = CellSet::EMPTY;
             for cell in front.iter() {
                 for direction in Direction::ALL {
-                    outlook.look_back(chart, cell, direction, &mut next);
+                    outlook.look_on(chart, (cell, nearer), direction, &mut next);
                 }
             }
-            front = next;
+            (front, moves) = (next, nearer);
         }
-        outlook
+        let ends = front.iter().map(|goal| outlook.at(goal));
+        ends.min().unwrap_or(u8::MAX)
     }
 
-    /// Adds the leaps that lead to `cell`, which is on the way, against `direction`.
-    fn look_back(
+    /// Adds the leaps from `cell` in `direction` that end `nearer` steps from the goal.
+    fn look_on(
         &mut self,
         chart: &Chart<N>,
-        cell: Cell,
+        (cell, nearer): (Cell, u16),
         direction: Direction,
         next: &mut CellSet<N>,
     ) {
-        let (mut at, mut unknown) = (cell, self.unknown_walls(cell));
+        let (mut at, mut unknown) = (cell, self.at(cell));
         for leap in chart.hoped.leaps_along(cell, direction) {
             unknown = unknown.saturating_add(chart.is_unknown(at, direction).into());
             at = leap.end;
-            let farther = chart
-                .to_goal
-                .moves(cell)
-                .and_then(|moves| moves.checked_add(1));
-            if chart.to_goal.moves(at) == farther {
+            if chart.to_goal.moves(at) == Some(nearer) {
                 self.lower(at, unknown.min(u8::MAX - 1));
                 next.insert(at);
             }
@@ -62,9 +60,7 @@ impl<const N: usize> Outlook<N> {
         }
     }
 
-    /// Returns the number of unknown walls on the way from `cell`; the greatest number if there is
-    /// no way.
-    pub(super) fn unknown_walls(&self, cell: Cell) -> u8 {
+    fn at(&self, cell: Cell) -> u8 {
         let row = self.unknown.get(usize::from(cell.y));
         let unknown = row.and_then(|row| row.get(usize::from(cell.x)));
         unknown.copied().unwrap_or(u8::MAX)
