@@ -12,7 +12,7 @@
 )]
 
 #[expect(dead_code, reason = "the tests need more of it")]
-#[path = "../tests/diktiometry/walk.rs"]
+#[path = "../tests/it/diktiometry/walk.rs"]
 mod walk;
 
 extern crate alloc;

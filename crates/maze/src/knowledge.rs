@@ -94,7 +94,8 @@ impl Walls for crate::Maze {
     }
 }
 
-#[cfg(all(test, feature = "alloc"))]
+#[cfg(test)]
+#[cfg(feature = "alloc")]
 mod tests {
     use super::*;
     use crate::Maze;

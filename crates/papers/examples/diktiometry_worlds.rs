@@ -13,7 +13,7 @@ extern crate alloc;
 
 use core::num::NonZeroU64;
 
-#[path = "../../maps/tests/diktiometry/walk.rs"]
+#[path = "../../maps/tests/it/diktiometry/walk.rs"]
 mod walk;
 
 use rand::{RngExt, SeedableRng};

@@ -174,3 +174,121 @@ fn neighbours([column, row]: GridIndex) -> [GridIndex; 4] {
         [column, row - 1],
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use alloc::collections::BTreeSet;
+
+    use super::super::GroundKind;
+    use super::*;
+
+    /// Less than a cell: the robot stands in every cell of floor.
+    const RADIUS: f64 = 0.04;
+
+    /// Returns the grid of a drawing whose first row is the lowest: `#` is wall, a space unknown,
+    /// `v` floor where the robot has been, all else floor.
+    fn drawn(drawing: &[&str]) -> WallGrid {
+        let letter = |[column, row]: GridIndex| drawing[row as usize].as_bytes()[column as usize];
+        let end = [drawing[0].len() as i32, drawing.len() as i32];
+        let mut grid = WallGrid::of([[0, 0], end], |index| match letter(index) {
+            b'#' => GroundKind::Wall,
+            b' ' => GroundKind::Unknown,
+            _ => GroundKind::Floor,
+        });
+        for index in grid.indices().filter(|index| letter(*index) == b'v') {
+            grid.visit(middle(index), 0.01);
+        }
+        grid
+    }
+
+    /// A corridor one cell wide from column 1 on, visited up to `visited`.
+    fn corridor(length: usize, visited: usize) -> WallGrid {
+        let wall = "#".repeat(length + 2);
+        let (been, left) = ("v".repeat(visited), ".".repeat(length - visited));
+        drawn(&[&wall, &alloc::format!("#{been}{left}#"), &wall])
+    }
+
+    #[test]
+    fn the_way_to_a_gap_is_computed_a_little_beyond_the_robot() {
+        let grid = corridor(80, 60);
+        let clearings = Clearings::new(&grid, RADIUS);
+        let at = |column| middle([column, 1]);
+        let way = clearings.way_to_gap(at(50)).unwrap();
+        // The gap begins at column 61. From the nearest cell about the robot, 55, it is 6 cells, so
+        // that 6 + 16 and one more are computed.
+        let computed = 61 - (6 + ASTRAY as i32 + 1);
+        for column in computed..=61 {
+            let expected = f64::from(61 - column) * WallGrid::CELL;
+            let metres = way.metres(at(column)).unwrap();
+            assert!((metres - expected).abs() < 1e-9, "{column}: {metres}");
+        }
+        // Off the computed ones the nearest of them counts, if it is near.
+        assert_eq!(way.metres(at(computed - BY)), way.metres(at(computed)));
+        assert_eq!(way.metres(at(computed - BY - 1)), None);
+    }
+
+    #[test]
+    fn a_gap_is_what_can_be_reached_and_was_not() {
+        let all = corridor(20, 20);
+        let clearings = Clearings::new(&all, RADIUS);
+        assert!(clearings.way_to_gap(middle([10, 1])).is_none());
+        assert!(!clearings.has_gap([middle([10, 1])]));
+        let left = corridor(20, 19);
+        let clearings = Clearings::new(&left, RADIUS);
+        assert!(clearings.has_gap([middle([2, 1])]));
+        assert!(!clearings.has_gap([]));
+        // What lies behind a wall is no gap.
+        let apart = drawn(&["#########", "#vvv#...#", "#########"]);
+        let clearings = Clearings::new(&apart, RADIUS);
+        assert!(!clearings.has_gap([middle([1, 1])]));
+        assert!(clearings.has_gap([middle([1, 1]), middle([7, 1])]));
+    }
+
+    #[test]
+    fn what_is_near_behind_a_wall_is_not_where_the_robot_stands() {
+        let grid = drawn(&["#####", "#vvv#", "#####", "#...#", "#####"]);
+        let clearings = Clearings::new(&grid, RADIUS);
+        let stands = |at| -> BTreeSet<GridIndex> { clearings.stands_by(at).into_iter().collect() };
+        let row = |row| BTreeSet::from([1, 2, 3].map(|column| [column, row]));
+        assert_eq!(stands(middle([2, 1])), row(1));
+        assert_eq!(stands(middle([3, 3])), row(3));
+        // Inside a wall nothing is in sight: whatever is near counts.
+        let both: BTreeSet<_> = row(1).union(&row(3)).copied().collect();
+        assert_eq!(stands(middle([2, 2])), both);
+        assert!(stands(middle([2, 30])).is_empty());
+        let open = drawn(&["...............", "..............."]);
+        let near = Clearings::new(&open, RADIUS).stands_by(middle([7, 0]));
+        assert_eq!(near.len() as i32, 2 * (2 * BY + 1));
+    }
+
+    #[test]
+    fn straight_on_it_goes_until_the_body_meets_something() {
+        let grid = drawn(&["........#", "........ ", "........."]);
+        let clearings = Clearings::new(&grid, RADIUS);
+        let from = |row| middle([1, row]);
+        let straight = |row, most| clearings.straight(from(row), Vector::x(), most);
+        for (row, most, cells) in [(0, 1.0, 6.0), (1, 1.0, 6.0), (2, 0.17, 3.0), (2, 1.0, 7.0)] {
+            let expected = cells * WallGrid::CELL;
+            assert!((straight(row, most) - expected).abs() < 1e-9, "{row}");
+        }
+        // A wider body keeps farther off.
+        let wide = Clearings::new(&grid, 0.12);
+        let free = wide.straight(from(0), Vector::x(), 1.0);
+        assert!((free - 4.0 * WallGrid::CELL).abs() < 1e-9, "{free}");
+        assert!(clearings.stands(from(0)) && !clearings.stands(middle([8, 0])));
+    }
+
+    #[test]
+    fn reached_is_all_that_hangs_together() {
+        let grid = drawn(&[".#...", ".#.#.", "...#.", "#####", "....."]);
+        let clearings = Clearings::new(&grid, RADIUS);
+        let reached = clearings.reached([middle([0, 0]), middle([1, 0])]);
+        let expected = "1011110101111010000000000";
+        let found: alloc::string::String = reached
+            .iter()
+            .map(|reached| if *reached { '1' } else { '0' })
+            .collect();
+        assert_eq!(found, expected);
+        assert!(!clearings.reached([]).contains(&true));
+    }
+}

@@ -195,3 +195,198 @@ fn ends_score(grid: &WallGrid, ends: &[Point], shift: Vector) -> f64 {
     };
     ends.iter().map(score).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::GroundKind;
+    use super::super::wall_grid::GridIndex;
+    use super::*;
+    use tolman_robot::Ring;
+
+    const HERE: Point = Point::new(1.025, 1.025);
+
+    /// A room of floor whose walls are the lines of cells that `is_wall` says.
+    fn room(is_wall: impl Fn(GridIndex) -> bool) -> WallGrid {
+        WallGrid::of([[0, 0], [41, 41]], |index| match is_wall(index) {
+            true => GroundKind::Wall,
+            false => GroundKind::Floor,
+        })
+    }
+
+    /// A scan of beams that all look along `heading` or back, and meet something after `range` m.
+    fn scan(ahead: f64, back: f64) -> Scan {
+        let ring = Ring::full(96, 3.0);
+        let mut scan = Scan::clear(ring);
+        for (index, range) in (0..).zip(&mut scan.ranges) {
+            let across = ring.bearing(index);
+            let (along, length) = match libm::cos(across) {
+                cos if cos > 0.5 => (cos, ahead),
+                cos if cos < -0.5 => (-cos, back),
+                _ => continue,
+            };
+            *range = (length / along).min(ring.max_range);
+        }
+        scan
+    }
+
+    fn near(found: f64, expected: f64, off: f64) -> bool {
+        (found - expected).abs() < off
+    }
+
+    /// Two walls tell the place across them, and nothing along them.
+    #[test]
+    fn walls_tell_the_axis_across_them() {
+        // Their middles are 0.8 m to either side.
+        let walls = room(|[_, row]| row == 4 || row == 36);
+        let fit = |expected: Point, heading| {
+            let sd = Vector::new(0.04, 0.06);
+            fit(
+                &walls,
+                expected,
+                sd.component_mul(&sd),
+                0.3,
+                heading,
+                &scan(0.8, 0.8),
+            )
+        };
+        for off in [-0.05, 0.0, 0.0375] {
+            for heading in [Heading::NORTH, Heading::SOUTH] {
+                let expected = HERE + Vector::new(0.01, off);
+                let found = fit(expected, heading);
+                assert!(near(found.at.y, HERE.y, 0.012), "{off}: {found:?}");
+                assert!(near(found.at.x, expected.x, 1e-12), "{found:?}");
+                assert!(near(found.variance.x, 0.04 * 0.04, 1e-12), "{found:?}");
+                assert!(found.variance.y < 0.03 * 0.03, "{found:?}");
+                assert!(found.agreement > 0.97, "{found:?}");
+            }
+        }
+        let across = room(|[column, _]| column == 4 || column == 36);
+        let expected = HERE + Vector::new(0.05, 0.0);
+        let variance = Vector::new(0.0036, 0.0036);
+        let scan = scan(0.8, 0.8);
+        let found = super::fit(&across, expected, variance, 0.3, Heading::EAST, &scan);
+        assert!(near(found.at.x, HERE.x, 0.012), "{found:?}");
+        assert!(near(found.at.y, expected.y, 1e-12), "{found:?}");
+        assert!(near(found.variance.y, 0.0036, 1e-12), "{found:?}");
+    }
+
+    /// A robot that is sure of its place does not leave it for a wall that is not where it should
+    /// be.
+    #[test]
+    fn who_is_sure_stays() {
+        let sure = Vector::new(1e-4, 1e-4);
+        for (heading, is_row) in [(Heading::NORTH, true), (Heading::EAST, false)] {
+            let walls = room(|index| index[usize::from(is_row)] == 38);
+            // It stands 0.9 m before the wall and sees it 0.8 m ahead, and nothing behind.
+            let found = fit(&walls, HERE, sure, 0.3, heading, &scan(0.8, 3.0));
+            let off = (found.at - HERE).norm();
+            assert!(off < 0.04, "{found:?}");
+            assert!((0.1..0.7).contains(&found.agreement), "{found:?}");
+            // Unsure, it goes there.
+            let unsure = Vector::new(0.04, 0.04);
+            let found = fit(&walls, HERE, unsure, 0.3, heading, &scan(0.8, 3.0));
+            let along = (found.at - HERE)[usize::from(is_row)];
+            assert!(near(along, 0.1, 0.02), "{found:?}");
+            assert!(found.agreement > 0.95, "{found:?}");
+            // But no farther than it may.
+            let found = fit(&walls, HERE, unsure, 0.02, heading, &scan(0.8, 3.0));
+            assert_eq!((found.at, found.agreement), (HERE, 1.0));
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_compared_says_nothing() {
+        let nothing = WallGrid::default();
+        let variance = Vector::new(0.01, 1e-9);
+        let found = fit(
+            &nothing,
+            HERE,
+            variance,
+            0.3,
+            Heading::EAST,
+            &scan(0.8, 0.8),
+        );
+        let expected = ScanFit {
+            at: HERE,
+            variance: Vector::new(0.01, SUREST * SUREST),
+            agreement: 1.0,
+        };
+        assert_eq!(found, expected);
+        // Beams that meet nothing have no ends.
+        let walls = room(|[_, row]| row == 4);
+        let found = fit(&walls, HERE, variance, 0.3, Heading::EAST, &scan(3.0, 3.0));
+        assert_eq!(found, expected);
+    }
+
+    /// The mean and the variance of what was added, by their definitions.
+    #[test]
+    fn moments_are_those_of_the_weighted_values() {
+        let values = [(0.5, 1.0), (-1.0, 2.0), (3.0, 0.25)];
+        let mut moments = Moments::default();
+        for (value, weight) in values {
+            moments.add(value, weight);
+        }
+        let weight: f64 = values.iter().map(|(_, weight)| weight).sum();
+        let mean = values.iter().map(|(v, w)| v * w).sum::<f64>() / weight;
+        let squares = values.iter().map(|(v, w)| w * (v - mean) * (v - mean));
+        assert!(near(moments.mean(), mean, 1e-12));
+        assert!(near(
+            moments.variance(),
+            squares.sum::<f64>() / weight,
+            1e-12
+        ));
+    }
+
+    /// The posterior along an axis is the product of prior and likelihood, summed over the mesh.
+    #[test]
+    fn along_an_axis_the_posterior_counts() {
+        let score = |shift: Vector| -200.0 * (shift.y - 0.02) * (shift.y - 0.02);
+        let variance = 0.03 * 0.03;
+        let (mean, found) = along(score, Vector::new(0.3, 0.01), 1, 40, variance);
+        assert_eq!((mean, found), (0.0, variance), "0.09 m is too wide");
+        let score = |shift: Vector| -5000.0 * (shift.y - 0.02) * (shift.y - 0.02);
+        let narrow = 2.0 * 5000.0 * SHARE_OF_A_BEAM;
+        let (mean, found) = along(score, Vector::new(0.3, 0.01), 1, 40, variance);
+        // Both are normal: the precisions add up.
+        let precision = narrow + 1.0 / variance;
+        assert!(near(mean, 0.02 * narrow / precision, 1e-6), "{mean}");
+        assert!(near(found, (1.0 / precision).max(1e-4), 1e-6), "{found}");
+    }
+
+    #[test]
+    fn the_best_on_a_mesh_is_the_best_of_all_its_shifts() {
+        let total = |shift: Vector| -(shift - Vector::new(0.11, -0.07)).norm();
+        let centre = Vector::new(0.02, 0.0);
+        let found = best_of(centre, Vector::new(0.12, 0.06), 0.05, total);
+        // Three columns and two rows to either side.
+        let expected = centre + Vector::new(2.0, -1.0) * 0.05;
+        assert!((found - expected).norm() < 1e-12, "{found}");
+        let far = |shift: Vector| shift.x + 2.0 * shift.y;
+        let found = best_of(centre, Vector::new(0.12, 0.06), 0.05, far);
+        assert!((found - (centre + Vector::new(3.0, 2.0) * 0.05)).norm() < 1e-12);
+        let far = |shift: Vector| -shift.x - 2.0 * shift.y;
+        let found = best_of(centre, Vector::new(0.12, 0.06), 0.05, far);
+        assert!((found - (centre - Vector::new(3.0, 2.0) * 0.05)).norm() < 1e-12);
+    }
+
+    /// A beam passes points 0.06 m apart, from the third to 0.15 m before its end.
+    #[test]
+    fn every_other_beam_passes_what_lies_before_its_end() {
+        let mut scan = Scan::clear(Ring::full(4, 3.0));
+        scan.ranges = alloc::vec![0.51, 9.0, 0.1, 9.0];
+        let rays = rays(HERE, Heading::EAST, &scan);
+        assert_eq!(rays.len(), 2);
+        let way = |at: &Point| (at - HERE).norm();
+        let passed: Vec<f64> = rays[0].iter().map(way).collect();
+        assert_eq!(passed.len(), 4);
+        for (number, passed) in (3..).zip(passed) {
+            assert!(near(passed, f64::from(number) * RAY_STEP, 1e-9), "{passed}");
+        }
+        assert!(rays[1].is_empty());
+        // A wall across the first beam counts twice.
+        let walls = room(|[column, _]| column == 27);
+        assert!((crossings(&walls, &rays, Vector::zeros()) - 2.0).abs() < 1e-12);
+        assert!(crossings(&walls, &rays, Vector::new(0.5, 0.0)).abs() < 1e-12);
+        assert!(crossings(&walls, &rays, Vector::new(-0.5, 0.0)).abs() < 1e-12);
+    }
+}

@@ -391,3 +391,6 @@ pub(super) fn middle([column, row]: GridIndex) -> Point {
     let at = |index: i32| (f64::from(index) + 0.5) * WallGrid::CELL;
     Point::new(at(column), at(row))
 }
+
+#[cfg(test)]
+mod tests;

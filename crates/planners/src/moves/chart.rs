@@ -240,3 +240,192 @@ pub(super) struct Driven {
     pub(super) steps: u16,
     pub(super) at: Cell,
 }
+
+#[cfg(test)]
+#[cfg(feature = "alloc")]
+mod tests {
+    use alloc::vec::Vec;
+
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+    use tolman_maze::{Braided, Maze};
+
+    use super::*;
+
+    fn maze(seed: u64) -> Maze {
+        let shape = Braided {
+            width: 8,
+            height: 7,
+            share: 0.6,
+        };
+        let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+        shape.generate(rng).unwrap()
+    }
+
+    fn chart(maze: &Maze) -> Chart<8> {
+        let start = Cell::new(0, 0);
+        Chart::new(maze, start, maze.goals()).unwrap()
+    }
+
+    /// Fewest leaps between two cells, by adding one leap to all ways at a time.
+    fn fewest(chart: &Chart<8>, from: Cell, to: Cell) -> u16 {
+        let mut reached = Vec::from([from]);
+        for steps in 0.. {
+            if reached.contains(&to) {
+                return steps;
+            }
+            let next = reached.iter().flat_map(|at| chart.certain.leaps(*at));
+            let next: Vec<Cell> = next.map(|leap| leap.end).collect();
+            reached.extend(next);
+            reached.sort_unstable();
+            reached.dedup();
+        }
+        unreachable!("all cells hang together")
+    }
+
+    #[test]
+    fn a_course_is_a_shortest_way_of_leaps() {
+        for seed in 0..4 {
+            let maze = maze(seed);
+            let chart = chart(&maze);
+            let grid = maze.grid();
+            for (number, at) in grid.cells().enumerate() {
+                for target in grid.cells().skip(number % 5).step_by(5) {
+                    let stops: Vec<Cell> = match chart.course(target, at) {
+                        Some(course) => course.stops().collect(),
+                        None => unreachable!("all is known"),
+                    };
+                    let expected = usize::from(fewest(&chart, at, target)).max(1);
+                    if at == target {
+                        continue;
+                    }
+                    assert_eq!(stops.len(), expected, "{at} to {target}");
+                    assert_eq!(stops.last(), Some(&target));
+                    let before = core::iter::once(&at).chain(&stops);
+                    for (before, stop) in before.zip(&stops) {
+                        let mut leaps = chart.certain.leaps(*before);
+                        assert!(leaps.any(|leap| leap.end == *stop), "{before} to {stop}");
+                        let leap = chart.leap_to(*stop, *before).map(|leap| leap.end);
+                        assert_eq!(leap, Some(*stop));
+                    }
+                    let first = chart.leap_towards(target, at).map(|leap| leap.end);
+                    assert_eq!(first, stops.first().copied());
+                }
+            }
+        }
+    }
+
+    /// Of a maze that is known nothing is new: a drive takes the steps of its course.
+    #[test]
+    fn a_drive_over_known_ground_ends_at_its_target() {
+        let maze = maze(5);
+        let known = chart(&maze);
+        let truth = known.certain;
+        for target in maze.grid().cells() {
+            let at = Cell::new(3, 3);
+            let driven = known.clone().drive(&truth, target, at);
+            let driven = driven.map(|driven| (driven.steps, driven.at));
+            assert_eq!(driven, Some((fewest(&known, at, target), target)));
+        }
+    }
+
+    /// Wherever it looks, what it keeps up to date is what a new chart would say.
+    #[test]
+    fn a_chart_that_looks_is_as_one_made_anew() {
+        for seed in 0..6 {
+            let maze = maze(seed);
+            let truth = chart(&maze).certain;
+            let mut chart = chart(&Maze::open(maze.grid()));
+            chart.certain = Sides::NONE;
+            chart.goals = CellSet::of([Cell::new(4, 3)]);
+            chart.to_goal = MoveMap::over(&chart.hoped, &chart.goals);
+            chart.closed = None;
+            let mut unknown = chart.unknown().len();
+            let cells: Vec<Cell> = maze.grid().cells().collect();
+            // All of them, to and fro.
+            for number in 0..cells.len() {
+                let at = cells[number * 23 % cells.len()];
+                let news = chart.look(&truth, at);
+                let left = chart.unknown().len();
+                assert_eq!(news, left < unknown, "there is something new at {at}");
+                unknown = left;
+                for side in Direction::ALL {
+                    let mut seen = at;
+                    while truth.contains(seen, side) {
+                        assert!(chart.certain.contains(seen, side));
+                        seen = match seen.beyond(side) {
+                            Some(next) => next,
+                            None => break,
+                        };
+                    }
+                    assert!(!chart.is_unknown(seen, side));
+                    let known = chart.unknown_sides(at).count();
+                    assert_eq!(known, 0);
+                }
+                let wave = Wave::new(CellSet::of([chart.start]));
+                let closed = wave.moves_to(&chart.goals, &chart.certain);
+                assert_eq!(chart.closed, closed);
+                let again = MoveMap::over(&chart.hoped, &chart.goals);
+                let limit = closed.unwrap_or(u16::MAX);
+                for cell in maze.grid().cells() {
+                    let expected = again.moves(cell).filter(|moves| *moves < limit);
+                    let found = chart.to_goal.moves(cell).filter(|moves| *moves < limit);
+                    assert_eq!(found, expected, "{cell}");
+                }
+                assert!(chart.open() <= closed || closed.is_none());
+            }
+            assert_eq!(unknown, 0);
+            assert_eq!(chart.hoped, truth);
+        }
+    }
+
+    /// The best run over a side is the best over any leap that drives over it.
+    #[test]
+    fn a_run_through_a_side_is_the_best_of_all_that_drive_over_it() {
+        let maze = maze(7);
+        let chart = chart(&maze);
+        let moves = |to: Cell| fewest(&chart, chart.start, to);
+        let to_goal = |from: Cell| {
+            let goals = maze.goals().iter();
+            goals.map(|goal| fewest(&chart, from, *goal)).min()
+        };
+        for cell in maze.grid().cells().step_by(3) {
+            for side in Direction::ALL {
+                if !chart.certain.contains(cell, side) {
+                    continue;
+                }
+                let mut best = None;
+                for tail in maze.grid().cells() {
+                    for leap in chart.certain.leaps(tail) {
+                        let mut at = tail;
+                        let over = (0..leap.cells).any(|_| {
+                            let here = (at, leap.direction);
+                            at = at.beyond(leap.direction).unwrap_or(at);
+                            here == (cell, side) || (at, leap.direction.opposite()) == (cell, side)
+                        });
+                        if over {
+                            let run = to_goal(leap.end).map(|left| moves(tail) + 1 + left);
+                            best = best.into_iter().chain(run).min();
+                        }
+                    }
+                }
+                assert_eq!(chart.run_through(cell, side), best, "{cell} {side}");
+            }
+        }
+    }
+
+    #[test]
+    fn cells_around_come_by_their_distance() {
+        let maze = maze(9);
+        let chart = chart(&maze);
+        let at = Cell::new(2, 5);
+        let mut seen = 1;
+        for (moves, cells) in chart.around(at) {
+            for cell in cells.iter() {
+                assert_eq!(fewest(&chart, at, cell), moves);
+                seen += 1;
+            }
+        }
+        assert_eq!(seen, maze.grid().cell_count());
+    }
+}

@@ -1,6 +1,4 @@
 //! Wall maps and graphs of MSLST, saved and loaded; what breaks an invariant is refused.
-#![cfg(feature = "serde")]
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use proptest::prelude::*;
 use serde_json::{Value, json};

@@ -1,5 +1,4 @@
 //! A robot whose wheels lie is where its scans say.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use core::f64::consts::PI;
 
@@ -11,6 +10,8 @@ use tolman_maps::scan_matching::{
 use tolman_robot::{Mapper, Ring, Scan};
 use tolman_sim::casters::BeamSweep;
 use tolman_sim::{WallSegment, World};
+
+use crate::pinned::pinned;
 
 /// Returns a room with a niche and a pillar, so that no two places look alike.
 fn room() -> World {
@@ -200,4 +201,91 @@ fn doubt_of_a_pose_grows_with_the_way_since_the_last_closure() {
         doubts.is_sorted() && doubts[0] < doubts[doubts.len() - 1],
         "{doubts:?}"
     );
+}
+
+/// Two rounds of the room by wheels that lie, of which every figure is pinned; and another round on
+/// the map of the first.
+#[test]
+fn a_run_by_scans_is_what_it_was() {
+    let world = room();
+    let at = |index: i32, aside: f64| {
+        let turn = 0.15 * f64::from(index);
+        let (sin, cos) = turn.sin_cos();
+        let wide = 2.2 + aside + 0.2 * (3.0 * turn).sin();
+        pose(
+            3.8 + wide * cos,
+            2.2 + (1.0 + aside) * sin,
+            90.0 + turn.to_degrees(),
+        )
+    };
+    let run = |rounds: i32, aside: f64, lie: f64| {
+        let mut mapper = ScanMatching::new(ScanMatchingConfig::indoor());
+        for index in 0..42 * rounds {
+            let before = at((index - 1).max(0), aside);
+            let lies = pose(0.01 * lie, -0.01, lie);
+            let moved = before.between(at(index, aside)).compose(lies);
+            let step = ScanStep {
+                robot_from_laser: pose(0.1, 0.02, 1.0),
+                ..step(
+                    &world,
+                    moved,
+                    at(index, aside).compose(pose(0.1, 0.02, 1.0)),
+                )
+            };
+            mapper.observe(&step).unwrap();
+        }
+        mapper
+    };
+    let mut mapper = run(2, 0.0, 2.0);
+    let mut figures = vec![format!("{:?}", mapper.keyframes())];
+    let ring = Ring {
+        beams: 24,
+        first_bearing: 0.1,
+        spacing: PI / 12.0,
+        max_range: 9.0,
+    };
+    for finished in [false, true] {
+        if finished {
+            mapper.finish().unwrap();
+        }
+        let trajectory = mapper.trajectory();
+        figures.extend(trajectory.iter().step_by(6).map(|pose| format!("{pose:?}")));
+        for edge in mapper.graph().closures().step_by(4) {
+            figures.push(format!("{} {} {:?}", edge.from, edge.to, edge.measured));
+            figures.push(format!("{:?}", edge.information.as_slice()));
+        }
+        for keyframe in [0, 9, 25] {
+            figures.push(format!("{:?}", mapper.doubt(keyframe)));
+            figures.push(format!("{:?}", mapper.axis_about(keyframe)));
+            let seen = mapper.surroundings(keyframe, ring, Heading::from_degrees(20.0));
+            figures.push(format!("{:?}", seen.unwrap().ranges));
+        }
+        figures.push(format!("{:?} {:?}", mapper.axis(), mapper.belief()));
+    }
+    let other = run(1, -0.1, -1.0);
+    figures.push(format!("{:?}", mapper.overlay(&other)));
+    let odometry = mapper.graph().edges().iter().step_by(7);
+    figures.extend(odometry.map(|edge| format!("{:?}", edge.information.as_slice())));
+    let mut places = ScanMatching::new(ScanMatchingConfig::places());
+    for index in 0..84 {
+        let before = at((index - 1).max(0), 0.0);
+        let moved = before.between(at(index, 0.0)).compose(pose(0.0, 0.0, 0.3));
+        places
+            .observe(&step(&world, moved, at(index, 0.0)))
+            .unwrap();
+    }
+    let last = places.keyframes().len() - 1;
+    for (here, there) in [
+        (last, 2),
+        (last - 1, 2),
+        (last - 1, 1),
+        (last, last),
+        (3, last),
+        (99, 0),
+    ] {
+        let matches = places.recognize(here, there).unwrap();
+        figures.push(format!("{here} {there} {matches} {}", places.closures()));
+    }
+    figures.push(format!("{:?}", places.trajectory().last()));
+    pinned("scan_matching", &figures);
 }

@@ -1,5 +1,4 @@
 //! Places and ways of grounds that are drawn by hand.
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use tolman_geom::Point;
 use tolman_maps::scan_map::{ChartParts, CorridorMap, ScanChart, ScanPlace, WallGrid};

@@ -1,6 +1,5 @@
 //! The explorer of steps on the wall map: it ends with a run that no completion of the unknown
 //! walls undercuts.
-#![expect(clippy::unwrap_used, clippy::panic, reason = "a failed test")]
 
 use proptest::prelude::*;
 use rand::RngExt;

@@ -1,5 +1,4 @@
 //! Beliefs about walls, and where a mouse is among them, against the simulator's truth.
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -11,6 +10,8 @@ use tolman_maps::wall_belief::{
 };
 use tolman_maze::{Braided, Cell, Direction, Grid, Knowledge, Maze, Walls};
 use tolman_sim::{CorridorSize, World};
+
+use crate::pinned::pinned;
 
 const SIZE: CorridorSize = CorridorSize {
     corridor_width: 0.168,
@@ -211,4 +212,43 @@ fn numbers_out_of_range_are_refused() {
         "sensor.outliers"
     );
     assert!(WallBelief::<8>::new(Grid::new(9, 2), 0.18, 0.012).is_err());
+}
+
+/// A mouse that drives through a maze: every figure is pinned.
+#[test]
+fn a_run_among_particles_is_what_it_was() {
+    let maze = maze(3);
+    let world = World::from_maze(&maze, &SIZE).unwrap();
+    let mut belief = WallBelief::<8>::new(maze.grid(), SIZE.pitch(), SIZE.wall_thickness).unwrap();
+    let mut rng = ChaCha8Rng::seed_from_u64(11);
+    let mut truth = Pose::new(belief.middle(Cell::new(2, 2)), Heading::from_degrees(91.0));
+    let mut filter = PoseFilter::new(FILTER, truth).unwrap();
+    let mut figures = Vec::new();
+    for step in 0..24 {
+        let (distance, turn) = if step % 4 == 3 {
+            (0.02, 0.8)
+        } else {
+            (0.03, -0.05)
+        };
+        let free = world.nearest_wall_distance(truth.position);
+        let distance = if free < 0.04 { 0.0 } else { distance };
+        truth = truth.displaced(distance, turn);
+        filter.drive(distance, turn, &mut rng);
+        let seen = readings(&world, truth);
+        filter.sense(&belief, &seen, &mut rng);
+        let estimate = filter.estimate();
+        for reading in seen {
+            belief.observe(estimate, reading, &SENSOR);
+        }
+        if step == 10 {
+            belief.doubt_walls();
+            belief.bump(Cell::new(0, 0), Direction::North);
+        }
+        figures.push(format!("{estimate:?} {:?}", filter.likeliest(0.18)));
+        let heading = Heading::from_degrees(37.0 * f64::from(step));
+        let meetings: Vec<_> = belief.meetings(truth.position, heading, 0.9).collect();
+        figures.push(format!("{meetings:?}"));
+    }
+    figures.push(format!("{belief:?}"));
+    pinned("wall_belief", &figures);
 }

@@ -1,5 +1,4 @@
 //! The wall map against the maze it is a map of.
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;

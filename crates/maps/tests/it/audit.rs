@@ -1,8 +1,4 @@
 //! What an audit finds, and that it can be checked again.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot set itself up has failed"
-)]
 
 use proptest::prelude::*;
 use rand::seq::SliceRandom;
@@ -15,6 +11,8 @@ use tolman_maps::audit::{
 use tolman_maps::geom::nalgebra::{Matrix3, Vector3};
 use tolman_maps::geom::{Heading, Point, Pose};
 use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
+
+use crate::pinned::pinned;
 
 const SIGMA: f64 = 0.02;
 
@@ -436,4 +434,24 @@ proptest! {
             }
         }
     }
+}
+
+/// Every figure of an audit is pinned.
+#[test]
+fn an_audit_is_what_it_was() {
+    let (laps, _) = Laps::spoiled(3, 12, 3);
+    let found = audit(&laps.graph, &CONFIG).unwrap();
+    let mut figures = vec![format!(
+        "{} {:?}",
+        found.runs,
+        SigmaScale::estimate(&laps.graph)
+    )];
+    figures.extend(found.closures.iter().map(|closure| format!("{closure:?}")));
+    let supported = supported_graph(&laps.graph, &CONFIG, &found);
+    figures.push(format!("{}", supported.edges().len()));
+    let poses = supported.poses().iter().step_by(8);
+    figures.extend(poses.map(|pose| format!("{pose:?}")));
+    let errors = errors_of_witnesses(&laps.graph, &CONFIG, &found, &laps.truth).unwrap();
+    figures.push(format!("{errors:?}"));
+    pinned("audit", &figures);
 }

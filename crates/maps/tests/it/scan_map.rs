@@ -9,6 +9,8 @@ use tolman_maps::scan_map::{
 };
 use tolman_robot::{Landmark, Ring, Scan};
 
+use crate::pinned::pinned;
+
 const DIAMETER: f64 = 0.5;
 
 fn ring() -> Ring {
@@ -350,4 +352,76 @@ proptest! {
             prop_assert_eq!(before.wall_distance(at), grid.wall_distance(at));
         }
     }
+}
+
+/// A corridor walked to and fro by a robot whose odometry errs, and what it believes when it comes
+/// back: every figure is pinned.
+#[test]
+fn a_run_in_a_corridor_is_what_it_was() {
+    let mut figures = Vec::new();
+    let mut map = ScanMap::new(ScanMapConfig::for_robot(DIAMETER));
+    let mut at = Point::new(0.5, 0.475);
+    let steps = [
+        0.0, 0.4, 0.35, 0.4, 0.45, 0.4, 0.3, -0.4, -0.35, -0.4, -0.45, -0.3,
+    ];
+    for (step, error) in steps
+        .into_iter()
+        .zip([0.0, 0.02, -0.03, 0.01].into_iter().cycle())
+    {
+        at.x += step;
+        map.observe(&Advance {
+            moved: Vector::new(step + error, 0.7 * error),
+            sd: Vector::new(0.03, 0.02),
+            heading: Heading::from_degrees(3.0),
+            scan: &scan_of(3.4, at, Heading::from_degrees(3.0)),
+            landmark: (at.x > 2.6).then_some(Landmark::Goal),
+        });
+        figures.push(format!("{:?} {:?}", map.position(), map.at()));
+        figures.push(format!("{} {}", map.agreement(), map.surprise()));
+        let clearings = map.clearings();
+        let way = clearings.way_to_gap(map.position());
+        let metres = way.and_then(|way| way.metres(map.position()));
+        figures.push(format!("{metres:?} {}", map.bytes()));
+    }
+    map.pass(Vector::new(0.1, 0.0), Landmark::Goal);
+    figures.push(format!("{:?} {:?}", map.goal(), map.places()));
+    figures.extend(map.chart().to_parts().rows);
+    let on = Standpoints::of(map.chart(), ring());
+    figures.push(format!(
+        "{} {:?} {:?}",
+        on.len(),
+        on.goals(),
+        on.position(7)
+    ));
+    let mut belief = StandpointBelief::anywhere(&on);
+    let looks = [
+        (0.5, 3.4),
+        (0.9, 3.4),
+        (1.3, 3.4),
+        (1.3, 1.9),
+        (2.8, 3.4),
+        (3.0, 3.4),
+    ];
+    let mut before = 0.5;
+    for (x, length) in looks {
+        belief.moved(&on, Vector::new(x - before, 0.01), Vector::new(0.04, 0.02));
+        before = x;
+        let heading = Heading::from_degrees(30.0);
+        let scan = scan_of(length, Point::new(x, 0.475), heading);
+        let explanation = belief.saw(&on, heading, &scan);
+        if x > 2.9 {
+            belief.sensed_the_goal(&on);
+        } else {
+            belief.missed_the_goal(&on);
+        }
+        let certainty = belief.certainty(&on, DIAMETER);
+        figures.push(format!(
+            "{explanation:?} {:?} {certainty}",
+            belief.likeliest()
+        ));
+        let probabilities = belief.probabilities().iter().step_by(17);
+        let probabilities: Vec<String> = probabilities.map(|one| format!("{one:.6}")).collect();
+        figures.push(probabilities.join(" "));
+    }
+    pinned("scan_map", &figures);
 }

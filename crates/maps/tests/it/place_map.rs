@@ -1,6 +1,5 @@
 //! Place maps of a made-up pitch: a rectangle whose walls have four colours, seen by a pinhole
 //! camera.
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -11,6 +10,8 @@ use tolman_maps::place_map::{
 };
 use tolman_quantizers::{GngConfig, UnitId};
 use tolman_robot::{Mapper, Picture, Position, Snapshot, Sounding, pioneer_2dx};
+
+use crate::pinned::pinned;
 
 const WIDTH: f64 = 4.0;
 const LENGTH: f64 = 4.6;
@@ -317,7 +318,7 @@ fn maps_survive_files_whatever_form_images_have() {
             (
                 "tolman-place-map",
                 "tolman-maze",
-                "where \"tolman-place-map\"",
+                "give \"tolman-place-map\"",
             ),
             (
                 "\"version\":1,\"parts\"",
@@ -383,4 +384,36 @@ fn what_has_no_features_is_refused_by_number() {
         count: 1,
     };
     assert_eq!(beyond.unwrap_err(), missing);
+}
+
+/// A map of a few records: every figure is pinned.
+#[test]
+fn a_small_map_is_what_it_was() {
+    let records = records(120);
+    let mut figures = Vec::new();
+    for form in [ImageForm::Pixels, ImageForm::Span { left_out: 0.01 }] {
+        let map = learn(&records, form, fine());
+        figures.push(format!("{} {}", map.bytes(), map.space().dimension()));
+        for (node, position) in map.positions() {
+            let ranges = map.ranges(node);
+            figures.push(format!("{node:?} {position:?} {ranges:?}"));
+        }
+        let nodes: Vec<UnitId> = map.positions().map(|(node, _)| node).collect();
+        let picture = map.picture(nodes[3]).unwrap();
+        figures.push(format!("{:?}", &picture.pixels[..40]));
+        figures.push(format!("{:?}", map.way(nodes[0], nodes[nodes.len() - 1])));
+        let near: Vec<UnitId> = records
+            .iter()
+            .step_by(9)
+            .map(|one| map.nearest(one).unwrap())
+            .collect();
+        figures.push(format!("{near:?}"));
+        let known = [Some(1.0), None, None, Some(2.0), None, None, None, None];
+        figures.push(format!("{:?}", map.nearest_by_ranges(&known)));
+        let features = map.space().features(&records[5]).unwrap();
+        let features = features.iter().step_by(7);
+        let features: Vec<String> = features.map(|one| format!("{one:.5}")).collect();
+        figures.push(features.join(" "));
+    }
+    pinned("place_map", &figures);
 }

@@ -1,5 +1,4 @@
 //! A robot wanders through a room with wheels that are out of calibration, and maps places.
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -10,6 +9,8 @@ use tolman_maps::place_graph::{
 use tolman_robot::pioneer_2dx::CAMERA;
 use tolman_robot::{Mapper, Odometry, Picture, Snapshot, Sounding};
 use tolman_sim::{WallSegment, World};
+
+use crate::pinned::pinned;
 
 fn room() -> World {
     let corners = [
@@ -323,4 +324,55 @@ fn what_stands_on_the_floor_is_where_its_foot_is() {
         let [red, _] = point.colour.unwrap();
         assert!((red - 200.0 / 240.0).abs() < 1e-9, "{point:?}");
     }
+}
+
+/// A wanderer's map, and another robot that finds itself on it: every figure is pinned.
+#[test]
+fn a_run_by_outlines_is_what_it_was() {
+    let mut robot = Wanderer::new(0);
+    let mut map = PlaceGraph::new(PlaceGraphConfig::indoors());
+    let mut figures = Vec::new();
+    for look in 0..90 {
+        map.observe(&robot.see()).unwrap();
+        if look % 6 == 0 {
+            let belief = map.belief();
+            let here = (map.here(), map.is_localized(), belief.len());
+            figures.push(format!("{here:?} {:?}", map.wheels()));
+        }
+        robot.move_on();
+    }
+    figures.extend(map.poses().poses().iter().map(|pose| format!("{pose:?}")));
+    for edge in map.poses().edges().iter().step_by(3) {
+        figures.push(format!("{} {} {:?}", edge.from, edge.to, edge.measured));
+        figures.push(format!("{:?}", edge.information.as_slice()));
+    }
+    for place in map.places().iter().step_by(5) {
+        figures.push(format!("{} {:?}", place.points.len(), place.points.first()));
+        figures.push(format!(
+            "{:?} {:?}",
+            place.faced.first(),
+            place.points.last()
+        ));
+    }
+    figures.push(format!(
+        "{} {}",
+        map.bytes(),
+        map.nearest(Point::new(1.0, 1.0))
+    ));
+    for grows in [true, false] {
+        let mut found = map.clone().put_down(grows);
+        let mut other = Wanderer::new(21);
+        other.truth = Pose::new(Point::new(2.5, 1.2), other.truth.heading);
+        for look in 0..24 {
+            found.observe(&other.see()).unwrap();
+            let here = (found.here(), found.is_localized(), found.places().len());
+            figures.push(format!("{here:?}"));
+            if look % 8 == 0 {
+                let belief = found.belief();
+                figures.push(format!("{} {:?}", belief.len(), belief.first()));
+            }
+            other.move_on();
+        }
+    }
+    pinned("place_graph", &figures);
 }

@@ -1,4 +1,8 @@
-//! Λ1, Λ2 and the geometry of ports they stand for.
+//! CPM: Λ1, Λ2 and the geometry of ports they stand for; mazes that are learned, and found again.
+
+mod learning;
+mod sequences;
+mod world;
 
 use proptest::prelude::*;
 use tolman_maps::cpm::{

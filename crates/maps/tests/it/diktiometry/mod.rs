@@ -1,10 +1,4 @@
 //! The diktiometry on worlds of places, whose truth is known.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot set itself up has failed"
-)]
-
-extern crate alloc;
 
 mod certificates;
 #[cfg(feature = "serde")]
@@ -12,4 +6,5 @@ mod files;
 mod learning;
 mod properties;
 mod put_down;
+mod runs;
 mod walk;
