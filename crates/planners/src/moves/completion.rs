@@ -3,50 +3,21 @@ use tolman_maze::{Cell, Direction, Knowledge};
 use super::chart::Chart;
 use super::sides::Sides;
 use super::split_mix::SplitMix;
+use super::wall_odds::{GoalSide, log_odds};
 
 /// Draws mazes at random among those that agree with all that is known.
 ///
-/// The unknown sides are drawn one by one, in an order by chance, each given those around it that
-/// are known or drawn already. The log-odds that a side is open are a sum of terms for its two
-/// ends, the posts, and for its two cells. By far the strongest is a rule of the competitions: no
-/// post stands without a wall. The terms were fitted by logistic regression on every second of the
-/// classic mazes, all sides of each revealed in an order by chance.
+/// The unknown sides are drawn one by one, in an order by chance, each by its [`log_odds`] given
+/// those around it that are known or drawn already.
 pub(super) struct Completions<'a, const N: usize> {
     chart: &'a Chart<N>,
     /// The unknown sides, as many as there are.
     order: [[[(Cell, Direction); 2]; N]; N],
     unknown: usize,
-    /// Whether a way into the goal is known.
-    entrance: Entrance,
+    /// What a side that leads into the goal is, by whether another is known to be open.
+    entrance: GoalSide,
     rng: SplitMix,
 }
-
-/// Whether any of the sides that lead into the goal is open: most goals have one entrance.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Entrance {
-    Unknown,
-    Known,
-}
-
-/// Terms for a post, by the side across it (unknown, open, wall) and the two lateral ones, as
-/// [`term`] orders them.
-const POST: [[f32; 6]; 3] = [
-    [0.00, -0.20, -0.56, 0.36, 0.22, 0.62],
-    [0.22, -0.32, -2.78, 0.43, -0.06, 0.79],
-    [-0.19, -0.19, -0.20, 0.20, 0.51, 0.83],
-];
-/// Terms for a cell, by its opposite side and the two lateral ones.
-const CELL: [[f32; 6]; 3] = [
-    [0.04, -0.35, -0.71, 0.43, 0.02, 1.01],
-    [0.18, -0.36, -0.34, 0.38, -0.52, 1.03],
-    [-0.28, -0.41, -0.79, 0.49, 0.70, 0.57],
-];
-/// Log-odds for a side between two cells of the goal.
-const WITHIN_GOAL: f32 = 6.7;
-/// Log-odds for a side that leads into the goal, while no other is known to be open.
-const INTO_GOAL: f32 = -1.24;
-/// Log-odds for a side that leads into the goal, once another is known to be open.
-const INTO_GOAL_AGAIN: f32 = -3.49;
 
 impl<'a, const N: usize> Completions<'a, N> {
     pub(super) fn new(chart: &'a Chart<N>, rng: SplitMix) -> Self {
@@ -57,24 +28,11 @@ impl<'a, const N: usize> Completions<'a, N> {
             *slot = side;
             unknown += 1;
         }
-        let is_entrance = |cell: Cell, side: Direction| {
-            let next = cell.beyond(side);
-            chart.certain.contains(cell, side)
-                && !next.is_some_and(|cell| chart.goals.contains(cell))
-        };
-        let entrance = chart.goals.iter().any(|goal| {
-            let mut sides = Direction::ALL.into_iter();
-            sides.any(|side| is_entrance(goal, side))
-        });
         Self {
             chart,
             order,
             unknown,
-            entrance: if entrance {
-                Entrance::Known
-            } else {
-                Entrance::Unknown
-            },
+            entrance: entrance(chart),
             rng,
         }
     }
@@ -93,17 +51,17 @@ impl<'a, const N: usize> Completions<'a, N> {
                 continue;
             };
             let goals = [cell, next].map(|cell| self.chart.goals.contains(cell));
-            let goal = match (goals, entrance) {
-                ([true, true], _) => WITHIN_GOAL,
-                ([false, false], _) => 0.0,
-                (_, Entrance::Unknown) => INTO_GOAL,
-                (_, Entrance::Known) => INTO_GOAL_AGAIN,
+            let goal = match goals {
+                [true, true] => Some(GoalSide::Within),
+                [false, false] => None,
+                _ => Some(entrance),
             };
-            let odds = libm::expf(draw.surroundings(cell, side, next) + goal);
+            let sight = |cell, side| draw.sight(cell, side);
+            let odds = libm::expf(log_odds(cell, side, goal, sight));
             if self.rng.share() * (1.0 + odds) < odds {
                 draw.certain.insert(cell, side);
-                if goals != [false, false] && goals != [true, true] {
-                    entrance = Entrance::Known;
+                if goal == Some(GoalSide::First) {
+                    entrance = GoalSide::Another;
                 }
             } else {
                 draw.hoped.remove(cell, side);
@@ -121,6 +79,23 @@ impl<'a, const N: usize> Completions<'a, N> {
     }
 }
 
+/// Returns what an unknown side that leads into the goal is.
+fn entrance<const N: usize>(chart: &Chart<N>) -> GoalSide {
+    let is_entrance = |cell: Cell, side: Direction| {
+        let next = cell.beyond(side);
+        chart.certain.contains(cell, side) && !next.is_some_and(|cell| chart.goals.contains(cell))
+    };
+    let is_known = chart.goals.iter().any(|goal| {
+        let mut sides = Direction::ALL.into_iter();
+        sides.any(|side| is_entrance(goal, side))
+    });
+    if is_known {
+        GoalSide::Another
+    } else {
+        GoalSide::First
+    }
+}
+
 /// A maze that is drawn in part: what is known or drawn to be open, and what may still be.
 struct Draw<const N: usize> {
     hoped: Sides<N>,
@@ -128,21 +103,6 @@ struct Draw<const N: usize> {
 }
 
 impl<const N: usize> Draw<N> {
-    /// Returns the terms for what is around the `side` of `cell`, beyond which `next` lies.
-    fn surroundings(&self, cell: Cell, side: Direction, next: Cell) -> f32 {
-        let [left, right] = [side.left(), side.right()].map(|lateral| {
-            let across = match cell.beyond(lateral) {
-                Some(beside) => self.sight(beside, side),
-                None => Knowledge::Wall,
-            };
-            (across, self.sight(cell, lateral), self.sight(next, lateral))
-        });
-        let posts = [left, right].map(|(across, near, far)| term(&POST, across, near, far));
-        let near = term(&CELL, self.sight(cell, side.opposite()), left.1, right.1);
-        let far = term(&CELL, self.sight(next, side), left.2, right.2);
-        posts.iter().sum::<f32>() + near + far
-    }
-
     fn sight(&self, cell: Cell, side: Direction) -> Knowledge {
         if self.certain.contains(cell, side) {
             Knowledge::Open
@@ -154,15 +114,8 @@ impl<const N: usize> Draw<N> {
     }
 }
 
-fn term(terms: &[[f32; 6]; 3], across: Knowledge, one: Knowledge, other: Knowledge) -> f32 {
-    // Pairs in whichever order: by the later of the two, then by the other.
-    let (low, high) = (one.min(other) as usize, one.max(other) as usize);
-    let lateral = high * (high + 1) / 2 + low;
-    let row = terms.get(across as usize);
-    row.and_then(|row| row.get(lateral)).copied().unwrap_or(0.0)
-}
-
-#[cfg(all(test, feature = "alloc"))]
+#[cfg(test)]
+#[cfg(feature = "alloc")]
 mod tests {
     use super::*;
     use tolman_maze::{Grid, Walls};

@@ -289,5 +289,6 @@ fn power(base: f32, exponent: u16) -> f32 {
     (0..exponent).fold(1.0, |power, _| power * base)
 }
 
-#[cfg(all(test, feature = "alloc"))]
+#[cfg(test)]
+#[cfg(feature = "alloc")]
 mod tests;

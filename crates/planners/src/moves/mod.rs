@@ -55,6 +55,7 @@ mod sides;
 mod split_mix;
 mod step;
 mod stops;
+mod wall_odds;
 mod worth;
 
 pub use config::{MoveExplorerConfig, MoveExplorerConfigError};

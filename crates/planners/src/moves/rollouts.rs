@@ -36,7 +36,7 @@ impl RolloutConfig {
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
-            completions: 12,
+            completions: 32,
             trial: 3,
             confidence: 1.0,
             seed: 1,

@@ -24,11 +24,8 @@ pub struct WorthConfig {
     /// Number of mazes drawn for a decision, in place of
     /// [`RolloutConfig::completions`](super::RolloutConfig::completions). ≥ 1.
     pub completions: u16,
-    /// Greatest difference between the known run and the best that can be hoped for, steps, at
-    /// which it may stop. Drawn mazes are not as odd as real ones, and what they never show can be
-    /// worth most.
-    pub most_gap: u16,
-    /// Factor on the expected gain. > 0.
+    /// Factor on the expected gain, > 0. Drawn mazes are not as odd as real ones, and what they
+    /// never show can be worth most.
     pub gain: f32,
     /// Price of a step of the exploration, in steps of the run. > 0; the rules have a thirtieth.
     pub step_price: f32,
@@ -40,9 +37,8 @@ impl WorthConfig {
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
-            completions: 24,
-            most_gap: 5,
-            gain: 1.5,
+            completions: 48,
+            gain: 2.5,
             step_price: 1.0 / 30.0,
         }
     }
@@ -83,10 +79,6 @@ impl<const N: usize> Rollouts<N> {
         at: Cell,
         closed: u16,
     ) -> bool {
-        let gap = chart.open().map_or(0, |open| closed.saturating_sub(open));
-        if gap > worth.most_gap {
-            return false;
-        }
         let Some(stop) = self.base.proofs::<1>(chart, at, closed).best() else {
             return false;
         };

@@ -1,7 +1,5 @@
 //! The stops that the mouse makes for, compared with the definitions in their plainest form.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
 use alloc::vec;
 use alloc::vec::Vec;
 
