@@ -14,8 +14,8 @@ pub(super) enum GoalSide {
 /// Returns the log-odds that the `side` of `cell` is open, in a maze of competitions. `side` is
 /// north or east; `sight` tells what is known of other sides, and takes all outside for walls.
 ///
-/// A network with one hidden layer of rectifiers looks at the [`AROUND`] nearest sides. It was
-/// fitted to every second of the classic mazes (`docs/notebook/wall_odds.py`).
+/// A network with one hidden layer of rectifiers looks at the [`AROUND`] nearest sides.
+/// `wall_odds.py` fitted it to the classic mazes.
 pub(super) fn log_odds(
     cell: Cell,
     side: Direction,
@@ -75,49 +75,38 @@ impl Near {
 const REACH: i16 = 2;
 /// Number of sides that count: the parallel ones but the side itself, and those across.
 const AROUND: usize = 48;
+/// Number of the parallel ones among them.
+const PARALLEL: usize = 24;
 /// Number of hidden units.
 const UNITS: usize = 64;
 
 /// The sides that count, in the order of the weights.
 const NEAR: [Near; AROUND] = {
-    let itself = Near {
-        is_parallel: true,
-        through: 0,
-        along: 0,
-    };
-    let (mut near, mut count) = ([itself; AROUND], 0);
-    let mut along = -REACH;
-    while along <= REACH {
-        let mut through = -REACH;
-        while through <= REACH {
-            if along != 0 || through != 0 {
-                near[count] = Near {
-                    is_parallel: true,
-                    through,
-                    along,
-                };
-                count += 1;
-            }
-            through += 1;
-        }
-        along += 1;
+    let (mut all, mut index) = ([near(0); AROUND], 0);
+    while index < AROUND {
+        all[index] = near(index);
+        index += 1;
     }
-    along = -REACH - 1;
-    while along <= REACH {
-        let mut through = 1 - REACH;
-        while through <= REACH {
-            near[count] = Near {
-                is_parallel: false,
-                through,
-                along,
-            };
-            count += 1;
-            through += 1;
-        }
-        along += 1;
-    }
-    near
+    all
 };
+
+/// Returns a side by its place in the order of the weights: the parallel ones row by row, then
+/// those across.
+const fn near(index: usize) -> Near {
+    let is_parallel = index < PARALLEL;
+    let (width, place, first) = if is_parallel {
+        // The side itself, in the middle, is left out.
+        let place = index + (index >= PARALLEL / 2) as usize;
+        (2 * REACH + 1, place, -REACH)
+    } else {
+        (2 * REACH, index - PARALLEL, 1 - REACH)
+    };
+    Near {
+        is_parallel,
+        through: first + place as i16 % width,
+        along: place as i16 / width - if is_parallel { REACH } else { REACH + 1 },
+    }
+}
 
 /// The weights, rows of [`UNITS`] signed bytes, and the bias of the output.
 const WEIGHTS: &[u8; (2 * AROUND + 3 + 2) * UNITS + 1] = include_bytes!("wall_odds.bin");
