@@ -16,6 +16,7 @@ pub struct RangeModel {
 
 impl RangeModel {
     /// Returns the density of a reading whose expectation is `range`.
+    #[inline]
     pub(super) fn density(&self, reading: f64, range: f64) -> f64 {
         let relative = self.relative * range;
         let sd = libm::sqrt(self.absolute * self.absolute + relative * relative);

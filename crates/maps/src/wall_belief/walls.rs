@@ -225,6 +225,7 @@ impl<const N: usize> WallBelief<N> {
 
     /// Returns the sides of cells that a ray crosses, the nearest first (Amanatides and Woo, "A
     /// fast voxel traversal algorithm for ray tracing", 1987).
+    #[inline]
     fn crossings(
         &self,
         origin: Point,
