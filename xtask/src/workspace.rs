@@ -27,7 +27,7 @@ pub(crate) fn cargo(arguments: &str) -> Command {
     command
 }
 
-/// Returns what `cargo metadata` says of the workspace's members.
+/// Returns the workspace's members in the JSON of `cargo metadata`.
 ///
 /// # Errors
 /// If cargo cannot read a manifest.

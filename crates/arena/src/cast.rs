@@ -122,8 +122,8 @@ impl Cast {
     }
 }
 
-/// Returns what is in `cell`, or else what `make` makes for it. Two threads may make it at once;
-/// they make the same.
+/// Returns the value in `cell`, which `make` fills first if it is empty. Two threads may call
+/// `make` at once; both make the same value.
 fn once<T, E>(cell: &OnceLock<Arc<T>>, make: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
     let made = match cell.get() {
         Some(made) => made,

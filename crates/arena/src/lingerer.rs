@@ -43,7 +43,8 @@ impl Lingerer {
         }
     }
 
-    /// Returns how many actions it took to have been everywhere; all, where it never had.
+    /// Returns the number of actions until the robot had been everywhere, or of all actions if it
+    /// never was.
     pub(crate) fn explored(&self) -> u32 {
         self.explored.unwrap_or(self.actions)
     }

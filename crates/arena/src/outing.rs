@@ -227,7 +227,7 @@ pub trait Depicted: Recordable {
         None
     }
 
-    /// Returns what its laser sees.
+    /// Returns the scan of its laser, or `None` if it has no laser or the scan drops out.
     fn scan(_sensing: &Self::Sensing) -> Option<&Scan> {
         None
     }

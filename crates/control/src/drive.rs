@@ -139,7 +139,8 @@ impl<G: Rng> Drive<G> {
         }
     }
 
-    /// Returns what the layers make of this time step.
+    /// Returns the layers' proposal for this time step. A robot without a scan or a heading stands
+    /// still.
     fn propose<R>(&mut self, robot: &R) -> Proposal
     where
         R: Robot,

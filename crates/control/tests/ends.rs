@@ -55,7 +55,7 @@ impl Place {
         }
     }
 
-    /// Returns where a body that cannot pass a wall ends up.
+    /// Returns the position nearest to `position` that a body held by the walls can take.
     fn held(self, position: Point) -> Point {
         let Self::Corridor { width } = self else {
             return position;

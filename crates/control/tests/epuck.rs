@@ -47,7 +47,7 @@ fn look(pilot: &mut Pilot<Solo<Epuck>>) -> (Profile, Segments) {
     (profile, segments)
 }
 
-/// Returns where the robot is in its cell, and how many ways lead out of that.
+/// Returns the robot's offset from its cell's middle, m, and the number of ways out of the cell.
 fn truth(pilot: &Pilot<Solo<Epuck>>, maze: &Maze) -> (Point, usize) {
     let solo = pilot.robot();
     let (world, pose) = (solo.simulation().world(), solo.truth().pose);

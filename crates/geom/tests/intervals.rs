@@ -17,7 +17,7 @@ fn interval(low: f64, high: f64) -> Interval {
     Interval::new(low, high).unwrap()
 }
 
-/// Returns how many doubles lie between two, at most.
+/// Returns the number of steps, from one double to the next, that lead from `a` to `b`.
 fn steps(a: f64, b: f64) -> u64 {
     let ordered = |value: f64| {
         let bits = value.to_bits().cast_signed();

@@ -68,7 +68,7 @@ pub trait Walls {
     /// Returns size and wall numbering.
     fn grid(&self) -> Grid;
 
-    /// Returns what is known of the `direction` side of `cell`; the same from both sides of a wall.
+    /// Returns the knowledge of the `direction` side of `cell`; the same from both sides of a wall.
     fn knowledge(&self, cell: Cell, direction: Direction) -> Knowledge;
 }
 

@@ -250,8 +250,8 @@ struct Way {
     side: Direction,
 }
 
-/// Returns where a mouse is that began at `other`, when one that began at `first` and drove the
-/// same way is in `cell`.
+/// Returns the cell of a mouse that began at `other`, when one that began at `first` and drove the
+/// same way is in `cell`. `None` if it lies west or south of the grid.
 fn twin(cell: Cell, first: (Cell, Direction), other: (Cell, Direction)) -> Option<Cell> {
     let east = i32::from(cell.x) - i32::from(first.0.x);
     let north = i32::from(cell.y) - i32::from(first.0.y);

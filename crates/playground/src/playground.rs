@@ -44,7 +44,7 @@ pub enum PlaygroundError {
     Replay(#[from] EncodeError),
 }
 
-/// Returns what is at the bottom of an error.
+/// Returns the message of an error's innermost source.
 fn root(error: &dyn core::error::Error) -> String {
     let mut error = error;
     while let Some(source) = error.source() {

@@ -178,7 +178,7 @@ impl Session {
         }
     }
 
-    /// Returns what is happening.
+    /// Returns the caption for the task under way.
     fn under_way(&self, places: usize, guesses: usize) -> String {
         let name = self.contestant.name();
         match self.task {

@@ -195,7 +195,7 @@ impl<S: Scalar> Gng<S> {
         slot
     }
 
-    /// Returns what to do while there are fewer than two units.
+    /// Learns from an input while there are fewer than two units: each new point makes a unit.
     #[cold]
     fn begin(&mut self, input: &[S], best: Best<S>) -> NearestTwo<S> {
         let met = self.network.found(best.first);

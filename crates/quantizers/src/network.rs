@@ -203,7 +203,7 @@ impl<S: Scalar> Network<S> {
         self.named(best)
     }
 
-    /// Returns where the unit is until gaps are closed.
+    /// Returns the slot of a unit, which holds until gaps are closed.
     pub(crate) fn slot(&self, id: UnitId) -> Result<usize, UnknownUnit> {
         match self.ids.binary_search(&id) {
             Ok(slot) if self.live[slot] => Ok(slot),

@@ -95,7 +95,7 @@ impl Tally {
         self.radius.is_some_and(|radius| self.mean_error() > radius)
     }
 
-    /// Returns what is left to one of two units between which a unit is put.
+    /// Returns the tally that remains with a unit after one is put between it and another.
     fn reduced(self) -> Self {
         Self {
             error: self.error * 2.0 / 3.0,
@@ -213,7 +213,7 @@ impl<S: Scalar> Soinn<S> {
         met
     }
 
-    /// Returns what to do while there are fewer than two units.
+    /// Learns from an input while there are fewer than two units: each new point makes a unit.
     #[cold]
     fn begin(&mut self, input: &[S], best: Best<S>) -> NearestTwo<S> {
         match self.network.found(best.first) {

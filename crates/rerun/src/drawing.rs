@@ -48,7 +48,8 @@ pub(crate) fn transform(pose: Pose) -> Vec<SerializedComponentBatch> {
     Transform3D::from_translation_rotation(xyz(pose.position), turn).as_serialized_batches()
 }
 
-/// Returns what the beams of a scan met, in the robot's frame. Beams that met nothing are left out.
+/// Returns the points that the beams of a scan met, in the robot's frame. Beams that met nothing
+/// are left out.
 pub(crate) fn scan(ring: &Ring, ranges: &[f64]) -> Vec<SerializedComponentBatch> {
     let beams = (0..).zip(ranges);
     let met = beams.filter(|(_, range)| **range < ring.max_range);

@@ -20,7 +20,7 @@ pub trait Compass {
 
 /// Sensing with the distances that the wheels rolled.
 pub trait Rolls {
-    /// Returns what the wheels rolled since the step before, or `None` for a drop-out.
+    /// Returns the odometry since the step before, or `None` for a drop-out.
     fn odometry(&self) -> Option<Odometry>;
 }
 

@@ -24,13 +24,14 @@ pub trait Mapper {
     /// unchanged.
     fn observe(&mut self, seen: &Self::Observation) -> Result<(), Self::Error>;
 
-    /// Returns what it has learned, as places and links that any scorer and any drawing can read;
-    /// empty if it learns no map. O(map).
+    /// Returns the learned map as places and links, which any scorer and any drawing can read.
+    /// Empty if the mapper learns no map. O(map).
     fn map(&self) -> MapView {
         MapView::default()
     }
 
-    /// Returns where it believes the robot to be, the likeliest first; empty if it does not ask.
+    /// Returns the positions where it believes the robot to be, the likeliest first. Empty if the
+    /// mapper does not localize.
     fn belief(&self) -> Vec<Guess> {
         Vec::new()
     }
@@ -42,7 +43,7 @@ pub trait Mapper {
         Vec::new()
     }
 
-    /// Returns how many places it came to: as many as [`visits`](Self::visits) names.
+    /// Returns the number of places that it came to: as many as [`visits`](Self::visits) names.
     fn visit_count(&self) -> usize {
         self.visits().len()
     }

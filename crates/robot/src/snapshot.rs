@@ -14,8 +14,8 @@ pub struct Snapshot {
 
 /// Can take a snapshot: senses ranges, a picture, or both.
 pub trait TakesSnapshots: Soundings {
-    /// Returns what is perceived in this time step; `None` while nothing complete is available,
-    /// such as a picture while the robot moves.
+    /// Returns the snapshot of this time step; `None` while it would be incomplete, such as without
+    /// a picture while the robot moves.
     fn snapshot(&self) -> Option<Snapshot>;
 }
 

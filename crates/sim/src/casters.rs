@@ -35,7 +35,7 @@ pub use wall_index::WallIndex;
 
 /// Returns distances to the nearest wall in any direction.
 pub trait Caster: fmt::Debug + Send + Sync {
-    /// Returns how far a ray goes before it meets a wall, m; `max_range` if it meets none before.
+    /// Returns the distance along a ray to the first wall, m; `max_range` if it meets none before.
     /// `direction` is a unit vector.
     fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64;
 

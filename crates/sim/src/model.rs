@@ -33,7 +33,7 @@ pub trait Model {
     /// Returns its outline.
     fn body(&self) -> &Body;
 
-    /// Returns what happens where the body meets something.
+    /// Returns the rule for contacts: how the body moves on when it meets something.
     fn contact(&self) -> Contact;
 
     /// Returns the length of one time step, µs.
@@ -45,7 +45,7 @@ pub trait Model {
     /// The part of the command that is not a number.
     fn check(&self, command: &Self::Command) -> Result<(), CommandError>;
 
-    /// Returns what the motors make of a command. Called only with a command that passed
+    /// Returns the motion that the motors make of a command. Called only with a command that passed
     /// [`check`](Self::check).
     fn motion(&mut self, command: &Self::Command, chance: &Chance) -> Motion;
 

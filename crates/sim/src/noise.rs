@@ -48,7 +48,7 @@ impl Values for f64 {
 }
 
 impl<V: Values> Values for Option<V> {
-    /// Returns what is missing stays so.
+    /// Changes the value if it is there. A missing value stays missing.
     fn change(&mut self, change: impl FnMut(f64) -> f64) {
         if let Some(value) = self {
             value.change(change);

@@ -166,7 +166,7 @@ impl Placed {
         }
     }
 
-    /// Returns how far a ray meets the body from outside, m; infinity if it does not.
+    /// Returns the distance along a ray to the body, m, from outside; infinity if it misses.
     pub(crate) fn ray(&self, origin: Point, direction: Vector) -> f64 {
         if self.corners.is_empty() {
             let to_centre = self.pose.position - origin;

@@ -71,9 +71,9 @@ pub trait Recordable:
     where
         Self: Sized;
 
-    /// Returns what disturbs this one from outside its configuration, each as a text that tells it
-    /// from others; see [`Disturbance`](crate::noise::Disturbance). A trace keeps the texts, since
-    /// it cannot keep the code.
+    /// Returns the disturbances that come from outside the configuration, each as a text that tells
+    /// it from others; see [`Disturbance`](crate::noise::Disturbance). A trace keeps the texts,
+    /// since it cannot keep the code.
     fn disturbances(&self) -> Vec<String> {
         Vec::new()
     }

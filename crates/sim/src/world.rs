@@ -264,7 +264,7 @@ impl World {
         &self.index
     }
 
-    /// Returns what all walls are made of, if it is the same.
+    /// Returns the material that all walls share, or `None` if they differ.
     pub(crate) fn common_material(&self) -> Option<Material> {
         self.common_material
     }

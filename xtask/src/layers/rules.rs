@@ -18,7 +18,7 @@ pub(super) enum Kind {
 }
 
 impl Package {
-    /// Returns what is needed to build it.
+    /// Returns the names of the crates that it needs to be built.
     pub(super) fn uses(&self) -> impl Iterator<Item = &str> {
         let normal = self
             .dependencies

@@ -518,8 +518,8 @@ pub(super) fn pioneer_course(name: &str, maze: &Maze) -> Result<Course, BoxError
     Ok(Course::for_body(name, &file, &body())?)
 }
 
-/// Returns what the noisy mouse is told of a Pioneer among thin walls: encoders and ranges are off
-/// by a few percent.
+/// Returns the noisy mouse's configuration for a Pioneer among thin walls, whose encoders and
+/// ranges are off by a few percent.
 const fn believing(robot: &LaserPioneerConfig, pitch: f64) -> NoisyMouseConfig {
     let mut config = NoisyMouseConfig::new(pitch, robot.turn_per_step, robot.translate_per_step);
     config.motion = MotionSource::Encoders;

@@ -387,7 +387,8 @@ impl<'a> Contest<'a> {
         }
     }
 
-    /// Returns where the robot is put during learning without being told; `None` if it is not.
+    /// Returns the cell and direction to which the robot is carried, untold, while it learns, or
+    /// `None` without a kidnapping.
     fn kidnapping(&self) -> Option<(Cell, Direction)> {
         let is_kidnapped = self.condition == Condition::Kidnapping;
         let mut rng = stream(self.seed, KIDNAPPING_STREAM);
@@ -642,7 +643,7 @@ impl Bout {
         (is_over || self.outing.is_out_of_time()).then_some(TaskEnd::OutOfTime)
     }
 
-    /// Returns how a task went that ended so.
+    /// Returns the record of a task that ended by `end`: its bumps, arrival and distance.
     pub(super) fn driven(&self, pursuit: &Pursuit, end: TaskEnd) -> Driven {
         Driven {
             end,

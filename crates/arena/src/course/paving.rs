@@ -183,7 +183,7 @@ impl Paving {
     }
 }
 
-/// Returns how many squares the body can go straight ahead from one.
+/// Returns the number of squares that the body can go straight ahead from `cell`.
 fn run(maze: &Maze, cell: Cell, direction: Direction) -> u32 {
     let ahead = core::iter::successors(Some(cell), |cell| maze.beside(*cell, direction));
     ahead.skip(1).count() as u32

@@ -25,7 +25,7 @@ pub struct WayOut {
     pub cells: u32,
 }
 
-/// Returns what the robot sees to stand in a cell.
+/// Returns the landmark in a cell, or `None` if it holds neither the start nor a goal.
 pub(crate) fn landmark_at(maze: &Maze, cell: Cell) -> Option<Landmark> {
     if maze.start().is_some_and(|(start, _)| start == cell) {
         return Some(Landmark::Start);
@@ -96,7 +96,7 @@ pub(super) fn bends(headings: &[Direction]) -> Vec<Quarters> {
     headings.windows(2).map(bend).collect()
 }
 
-/// Returns where one looks who goes from one cell to another.
+/// Returns the heading from one cell to another.
 fn heading_between(from: Cell, to: Cell) -> Heading {
     let step = |from: u16, to: u16| f64::from(to) - f64::from(from);
     Heading::of(Vector::new(step(from.x, to.x), step(from.y, to.y)))

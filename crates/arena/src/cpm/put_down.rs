@@ -76,7 +76,7 @@ pub struct PutDownRecord {
 }
 
 impl KnownMaze<'_> {
-    /// Returns where a robot with this map may be put.
+    /// Returns the spots inside the fragments that the map knows, where a robot may be put down.
     fn spots(&self) -> Vec<Spot> {
         Spot::all(&self.course.maze, |way| {
             let mut known = self.learned.truth.values();

@@ -67,7 +67,8 @@ impl PlaceAtEnd {
         }
     }
 
-    /// Returns what is seen of it from the cell beside it.
+    /// Returns the view of the place from the cell beside it: no landmark, and only ways to the
+    /// sides. With [`Looks::AtBends`] no way is seen.
     fn beside(&self, looks: Looks) -> Self {
         let open = match looks {
             Looks::AtBends => Vec::new(),

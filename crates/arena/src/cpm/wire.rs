@@ -159,7 +159,7 @@ fn line(seed: u64) -> Line {
     Line(Rc::new(RefCell::new(Firmware::new(simulated(seed)))))
 }
 
-/// Returns how the robot is driven whose encoders count steps.
+/// Returns the walker's configuration for a robot whose encoders count steps.
 fn config() -> WalkerConfig {
     let mut config = walker_config(&epuck(), WIDTH).unwrap();
     config.pilot.turn_tolerance = TURN_STEP;

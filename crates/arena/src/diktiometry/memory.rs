@@ -54,7 +54,7 @@ impl Memory {
         }
     }
 
-    /// Returns where a way leads if it is there, for all it knows.
+    /// Returns the site at the end of a way, or `None` if it was never driven or is missing by now.
     fn end(&self, way: (u32, Direction)) -> Option<u32> {
         let to = self.led.get(&way)?.site;
         let is_there = !self.shut.contains(&way) && !self.missed.contains(&to);

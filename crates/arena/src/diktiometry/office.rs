@@ -353,7 +353,7 @@ pub struct TruePlace {
     pub ways: [Option<u32>; 4],
 }
 
-/// Returns where the way from a site in a direction truly leads.
+/// Returns the site to which a way truly leads, or `None` where a wall is.
 pub(super) fn leads(truth: &Places, (site, direction): (u32, Direction)) -> Option<u32> {
     truth.get(&site)?.ways[direction.index()]
 }
@@ -459,7 +459,7 @@ impl OfficeConfig {
         outline.map(|(x, y)| corner(x, y)).collect()
     }
 
-    /// Returns what narrows a passage to a doorway: on both sides the outline of a post.
+    /// Returns the outlines of the two posts, left and right, that narrow a passage to a doorway.
     fn jambs(&self, cell: Cell, direction: Direction) -> [Vec<Point>; 2] {
         let width = self.corridor_width;
         let (centre, ahead) = (self.between(cell, direction), unit_of(direction));

@@ -147,7 +147,8 @@ impl ForeignBrain {
         program.hear()
     }
 
-    /// Returns what became of a program that says no more.
+    /// Returns the standing of a brain whose program says no more, after waiting for the program's
+    /// end.
     fn left(&mut self) -> Result<Standing, LaunchError> {
         let Some(program) = self.program.take() else {
             return Ok(Standing::gave_up("the brain has ended"));

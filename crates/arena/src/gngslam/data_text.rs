@@ -221,7 +221,7 @@ impl Header {
         }
     }
 
-    /// Returns what is written of one record.
+    /// Returns the line that is written for one record.
     fn line(&self, line: usize, labelled: &LabelledRecord) -> Result<Line, DataTextError> {
         let wrong = |what| DataTextError::Record { line, what };
         let Snapshot { soundings, picture } = &labelled.record.snapshot;

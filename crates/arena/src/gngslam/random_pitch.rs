@@ -165,7 +165,7 @@ fn gap(a: &Bounds, b: &Bounds) -> f64 {
     x.max(y)
 }
 
-/// Returns where on a side a goal hangs: 0.9 to 1.6 m of it.
+/// Returns the part of a side that a goal covers, 0.9 to 1.6 m wide.
 fn goal_on(room: &Room, side: usize, rng: &mut ChaCha8Rng) -> Span {
     let width = rng.random_range(0.9..1.6) / room.length(side);
     part_of(side, width, rng)

@@ -188,7 +188,7 @@ const fn costs(certificate: &Certificate, open: u32) -> CertificateError {
     }
 }
 
-/// Returns where one step in a direction may end.
+/// Returns the cells in which one step in a direction may end, the nearest first.
 fn reach(
     grid: Grid,
     from: Cell,

@@ -67,7 +67,7 @@ impl NoisyConfig {
         robot
     }
 
-    /// Returns what the mouse knows of its body and its maze.
+    /// Returns the mouse's configuration: its model of its body and its maze.
     fn mouse(&self, robot: &LaserPioneerConfig) -> NoisyMouseConfig {
         let mut mouse =
             NoisyMouseConfig::new(SIZE.pitch(), robot.turn_per_step, robot.translate_per_step);

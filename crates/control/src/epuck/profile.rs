@@ -111,8 +111,8 @@ impl Profile {
         Self { values }
     }
 
-    /// Returns what is met at every bearing, in the robot's frame, m; where nothing is met, the
-    /// farthest point that could be.
+    /// Returns the point that each bearing's reading stands for, in the robot's frame, m. Where
+    /// nothing is met, it is the farthest point in reach.
     pub(super) fn echoes(&self, curve: &RangeCurve) -> impl Iterator<Item = (Point, Met)> + '_ {
         // The sensors sit on a circle.
         let mounts = proximity_mounts();

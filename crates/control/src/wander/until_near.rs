@@ -130,7 +130,7 @@ impl UntilNear {
         Ok(LegEnd::TooLong)
     }
 
-    /// Returns what the layers make of this time step.
+    /// Returns the layers' decision for this time step.
     fn propose(&mut self, sensing: &(impl Soundings + Bumps)) -> LegStep {
         let translate = self.config.translate;
         let ahead = GoAhead { translate }.propose();

@@ -106,7 +106,7 @@ impl Folds {
         shown
     }
 
-    /// Returns how many of these figures are open, and subtracts their height.
+    /// Returns the number of these figures that are shown open, and subtracts their height.
     pub(super) fn of_figures(&mut self, figures: &[&Figure]) -> usize {
         let (count, height) = first_line(figures);
         if count > 0 && height <= self.left {

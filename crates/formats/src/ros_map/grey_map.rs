@@ -169,7 +169,7 @@ impl Reader<'_> {
         Ok(values)
     }
 
-    /// Returns what is wrong where a value should be.
+    /// Returns the error for a byte that should begin a value.
     fn ended(&self, byte: usize, found: usize, wanted: usize) -> GreyMapError {
         if byte == self.bytes.len() {
             return GreyMapError::TooShort {

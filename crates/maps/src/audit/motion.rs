@@ -144,7 +144,7 @@ impl Spread {
         }
     }
 
-    /// Returns what is left of the spread of x and y where the heading is known: (xx, xy, yy).
+    /// Returns the covariance of x and y given the heading: (xx, xy, yy), m².
     fn without_heading(&self) -> (f64, f64, f64) {
         let (across, up) = (self.xt / self.tt, self.yt / self.tt);
         (

@@ -67,7 +67,7 @@ impl CpMap {
         })
     }
 
-    /// Returns how many places known ways join to one, itself among them.
+    /// Returns the number of places that known ways join to `from`, itself among them.
     fn reached_from(&self, from: JunctionId) -> usize {
         let Some(first) = self.junctions.rank(from) else {
             return 0;

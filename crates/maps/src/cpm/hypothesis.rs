@@ -205,7 +205,8 @@ impl Hypothesis {
         all
     }
 
-    /// Returns what speaks for two walks being along one fragment, or `None` if they cannot be.
+    /// Returns the log odds, by displacement, that two walks went along one fragment. `None` if the
+    /// displacements cannot be the same; 0 if one is unknown.
     fn motion_evidence(
         &self,
         known: Option<DeadReckoning>,
@@ -276,8 +277,7 @@ impl Hypothesis {
 }
 
 impl Comparison<'_> {
-    /// Returns what the observations say for two walks being along one fragment, a logarithm of
-    /// odds.
+    /// Returns the log odds, by observations, that two walks went along one fragment.
     fn evidence(&self, known: &Fragment, patterns: &[PatternId], sense: Sense) -> f64 {
         let score = self.score(patterns, &known.patterns, sense);
         let length = known.patterns.len().min(patterns.len()).max(1) as f64;
@@ -286,8 +286,8 @@ impl Comparison<'_> {
     }
 }
 
-/// Returns what it costs to believe that ways which a robot has seen, having come by a port, are
-/// those of a place.
+/// Returns the cost of the belief that the ways seen from `port` are those of `place`, as a
+/// negative logarithm of odds.
 fn bearings_cost(place: &Junction, port: u32, walk: &Traversal) -> f64 {
     let off = place.apart(port, walk.bearings.as_ref()) / SHARP;
     (0.5 * off * off).min(MOST_EVIDENCE)

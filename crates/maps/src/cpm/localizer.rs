@@ -421,7 +421,7 @@ impl Localizer {
         sums
     }
 
-    /// Returns how likely a turn leads into each track.
+    /// Returns the probability that a turn leads into each track, in order of tracks.
     fn entered(&self, turn: Turn) -> Result<Vec<f64>, NoSuchTurn> {
         let mut entered = vec![0.0; self.tracks.len()];
         let mut refused = None;

@@ -329,8 +329,7 @@ impl CpMap {
         junction.map_or(&[][..], |junction| &junction.ports)
     }
 
-    /// Returns where one arrives who leaves by such a port: the junction's rank, and the number of
-    /// its port.
+    /// Returns the junction to which a port leads, by its rank, and the number of its port there.
     pub(super) fn led_to(&self, port: PortState) -> Option<(usize, u32)> {
         let PortState::Filled(end) = port else {
             return None;

@@ -165,7 +165,7 @@ pub(super) struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// Returns how similar two sequences are, the second walked as the sense says.
+    /// Returns the similarity of two sequences, the second walked in the given sense.
     pub(super) fn score(&self, one: &[PatternId], other: &[PatternId], sense: Sense) -> f64 {
         let compute = || self.matching.score_as(self.dictionary, one, other, sense);
         self.scores.of(one, other, sense, compute)

@@ -27,12 +27,13 @@ pub enum Sense {
 }
 
 impl Sense {
-    /// Returns how a fragment is walked that is entered at an end.
+    /// Returns the sense in which a fragment is walked from an end: [`Same`](Self::Same) from the
+    /// end −.
     pub(super) fn entered_at(sign: Sign) -> Self {
         Self::between(Sign::Minus, sign)
     }
 
-    /// Returns which way round two fragments are one whose ends of these signs are.
+    /// Returns the sense in which two fragments are one, if their ends of these signs coincide.
     pub(super) fn between(one: Sign, other: Sign) -> Self {
         match one == other {
             true => Self::Same,

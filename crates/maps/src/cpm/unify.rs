@@ -17,7 +17,7 @@ pub(super) struct Merges {
 }
 
 impl Merges {
-    /// Returns what has become of an end.
+    /// Returns the end that an end has become by merges.
     #[must_use]
     pub(super) fn end(&self, mut end: End) -> End {
         while let Some((fragment, sense)) = self.fragments.get(&end.fragment) {
@@ -31,7 +31,7 @@ impl Merges {
         self.fragments.contains_key(&fragment)
     }
 
-    /// Returns what has become of a port.
+    /// Returns the port that a port has become by merges.
     #[must_use]
     pub(super) fn port(&self, mut port: Port) -> Port {
         while let Some((junction, offset, degree)) = self.junctions.get(&port.junction) {

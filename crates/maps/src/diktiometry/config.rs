@@ -569,7 +569,7 @@ impl Config {
 }
 
 impl SignatureKind {
-    /// Returns how many columns have to agree, ≥ 1: of 8 at a share of 0.6, 5.
+    /// Returns the number of columns that have to agree, ≥ 1: of 8 at a share of 0.6, 5.
     pub(super) fn enough(&self) -> usize {
         let enough = libm::ceil(self.share * self.columns as f64 - 1e-9) as usize;
         enough.max(1)

@@ -78,14 +78,14 @@ impl Observer {
         }
     }
 
-    /// Returns what is expected most of an action.
+    /// Returns the likeliest result of an action, or `None` if the map has no link for it.
     fn likeliest(&self, from: PlaceId, action: Action) -> Option<Predicted> {
         let best = self.map.paths.likeliest(from, action)?;
         let mut all = self.predict(from, action).into_iter();
         all.find(|one| one.place == self.map.link(best).to)
     }
 
-    /// Returns what a track expected and did not meet.
+    /// Returns the contradictions between a track's expectation and what it met.
     fn contradictions(
         &self,
         track: TrackId,
@@ -183,7 +183,7 @@ impl Observer {
         plies(&self.map, &reached, projection)
     }
 
-    /// Returns how often the way just gone was gone before.
+    /// Returns the number of times that the robot had gone the last way before.
     fn traversals(&self, projection: &Projection) -> u32 {
         let [from, to] = self.ends(projection);
         let grid = &self.map.frame(projection.frame).grid;

@@ -70,8 +70,8 @@ impl Diktiometry {
         Some(there.position + to - from)
     }
 
-    /// Returns where `to` lies as seen from `from` by the relation between their frames alone, m,
-    /// or `None` if they are not related.
+    /// Returns the position of `to` relative to `from` by the relation between their frames alone,
+    /// m, or `None` if they are not related.
     pub(super) fn related(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
         let [(start, from), (end, to)] = [from, to].map(|place| self.site(place));
         Some(self.reference.known(start, end)? + to - from)

@@ -237,7 +237,8 @@ impl Graph for Walkable<'_> {
     }
 }
 
-/// Returns what leads from each place of a way to the next, by the ways there are from each.
+/// Returns the steps from place to place along `way`, or `None` if two of its places are not
+/// joined. `ways` gives the steps from a place.
 pub(super) fn steps_along<I: Iterator<Item = PlanStep>>(
     way: &[u32],
     ways: impl Fn(PlaceId) -> I,

@@ -336,7 +336,7 @@ impl PathGraph {
         }
     }
 
-    /// Returns how many places stand.
+    /// Returns the number of places that were not merged away.
     pub(super) const fn standing(&self) -> usize {
         self.standing
     }

@@ -151,7 +151,7 @@ enum Pair {
 }
 
 impl Observer {
-    /// Returns how likely a place looks as seen, up to a factor.
+    /// Returns the likelihood of the first view at a place, up to a factor.
     fn likelihood(&self, place: PlaceId, seen: &FirstPlace) -> f64 {
         let known = self.map.place(place);
         let look = match agrees(known, seen.percept.as_ref(), &self.config.percepts) {
@@ -164,7 +164,8 @@ impl Observer {
         )
     }
 
-    /// Returns how many actions seem possible at one place and not at the other, as far as known.
+    /// Returns the number of actions that seem possible at one place alone, or 0 if either's exits
+    /// are unknown.
     fn differing(&self, one: &Exits, other: &Exits) -> usize {
         let (Exits::Seen(one), Exits::Seen(other)) = (one, other) else {
             return 0;

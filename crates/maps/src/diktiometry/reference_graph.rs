@@ -73,7 +73,7 @@ impl ReferenceGraph {
         frame.find(to).ok().map(|at| &frame.relations[at])
     }
 
-    /// Returns where the origin of `to` lies in `from` by the relation between the two, m, or
+    /// Returns the position of the origin of `to` in `from` by the relation between the two, m, or
     /// `None` if they are not related.
     pub(super) fn known(&self, from: FrameId, to: FrameId) -> Option<PointBox> {
         if from == to {

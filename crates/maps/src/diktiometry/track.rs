@@ -60,7 +60,7 @@ impl Track {
         }
     }
 
-    /// Returns what became of it as far as it knows: not how the map has the move.
+    /// Returns the report of the track after a move, without the map's own motion.
     pub(super) const fn report(
         &self,
         from: PlaceId,

@@ -84,7 +84,7 @@ struct Reach {
 }
 
 impl Reach {
-    /// Returns where surfaces are looked for within `gate` of a point, or of where an arc ends.
+    /// Returns the distances for an outline whose points and arcs find surfaces within `gate`, m.
     fn of(outline: &Outline, gate: f64) -> Self {
         let points = outline.points.iter();
         let points = points.map(|point| point.position.coords.norm() + gate_of(point, gate));
@@ -131,8 +131,8 @@ fn between<'a, 'b>(surfaces: &'b [&'a Surface], low: f64, high: f64) -> &'b [&'a
     run
 }
 
-/// Returns where a robot is that was predicted at `predicted`, with this covariance, and sees
-/// `outline`; `None` if the covariance is singular. `surfaces` come as
+/// Returns the fitted pose of a robot that sees `outline` and was predicted at `predicted`. `None`
+/// if the covariance is singular. `surfaces` are sorted as
 /// [`Surfaces::all`](super::surfaces::Surfaces::all) has them. O(rounds · outline · surfaces near
 /// each of its points).
 pub(super) fn fit(
@@ -253,7 +253,8 @@ fn is_alike(surface: &Surface, point: &OutlinePoint, normal: Option<Vector>) -> 
     }
 }
 
-/// Returns how much farther a sonar heard than the nearest surface in its cone.
+/// Returns the residual of a sonar's range and the nearest surface in its cone, or `None` if no
+/// surface fits.
 fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Option<Residual> {
     let ear = pose.compose(arc.mount);
     let axis = ear.heading.unit();

@@ -114,8 +114,8 @@ pub(super) fn weights(hypotheses: &[Hypothesis]) -> Vec<f64> {
 }
 
 impl Hypothesis {
-    /// Returns where a robot was held to be until it was doubted: likelier than anywhere else to
-    /// begin with.
+    /// Returns the hypothesis that the robot is still where it was believed to be until doubt
+    /// began. It begins likelier than any other.
     pub(super) const fn held(pose: Pose, covariance: Matrix3<f64>) -> Self {
         Self {
             pose,

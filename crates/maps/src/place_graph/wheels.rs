@@ -49,7 +49,8 @@ impl WheelError {
         }
     }
 
-    /// Returns where a robot has come to that rolled so.
+    /// Returns the pose that follows from the odometry, corrected for the error, with its
+    /// covariance.
     pub(super) fn predict(&self, rolled: &[Odometry]) -> Rolled {
         let pose = way(rolled, self.scale, self.curvature);
         let changed = |scale: f64, curvature: f64| {

@@ -43,7 +43,7 @@ impl OptimizerConfig {
         }
     }
 
-    /// Returns what an edge of squared error χ² adds to the whole (Geman and McClure).
+    /// Returns an edge's part of the total cost, given its squared error χ² (Geman and McClure).
     fn cost(&self, edge: &PoseEdge, squared: f64) -> f64 {
         match (self.doubt, edge.kind) {
             (Some(doubt), PoseEdgeKind::Closure) => doubt * squared / (doubt + squared),
@@ -51,7 +51,7 @@ impl OptimizerConfig {
         }
     }
 
-    /// Returns how much an edge of squared error χ² counts: the derivative of its cost.
+    /// Returns an edge's weight, given its squared error χ²: the derivative of its cost.
     fn weight(&self, edge: &PoseEdge, squared: f64) -> f64 {
         match (self.doubt, edge.kind) {
             (Some(doubt), PoseEdgeKind::Closure) => {

@@ -208,8 +208,7 @@ impl StandpointBelief {
     }
 }
 
-/// Returns where a way that is sure to `sd` may have ended, from where it should have, each with
-/// its share.
+/// Returns the errors of a way with standard deviations `sd`, m, each with its probability.
 fn spread(sd: Vector) -> impl Iterator<Item = (Vector, f64)> {
     let fine = 0.5 * Standpoints::SPACING;
     let offsets = move |sd: f64| {

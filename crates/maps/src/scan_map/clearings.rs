@@ -87,8 +87,8 @@ impl<'a> Clearings<'a> {
         gap.is_some()
     }
 
-    /// Returns which cells the robot can stand in and come to from any of the places, by slot of
-    /// the grid. O(cells).
+    /// Returns whether the robot can stand in each cell and come to it from any of the places, by
+    /// slot of the grid. O(cells).
     pub(super) fn reached(&self, places: impl IntoIterator<Item = Point>) -> Vec<bool> {
         let starts = places.into_iter().map(index_of);
         let starts: Vec<GridIndex> = starts

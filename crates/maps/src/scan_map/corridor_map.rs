@@ -175,7 +175,7 @@ fn has_nothing(chart: &ScanChart, at: Point, width: f64) -> bool {
         .any(|place| place.landmark.is_none() && (place.position - at).norm() < HAS_NOTHING * width)
 }
 
-/// Returns where landmarks stand, and where the robot was put down.
+/// Returns the cells of landmarks, and the cell where the robot was put down, which may have none.
 fn landmarks(
     chart: &ScanChart,
     width: f64,

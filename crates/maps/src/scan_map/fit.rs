@@ -167,7 +167,7 @@ const PASSED: f64 = 0.15;
 /// corner.
 const RAY_STEP: f64 = 0.06;
 
-/// Returns where every other beam passes, beam by beam.
+/// Returns points along every other beam before it ends, beam by beam.
 fn rays(expected: Point, heading: Heading, scan: &Scan) -> Vec<Vec<Point>> {
     let ray = |(index, range): (u32, &f64)| {
         let unit = heading.turned(scan.ring.bearing(index)).unit();
@@ -179,7 +179,8 @@ fn rays(expected: Point, heading: Heading, scan: &Scan) -> Vec<Vec<Point>> {
     (0..).zip(&scan.ranges).step_by(2).map(ray).collect()
 }
 
-/// Returns how many beams pass through walls.
+/// Returns the number of beams that pass through walls, if the rays are shifted by `shift`, m. A
+/// ray stands for two beams.
 fn crossings(grid: &WallGrid, rays: &[Vec<Point>], shift: Vector) -> f64 {
     let crosses = |ray: &&Vec<Point>| ray.iter().any(|at| grid.is_wall(*at + shift));
     2.0 * rays.iter().filter(crosses).count() as f64

@@ -38,7 +38,7 @@ const FARTHEST: i32 = 1_000_000;
 impl GroundKind {
     const ALL: [Self; 3] = [Self::Unknown, Self::Floor, Self::Wall];
 
-    /// Returns how it is written.
+    /// Returns the character that stands for it in a file.
     const fn letter(self) -> char {
         match self {
             Self::Unknown => ' ',
@@ -55,7 +55,7 @@ impl GroundKind {
 }
 
 impl GroundPlan {
-    /// Returns how many bytes walls and floor take. O(1).
+    /// Returns the memory of walls and floor, bytes. O(1).
     pub(super) const fn bytes(&self) -> usize {
         size_of_val(self.walls.as_slice()) + size_of_val(self.floor.as_slice())
     }
@@ -158,7 +158,7 @@ impl GroundPlan {
         sees(from, to, |at| self.at(index_of(at)) == GroundKind::Wall)
     }
 
-    /// Returns what a cell holds.
+    /// Returns the kind of ground in a cell; unknown outside the plan.
     pub(super) fn at(&self, index: GridIndex) -> GroundKind {
         let Some(slot) = self.slot(index) else {
             return GroundKind::Unknown;

@@ -274,7 +274,7 @@ impl Lattice {
     }
 }
 
-/// Returns which cells of the lattice the robot can come to from where it has been.
+/// Returns the set of lattice cells that the robot can reach from places where it has been.
 fn stands(chart: &ScanChart, clearings: &Clearings<'_>, lattice: &Lattice) -> RankedBits {
     let reached = clearings.reached(chart.places().iter().map(|place| place.position));
     let columns = lattice.columns as usize;

@@ -183,7 +183,7 @@ impl WallGrid {
         (first[1]..end[1]).flat_map(row)
     }
 
-    /// Returns what a cell holds.
+    /// Returns the kind of ground in a cell; unknown if no beam met or passed it.
     pub(super) fn ground(&self, index: GridIndex) -> GroundKind {
         match self.cell(index) {
             Some(cell) if cell.is_wall() => GroundKind::Wall,

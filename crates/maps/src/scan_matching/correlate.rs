@@ -181,7 +181,7 @@ impl Search<'_> {
         }
     }
 
-    /// Returns what the prior takes, at least, of the poses of a candidate.
+    /// Returns the least loss of score by the prior among the poses of a candidate.
     fn loss(&self, turn: f64, shift: [i32; 2], width: i32) -> f64 {
         let nearest = shift.map(|low| {
             let high = low + width - 1;

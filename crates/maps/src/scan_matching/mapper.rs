@@ -240,7 +240,7 @@ impl ScanMatching {
 /// Number of points of a scan with which poses are searched.
 const SEARCHED_POINTS: usize = 180;
 
-/// Returns what the wheels alone say of a pose: ahead, left, heading.
+/// Returns the information matrix of a pose by odometry alone: ahead, left, heading.
 fn odometry_information(config: &ScanMatchingConfig) -> Matrix3<f64> {
     let [sd, turn_sd] = [config.odometry_sd, config.odometry_turn_sd];
     let sure = Vector3::new(sd * sd, sd * sd, turn_sd * turn_sd);

@@ -58,8 +58,8 @@ impl ScanOutline {
         }
     }
 
-    /// Returns which way its surfaces run: the sum of unit vectors at four times the heading of
-    /// each, since quarter turns are the same.
+    /// Returns the sum of unit vectors at four times each surface's heading. Its direction tells
+    /// how walls run, since quarter turns count as the same.
     pub(super) fn axis(&self) -> Vector {
         let told = self.points.iter().step_by(AXIS_POINTS);
         let told = told.filter(|point| point.normal != Vector::zeros());

@@ -119,8 +119,8 @@ fn local(grid: &LikelihoodGrid, outline: &ScanOutline, pose: Pose, kernel: f64) 
     local
 }
 
-/// Returns how a point moves along a direction of the robot's frame as the robot moves ahead, left
-/// and turns.
+/// Returns the derivative of a point's coordinate along `direction` by the robot's motion: ahead,
+/// left, turn.
 fn by_pose(point: &SurfacePoint, direction: Vector) -> Vector3<f64> {
     let turning = Vector::new(-point.at.y, point.at.x);
     Vector3::new(direction.x, direction.y, direction.dot(&turning))

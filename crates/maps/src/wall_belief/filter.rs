@@ -246,8 +246,8 @@ fn mean(particles: &[Particle], sum: f64) -> Pose {
     Pose::new(Point::from(position / sum), Heading::of(direction))
 }
 
-/// Returns how likely a reading is for a mouse at `pose`, up to a factor; `nothing` is its density
-/// where no wall is met.
+/// Returns the likelihood of a reading for a mouse at `pose`, up to a factor. `nothing` is the
+/// density where no wall is met.
 fn likelihood<const N: usize>(
     sensor: &RangeModel,
     walls: &WallBelief<N>,

@@ -17,7 +17,8 @@ fn ring() -> Ring {
     Ring::full(72, 1.25)
 }
 
-/// Returns what a robot sees that looks `heading` in a corridor from (0, 0) to (`length`, 0.95).
+/// Returns the scan of a robot at `at`, looking `heading`, in a corridor from (0, 0) to (`length`,
+/// 0.95).
 fn scan_of(length: f64, at: Point, heading: Heading) -> Scan {
     let mut scan = Scan::clear(ring());
     for (index, range) in (0..).zip(&mut scan.ranges) {
@@ -116,9 +117,9 @@ fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     assert!(belief.certainty(&on, DIAMETER) > 0.95);
 }
 
-/// Returns what a robot believes and what explained its looks best each time. It knows that it
-/// stands in a corridor 5 m long, `from` m from its western end. Then it sees, `looks` times, what
-/// is seen at `seen` in a corridor of `length` m.
+/// Returns the belief of a robot that meets another corridor, and the best explanation of each
+/// look. It knows that it stands in a corridor 5 m long, `from` m from its western end. Then it
+/// looks `looks` times, from `seen`, m, in a corridor of `length`, m.
 fn surprised(
     from: f64,
     seen: f64,

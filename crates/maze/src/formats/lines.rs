@@ -104,7 +104,7 @@ impl<'a> Lines<'a> {
         self.find(|line| !line.is_blank())
     }
 
-    /// Returns how many lines were taken so far.
+    /// Returns the number of lines read so far.
     pub(super) const fn read(&self) -> usize {
         self.read
     }

@@ -63,7 +63,7 @@ impl Searches {
         &self.places[setting.source]
     }
 
-    /// Returns what the records of all rows depend on.
+    /// Returns the settings of the records of all rows.
     pub(super) fn configs(&self) -> Result<Vec<super::places::Config>, BoxError> {
         self.places.iter().map(Places::config).collect()
     }

@@ -281,7 +281,7 @@ impl Contest {
 }
 
 impl Competitor {
-    /// Returns what it has learned for this run. The first caller lets it learn.
+    /// Returns the competitor ready for this run. The first caller makes it learn.
     pub(super) fn ready(&self, venue: &Venue, run: u32) -> Result<&Ready, BoxError> {
         let number = run as usize % self.ready.len();
         let cell = &self.ready[number];

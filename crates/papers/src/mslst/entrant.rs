@@ -77,7 +77,8 @@ impl Entrant {
         !matches!(self, Self::Agent(_))
     }
 
-    /// Returns what its runs depend on beside the world; corridors are `corridor_width` m wide.
+    /// Returns the configuration of its learner in corridors `corridor_width` m wide, or `None` if
+    /// it does not learn.
     pub(super) fn config(self, corridor_width: f64) -> Option<LearnerConfig> {
         match self {
             Self::Agent(_) => None,
@@ -138,7 +139,7 @@ impl Ready {
         }
     }
 
-    /// Returns what MSLST has learned; `None` for others.
+    /// Returns the map of MSLST; `None` for other entrants.
     pub(super) fn learned(&self) -> Option<&Learned> {
         match self {
             Self::Agent(_) | Self::Better(_) => None,

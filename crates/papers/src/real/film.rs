@@ -47,7 +47,8 @@ impl MappedLog {
         self.keyframes.get(keyframe).map_or(0, |scan| *scan as u32)
     }
 
-    /// Returns what the laser read at each keyframe.
+    /// Returns the scans at the keyframes, thinned to the beams that are shown. `None` if the log
+    /// has no scan.
     fn readings(&self, log: &RobotLog) -> Option<Scans> {
         let of_first = log.scans.first()?.scan.ring;
         let every = of_first.beams.div_ceil(SHOWN_BEAMS).max(1);

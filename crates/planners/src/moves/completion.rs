@@ -79,7 +79,8 @@ impl<'a, const N: usize> Completions<'a, N> {
     }
 }
 
-/// Returns what an unknown side that leads into the goal is.
+/// Returns [`GoalSide::Another`] if an open side is known that leads into the goal, else
+/// [`GoalSide::First`].
 fn entrance<const N: usize>(chart: &Chart<N>) -> GoalSide {
     let is_entrance = |cell: Cell, side: Direction| {
         let next = cell.beyond(side);

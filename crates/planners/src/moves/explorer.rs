@@ -95,8 +95,8 @@ pub(super) enum Task {
 }
 
 impl Task {
-    /// Returns what it comes to in the cell `at`; `prove` chooses the stop to drive to where a run
-    /// is to be proved.
+    /// Returns the mouse's next move in the cell `at`. `prove` chooses the stop where a run is to
+    /// be proved.
     pub(super) fn decide<const N: usize>(
         self,
         chart: &Chart<N>,
@@ -184,7 +184,7 @@ impl<const N: usize> MoveExplorer<N> {
         target.map_or(Task::Decided(MoveDecision::Stuck), Task::DriveTo)
     }
 
-    /// Returns where to look while no way to the goal is known.
+    /// Returns the best cell to look from while no way to the goal is known.
     fn best_approach(&self, chart: &Chart<N>, at: Cell) -> Option<Cell> {
         let config = &self.config;
         let unknown = chart.unknown().cells();
@@ -210,8 +210,8 @@ impl<const N: usize> MoveExplorer<N> {
         stops.best()
     }
 
-    /// Returns what to look at for the proof, the best first, when runs of `limit` steps and more
-    /// do not matter.
+    /// Returns the best stops for the proof, the best first. Runs of `limit` steps and more do not
+    /// matter.
     pub(super) fn proofs<const K: usize>(
         &self,
         chart: &Chart<N>,
@@ -247,7 +247,8 @@ impl<const N: usize> MoveExplorer<N> {
         self.told(chart, cell, limit) > 0.0
     }
 
-    /// Returns what a look around from `cell` tells about runs of less than `limit` steps.
+    /// Returns the worth of a look around from `cell`: how much it tells about runs of less than
+    /// `limit` steps.
     fn told(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> f32 {
         let mut told = 0.0;
         // A leap over one of the sides begins or ends at the cell or drives over it. So a run with

@@ -88,7 +88,7 @@ impl<const N: usize> Sides<N> {
         }
     }
 
-    /// Returns how many sides, each counted once.
+    /// Returns the number of sides, each counted once.
     pub(super) fn len(&self) -> u32 {
         self.north.len() + self.east.len()
     }

@@ -30,13 +30,13 @@ impl Decay {
         self.factor
     }
 
-    /// Returns what is to be kept for `value`.
+    /// Returns the number to keep for `value`.
     #[inline]
     pub(super) fn kept(self, value: f64) -> f64 {
         value / self.factor
     }
 
-    /// Returns what the number that was kept stands for.
+    /// Returns the value that a kept number stands for.
     #[inline]
     pub(super) fn value(self, kept: f64) -> f64 {
         kept * self.factor

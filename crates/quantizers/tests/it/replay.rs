@@ -16,8 +16,8 @@ const UNITS: usize = 100;
 /// Makes a stream of some length from a seed.
 type Stream = fn(usize, u64) -> Vec<Vec<f64>>;
 
-/// Returns what a robot with 11 range beams sees that drives through two rooms, joined by a door,
-/// and turns when it meets a wall.
+/// Returns the readings of a robot with 11 range beams. It drives through two rooms, joined by a
+/// door, and turns when it meets a wall.
 fn rooms(len: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let is_free = |x: f64, y: f64| {

@@ -263,8 +263,8 @@ impl Pioneer2dx {
         self
     }
 
-    /// Returns what the wheels say of a motion: each counts its way, and distance and turn follow
-    /// by the nominal track.
+    /// Returns the odometry of a motion. Each wheel counts its way; distance and turn follow by the
+    /// nominal track.
     fn rolled(&mut self, motion: Motion, chance: &Chance) -> Option<Odometry> {
         let half_turn = 0.5 * motion.turn * TRACK;
         let scale = self.config.wheel_scale;

@@ -31,8 +31,8 @@ impl Cone {
         }
     }
 
-    /// Returns what is nearest of all `walls`, if anything is in the cone; exact up to rounding.
-    /// O(walls).
+    /// Returns the echo of the nearest point of all `walls` in the cone, exact up to rounding, or
+    /// `None`. O(walls).
     ///
     /// Nothing can hide it: what stood before it would be nearer, and in the cone as well.
     pub(super) fn nearest(&self, walls: &[WallSegment]) -> Option<ConeEcho> {
@@ -54,7 +54,7 @@ impl Cone {
     }
 }
 
-/// Returns what of a segment lies on the side of a line through the origin that `normal` points to.
+/// Returns the part of a segment on the side of a line through the origin to which `normal` points.
 fn cut((start, end): (Vector, Vector), normal: Vector) -> Option<(Vector, Vector)> {
     let (from_start, from_end) = (start.dot(&normal), end.dot(&normal));
     if from_start < 0.0 && from_end < 0.0 {

@@ -159,7 +159,7 @@ impl<const N: usize> Sonars<N> {
         })
     }
 
-    /// Returns what each would hear if nothing went wrong.
+    /// Returns the echo that each sonar would hear without faults, or `None` if it hears nothing.
     fn echoes(&mut self, around: &Surroundings<'_>) -> [Option<ConeEcho>; N] {
         let here = around.truth.pose;
         let spread = self.mounts.map(|mount| mount.position.coords.norm());
@@ -213,7 +213,7 @@ impl Misses {
 }
 
 impl CrossTalk {
-    /// Returns what each sonar takes for its own echo.
+    /// Returns the range that each sonar reports, which may be another sonar's echo.
     fn taken<const N: usize>(
         &self,
         heard: &[Option<f64>; N],

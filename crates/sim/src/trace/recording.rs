@@ -90,7 +90,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
         Ok(())
     }
 
-    /// Returns what is written of one robot's step.
+    /// Returns the record of one robot's step.
     pub(super) fn line(&self, robot: RobotId, command: &M::Command) -> StepRecord<M> {
         let truth = self.simulation.truth(robot);
         let sensing = match self.detail {

@@ -17,12 +17,12 @@ impl BitRows {
         }
     }
 
-    /// Returns how many rows there are.
+    /// Returns the number of rows.
     pub(crate) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Returns how many places each has.
+    /// Returns the number of bits in each row.
     pub(crate) fn length(&self) -> usize {
         self.length
     }

@@ -241,7 +241,7 @@ impl Lattice {
         Some((self.columns.cell(point.x)?, self.rows.cell(point.y)?))
     }
 
-    /// Returns how many lines of one axis a ray of this length crosses at most.
+    /// Returns the maximum number of lines of one axis that a ray of length `range`, m, crosses.
     pub(crate) fn lines_within(&self, range: f64) -> usize {
         let Axis {
             pitch, thickness, ..

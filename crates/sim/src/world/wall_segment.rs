@@ -76,7 +76,7 @@ impl WallSegment {
         f64::INFINITY
     }
 
-    /// Returns what is wrong with this wall, if anything is.
+    /// Checks that the wall is valid. The error is a predicate, such as "has no length".
     pub(super) fn check(&self) -> Result<(), &'static str> {
         let numbers = [
             self.start.x,

@@ -9,7 +9,7 @@ use tolman_sim::robots::{
 };
 use tolman_sim::{Chance, Channel, CorridorSize, Simulation, Solo, Truth, World};
 
-/// Returns what becomes of 1, 2, 3 … in successive ticks.
+/// Returns the values 1, 2, 3 … of successive ticks after the fault.
 fn series(fault: Fault, count: u32) -> Vec<Option<f64>> {
     fault.check().unwrap();
     let mut faults = Faults::new("series", [fault]);

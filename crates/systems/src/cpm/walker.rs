@@ -615,8 +615,8 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Returns what is known of a fragment before the robot enters the place at its end, whose
-    /// middle is at `middle`.
+    /// Returns the observations, glimpse and landmark of a fragment before the robot enters the
+    /// place at its end. The middle of that place is at `middle`.
     fn prospect(&self, course: &Course, ahead: &Ahead, middle: Point) -> Prospect {
         let (glimpse, landmark) = match ahead {
             Ahead::Landmark(landmark) => (None, Some(*landmark)),

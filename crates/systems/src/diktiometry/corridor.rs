@@ -74,7 +74,7 @@ impl<'a> Around<'a> {
         Ok(Self { scan, heading })
     }
 
-    /// Returns what someone who looks `ahead` sees.
+    /// Returns the ranges to the left, to the right and ahead of a robot that looks `ahead`.
     pub(super) fn view(self, ahead: Heading) -> View {
         View {
             left: self.range(ahead.turned(FRAC_PI_2)),
@@ -129,7 +129,7 @@ pub(super) fn round_scan<S: Ranges>(sensing: &S) -> Result<&Scan, SenseError> {
 pub(super) struct Beside([Span; 3]);
 
 impl Beside {
-    /// Returns what is beside the robot at the start: it belongs to the place just left.
+    /// Returns the spans beside the robot at the start. They belong to the place just left.
     pub(super) fn at_start(view: View, gauge: &RoutineConfig) -> Self {
         Self(gauge.beside(view).map(Span::at_start))
     }
@@ -155,7 +155,7 @@ enum Span {
 }
 
 impl Span {
-    /// Returns where the middle of the span is, once it has ended.
+    /// Returns the middle of the span along the way, m, once it has ended.
     fn see(&mut self, there: bool, along: f64, shortest: f64) -> Option<f64> {
         match (*self, there) {
             (Self::Absent, true) => *self = Self::Since(along),

@@ -64,7 +64,7 @@ impl Whereabouts {
         matches!(self, Self::Followed | Self::SetDown { moves: 1.. })
     }
 
-    /// Returns what is known after a move, where confidence rests on the last `history` matches.
+    /// Returns the whereabouts after a move, where confidence rests on the last `history` matches.
     const fn after_a_move(self, history: usize) -> Self {
         match self {
             Self::SetDown { moves } if moves + 1 < history => Self::SetDown { moves: moves + 1 },
@@ -196,14 +196,15 @@ impl Guide {
         Ok(true)
     }
 
-    /// Returns what speaks against the map now, and since when it does.
+    /// Returns the objection to the map and the number of moves when it arose, or `None` without
+    /// one.
     fn doubted(&self) -> Option<(MapState, u32)> {
         let state = self.observer().and_then(objection)?;
         let before = self.doubt.filter(|(before, _)| *before == state);
         Some(before.unwrap_or((state, self.moves)))
     }
 
-    /// Returns what to do next for `task`, if the rover senses the landmark `here`.
+    /// Returns the next step of `task`, if the rover senses the landmark `here`.
     pub(super) fn next(&mut self, task: Task, here: Option<Landmark>) -> Next {
         if self.is_done(task, here) {
             return Next::Break(Standing::Done);

@@ -156,8 +156,8 @@ pub(super) fn first_place(config: &Config, seen: &Arrival) -> FirstPlace {
     }
 }
 
-/// Returns what the rover saw, if the map wants to know: a robot that does not look sees which ways
-/// lead on.
+/// Returns the view at an arrival, or `None` if the map uses no views. For a robot that does not
+/// look, the view is the ways that lead on.
 fn percept(config: &Config, arrival: &Arrival) -> Option<Signature> {
     if config.percepts == Percepts::None {
         return None;

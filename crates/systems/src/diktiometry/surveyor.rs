@@ -187,8 +187,8 @@ where
         })
     }
 
-    /// Returns what `read` returns once the sensors tell it: a reading that did not come is waited
-    /// for, standing, for some time steps.
+    /// Returns the result of `read`. If a reading is missing, the robot stands still and waits for
+    /// it, up to [`MOST_SILENT`] time steps.
     fn once_told<T>(
         &mut self,
         read: impl Fn(&Self) -> Result<T, RoutineError<R::Error>>,
@@ -234,7 +234,7 @@ where
         })
     }
 
-    /// Returns what the place looks like: column 0 looks east.
+    /// Returns the signature of the place, whose column 0 looks east.
     fn signature(&self) -> Result<Option<Signature>, RoutineError<R::Error>> {
         let sensing = self.robot.sensing();
         let heading = compass(sensing)?;

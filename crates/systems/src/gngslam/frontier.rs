@@ -56,7 +56,7 @@ fn is_clear(outline: &Outline, ahead: Vector, lane: Lane) -> bool {
     !seen.chain(heard).any(|point| lane.holds(ahead, point))
 }
 
-/// Returns where what a sensor met stands, as far as it tells.
+/// Returns the point at a sounding's range along its axis, in the robot's frame.
 fn end(sounding: &Sounding) -> Point {
     sounding.mount.transform(Point::new(sounding.range, 0.0))
 }

@@ -52,8 +52,7 @@ impl OfSites for PlaceGraphOfSites {
     }
 }
 
-/// Returns what the wheels of a robot would have rolled that made a step: a turn, a straight way, a
-/// turn.
+/// Returns the odometry of a robot that made a step: a turn, a straight way, a turn.
 fn rolled(step: &SiteStep) -> [Odometry; 3] {
     let Pose { position, heading } = step.moved;
     let distance = position.coords.norm();
@@ -79,7 +78,7 @@ fn rolled(step: &SiteStep) -> [Odometry; 3] {
     [turn(first), straight, turn(last)]
 }
 
-/// Returns what a laser reads that looks all round, turned against the robot by `turned`, rad.
+/// Returns the snapshot of a laser that looks all round, turned against the robot by `turned`, rad.
 fn snapshot(around: &Scan, turned: f64) -> Snapshot {
     let sounding = |(beam, range): (u32, &f64)| Sounding {
         mount: Pose::new(

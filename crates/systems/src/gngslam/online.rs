@@ -315,7 +315,7 @@ impl OnlineSlam {
         if self.rng.random() { angle } else { -angle }
     }
 
-    /// Returns what it needs to go on beyond a place.
+    /// Returns the room that the robot needs to go on beyond a place.
     fn lane(&self) -> Lane {
         let apart = self.config.map.place_distance;
         Lane {
@@ -410,7 +410,7 @@ impl OnlineSlam {
         }
     }
 
-    /// Returns where a goal lies on the map.
+    /// Returns the target of a goal on the map, or `None` if the map does not have it.
     fn target(&self, goal: Goal) -> Option<Target> {
         match goal {
             Goal::Place(place) => {

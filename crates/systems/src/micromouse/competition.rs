@@ -229,7 +229,7 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
     }
 }
 
-/// Returns what sensors see that look no farther than the walls of their own cell.
+/// Returns the rays of sensors that look no farther than the walls of their own cell.
 fn rays(open: [bool; 4]) -> [CellRay; 4] {
     Direction::ALL.map(|side| match open[side.index()] {
         true => CellRay::out_of_range(side, 1),

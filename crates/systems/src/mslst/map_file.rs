@@ -130,7 +130,7 @@ impl MapFile {
     }
 }
 
-/// Returns what a watcher saw; nothing of what it did not see of every node.
+/// Returns the growth record of the nodes. A list stays empty if any node lacks its value.
 fn surveyed(nodes: &[SavedNode]) -> GrowthRecord {
     let positions: Option<Vec<Point>> = nodes
         .iter()

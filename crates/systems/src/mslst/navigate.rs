@@ -109,7 +109,7 @@ impl Navigator {
         self.map.states.nearest(&north_scan(seen)?).ok()
     }
 
-    /// Returns what the graph suggests.
+    /// Returns the navigation state that follows from the graph: on a path, doubtful or lost.
     fn consult(&mut self) -> NavigationState {
         if self.doubts_left > 0 {
             self.doubts_left -= 1;

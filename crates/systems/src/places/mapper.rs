@@ -145,7 +145,7 @@ impl PlacesMapper {
         })
     }
 
-    /// Returns where the middle of a place lies by the poses.
+    /// Returns the position of a visited place's middle by the poses.
     fn middle(&self, visit: &Visit) -> Point {
         self.pose(visit.keyframe).transform(visit.middle)
     }
@@ -217,8 +217,8 @@ impl PlacesMapper {
         Some(from_axis(axis, Heading::EAST).rotate(off))
     }
 
-    /// Returns where the first of some keyframes lies that is farther off than a corridor is wide,
-    /// or the last.
+    /// Returns the displacement to the first of `others` that is farther off than a corridor is
+    /// wide, m, or to the last of them.
     fn far_off(&self, from: usize, others: impl Iterator<Item = usize>) -> Vector {
         let here = self.pose(from).position;
         let mut off = Vector::zeros();

@@ -70,8 +70,8 @@ pub(super) fn ring(corridor_width: f64) -> Ring {
 const BEAMS: u32 = 72;
 const REACH_WIDTHS: f64 = 4.0;
 
-/// Returns where the middle of the free ground lies that a scan shows within `reach`, m, in the
-/// scan's frame.
+/// Returns the centroid of the free ground that a scan shows within `reach`, m, in the scan's
+/// frame.
 pub(super) fn middle_of(scan: &Scan, reach: f64) -> Vector {
     let (mut area, mut moment) = (0.0, Vector::zeros());
     for (beam, range) in (0..).zip(&scan.ranges) {

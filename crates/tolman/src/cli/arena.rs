@@ -184,7 +184,7 @@ pub(super) fn carry_out(
     table(&contestants, robot, &worlds, &held, out)
 }
 
-/// Returns what learning costs each system, as means over the worlds in which it drove.
+/// Writes the cost of learning for each system, as means over the worlds in which it drove.
 fn costs(
     contestants: &[Contestant],
     worlds: &[DrawnWorld],

@@ -58,7 +58,8 @@ impl Looks {
         self.live || self.svg.is_some() || self.trace.is_some() || self.replay.is_some()
     }
 
-    /// Returns which file the replay may overwrite. It is called before the work begins.
+    /// Returns the rule for the existing files that the replay may overwrite. It is called before
+    /// the work begins.
     ///
     /// # Errors
     /// Bad input if the file exists and is not a replay.

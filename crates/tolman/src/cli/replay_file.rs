@@ -21,7 +21,7 @@ pub(super) enum Overwrite {
 }
 
 impl Overwrite {
-    /// Returns what `--force` asks for.
+    /// Returns [`Anything`](Self::Anything) with `--force`, else [`Replays`](Self::Replays).
     pub(super) const fn if_forced(force: bool) -> Self {
         if force { Self::Anything } else { Self::Replays }
     }

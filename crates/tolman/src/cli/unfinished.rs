@@ -283,7 +283,7 @@ impl Keeper {
         Self { map, ..self }
     }
 
-    /// Returns how far the former run came, while it is still being repeated.
+    /// Returns the length of the former run while it is still being repeated, or `None` afterwards.
     pub(super) fn again(&self) -> Option<Done> {
         self.former.as_ref().map(|former| former.run.done)
     }
@@ -345,7 +345,7 @@ impl Keeper {
         Ok(())
     }
 
-    /// Returns how to continue an interrupted run, in words.
+    /// Returns the message about an interrupted run, with the command that continues it.
     pub(super) fn told(&self) -> String {
         let Done { actions, steps } = self.again().unwrap_or(self.done);
         let told = format!("interrupted after {actions} actions, {steps} steps");

@@ -108,7 +108,7 @@ impl Devtools {
         }
     }
 
-    /// Returns what has happened so far.
+    /// Returns all events so far.
     pub(crate) fn events(&self) -> &[Value] {
         &self.events
     }

@@ -237,7 +237,7 @@ impl Tab {
         assert!(self.overflow() <= 0.0, "{seen}: scrolls sideways");
     }
 
-    /// Returns what has gone wrong on the page so far, and what it asked of the network.
+    /// Returns the page's errors and warnings so far, and its requests to the network.
     pub(crate) fn complaints(&self) -> Vec<String> {
         let events = self.devtools.events();
         events.iter().filter_map(complaint).collect()
@@ -251,7 +251,7 @@ impl Tab {
     }
 }
 
-/// Returns what an event says against a page.
+/// Returns the complaint that an event is about a page, or `None` if it is harmless.
 fn complaint(event: &Value) -> Option<String> {
     let params = &event["params"];
     let wrong = match event["method"].as_str()? {

@@ -31,7 +31,7 @@ fn words(command: &str) -> Vec<&str> {
     command.split_whitespace().collect()
 }
 
-/// Returns how a command ended that was ended so, if it had not ended before.
+/// Returns the end of a command that was ended by `end`, unless it had ended by itself.
 fn ended(folder: &Path, command: &str, unfinished: &Path, end: End) -> Ended {
     let mut spawned = command_in(folder, &words(command));
     let spawned = spawned.stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -88,7 +88,7 @@ impl Run {
         run
     }
 
-    /// Returns what a run came to, and removes its files.
+    /// Returns a run's exit code, output and files, which it removes.
     fn outcome(&self, told: Ended) -> (Option<i32>, String, Vec<Vec<u8>>) {
         assert_ne!(told.code, Some(INTERRUPTED), "{}", told.err);
         let take = |name: &&str| {

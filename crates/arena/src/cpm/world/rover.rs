@@ -215,8 +215,8 @@ impl<'a> PlaneWalker<'a> {
         })
     }
 
-    /// Returns where the ways out of the place lead where it is, from the one it came by, if it
-    /// looks.
+    /// Returns the bearings of the ways out of the place, counted from the way by which the robot
+    /// came. `None` if it does not look.
     fn looked(&self, rng: &mut impl Rng) -> Option<Bearings> {
         if self.reckoning == Reckoning::None {
             return None;

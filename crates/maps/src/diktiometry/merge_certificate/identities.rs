@@ -53,13 +53,14 @@ impl<'a> Identities<'a> {
         self.find(one) == self.find(other)
     }
 
-    /// Returns where an action leads from the place of a visit, as the number of a visit there.
+    /// Returns the visit to which an action leads from the place of `visit`, or `None` if it is
+    /// unknown.
     pub(super) fn leads(&self, visit: usize, action: Action) -> Option<usize> {
         let to = self.leads[self.find(visit)].get(&action)?;
         Some(self.find(*to))
     }
 
-    /// Returns where the robot has gone from the place of a visit.
+    /// Returns the actions taken from the place of a visit, each with the visit to which it led.
     pub(super) fn ways(&self, visit: usize) -> impl Iterator<Item = (Action, usize)> {
         let ways = self.leads[self.find(visit)].iter();
         ways.map(|(action, to)| (*action, self.find(*to)))

@@ -38,7 +38,7 @@ impl LookEvidence {
     }
 }
 
-/// Returns what was seen at a visit.
+/// Returns the signature seen at a visit, or `None` if the robot did not look.
 pub(super) fn percept(visit: usize, journal: &Journal) -> Option<&Signature> {
     match visit.checked_sub(1) {
         None => journal.start.percept.as_ref(),

@@ -192,7 +192,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Returns where the second visit's place lies as seen from the first's, by all routes, m.
+    /// Returns the bounds on the second visit's place relative to the first's, m, by all routes.
     fn between(
         &self,
         number: usize,

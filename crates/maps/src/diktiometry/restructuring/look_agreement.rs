@@ -70,8 +70,8 @@ fn share_a_way(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
         })
 }
 
-/// Returns where b lies as seen from a by all that is known, m: geometry has its say before a
-/// merge. O(frames · degree · log frames).
+/// Returns the bounds on b's position relative to a by all that is known, m: geometry has its say
+/// before a merge. O(frames · degree · log frames).
 pub(super) fn offset_anywhere(map: &Diktiometry, a: PlaceId, b: PlaceId) -> PointBox {
     let known = map.displacement(a, b, &SearchLimits::UNLIMITED);
     known.unwrap_or(PointBox::UNBOUNDED)
@@ -112,8 +112,8 @@ pub(crate) fn learn_of_two(
     map.looks.count(look, neighbours);
 }
 
-/// Returns how the places look from which the same action leads to the pair, or else those to which
-/// it leads from the pair. `None` if neither exist.
+/// Returns the similarity of two neighbours, one of each place of the pair. The same action leads
+/// from them to the pair, or else from the pair to them. `None` if neither exist.
 fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Option<Similarity> {
     let paths = &map.paths;
     let before = paths.incoming(a).find_map(|(_, link)| {
@@ -132,8 +132,8 @@ fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Optio
     Some(similarity(one, other, &config.percepts))
 }
 
-/// Returns how many kinds of looks have to agree where geometry knows nothing, or `None` if looks
-/// tell nothing there.
+/// Returns the number of kinds of looks that have to agree where geometry knows nothing. `None` if
+/// looks alone decide nothing there.
 pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usize> {
     match config.restructuring.look_merge {
         Use::On => enough(map, f64::INFINITY, config),

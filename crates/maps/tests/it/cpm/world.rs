@@ -96,8 +96,8 @@ impl World {
         ways.into_iter().filter(is_open).collect()
     }
 
-    /// Returns where a corridor ends, the way that leads back into it, and its cells after the
-    /// first.
+    /// Returns the last cell of a corridor, the way that leads back into it, and the steps to its
+    /// end.
     fn corridor(&self, from: Cell, way: Direction) -> (Cell, Direction, Vec<Direction>) {
         let (mut at, mut heading, mut cells) = (from, way, Vec::new());
         loop {

@@ -160,7 +160,8 @@ impl Shine {
         }
     }
 
-    /// Returns what a wall of this colour looks like whose `normal` points at the camera.
+    /// Returns the seen colour of a wall of this colour and glow whose `normal` points at the
+    /// camera.
     pub(super) fn on_wall(&self, colour: [f64; 3], glow: f64, normal: Vector) -> [f64; 3] {
         let facing = 1.0 + self.shade * normal.dot(&self.to_light);
         let lit = self.on_floor(colour);
@@ -169,7 +170,7 @@ impl Shine {
         })
     }
 
-    /// Returns what the floor, or a ceiling, of this colour looks like.
+    /// Returns the seen colour of a floor or ceiling of this colour.
     pub(super) fn on_floor(&self, colour: [f64; 3]) -> [f64; 3] {
         core::array::from_fn(|part| colour[part] * self.gain[part])
     }

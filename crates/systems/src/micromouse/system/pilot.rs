@@ -49,7 +49,7 @@ impl Pilot {
         Self { pose, config }
     }
 
-    /// Returns where it believes the robot to be.
+    /// Returns the robot's believed pose.
     pub(super) const fn pose(&self) -> Pose {
         self.pose
     }

@@ -96,7 +96,7 @@ pub(super) fn rays(
         .collect()
 }
 
-/// Returns what a beam says that begins `offset` metres beyond the middle of its cell.
+/// Returns the ray that a beam proves, if it begins `offset` metres beyond the middle of its cell.
 fn ray(beam: &Beam, offset: f64, config: &MazeMouseConfig) -> CellRay {
     let pitch = config.pitch;
     let to_side = 0.5 * pitch - offset;

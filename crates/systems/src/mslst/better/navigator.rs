@@ -85,7 +85,7 @@ impl BetterNavigator {
         }
     }
 
-    /// Returns where it most likely is.
+    /// Returns the likeliest position of the robot.
     fn likeliest(&self) -> Option<Point> {
         let number = self.belief.likeliest()?;
         self.current().standpoints.position(number)

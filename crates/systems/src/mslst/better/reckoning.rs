@@ -50,8 +50,8 @@ impl Reckoning {
         }
     }
 
-    /// Returns which way a time step led at whose end the compass says `now`; nothing where it has
-    /// never said anything.
+    /// Returns the mean heading of a time step at whose end the compass gives `now`. `None` if the
+    /// compass gave no heading before the step.
     fn along(&mut self, now: Option<Heading>) -> Option<Heading> {
         let (before, was_fresh) = (self.heading, self.is_fresh);
         (self.heading, self.is_fresh) = (now.or(before), now.is_some());

@@ -22,7 +22,7 @@ const NEARER: f64 = 0.3;
 const CONTRADICTING: f64 = 0.2;
 
 impl Stop {
-    /// Returns what was sensed; nothing where a reading is missing.
+    /// Returns the stop with these readings, or `None` if one is missing.
     pub(super) fn of(heading: Option<Heading>, scan: Option<&Scan>) -> Option<Self> {
         Some(Self {
             heading: heading?,

@@ -128,7 +128,7 @@ fn doubt(found: &MappedLog, picture: &MapPicture) -> Option<String> {
     by_itself.or(by_its_places).or_else(|| picture.doubt())
 }
 
-/// Returns what was found, one line each.
+/// Returns the findings, one line each.
 fn sentences(found: &MappedLog) -> Vec<String> {
     let MappedLog {
         closures,

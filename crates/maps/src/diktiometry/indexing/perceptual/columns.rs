@@ -86,7 +86,7 @@ impl Groups {
         Self { count, size }
     }
 
-    /// Returns where the groups begin.
+    /// Returns the first column of each group.
     fn starts(&self) -> impl Iterator<Item = usize> + use<> {
         let size = self.size;
         (0..self.count).map(move |group| group * size)
