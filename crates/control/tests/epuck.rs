@@ -148,8 +148,8 @@ fn it_follows_every_path_without_touching_a_wall() {
     }
 }
 
-/// From a fork with a way to the south to the next, a cell on, with one to the north. The robot
-/// stands off the middle, towards the way to the south, where a fork has the most room.
+/// The robot drives from a fork with a way to the south to the next cell, a fork with a way to the
+/// north. It stands off the middle, towards the way to the south, where a fork has the most room.
 #[test]
 fn between_neighbouring_forks_it_keeps_its_way() {
     let text = "\

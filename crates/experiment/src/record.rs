@@ -129,7 +129,7 @@ macro_rules! record {
     };
 }
 
-/// Returns an error with `why` unless a relation between the fields of a record `holds`.
+/// Checks a relation between the fields of a record: refuses it with `why` unless it `holds`.
 ///
 /// # Errors
 /// `why`.

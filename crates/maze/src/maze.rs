@@ -289,8 +289,8 @@ impl Maze {
         }
     }
 
-    /// Returns the part of [`Maze::check`] that every file must hold: cells, closed border, marks
-    /// on the grid.
+    /// Checks the part of [`Maze::check`] that every file must hold: cells, closed border, marks on
+    /// the grid.
     pub(crate) fn check_structure(&self) -> Result<(), CheckError> {
         if self.grid.cell_count() == 0 {
             return Err(CheckError::NoCells);

@@ -185,7 +185,7 @@ impl<S: Scalar> Gng<S> {
         self.decay.value(sum) / self.network.len().max(1) as f64
     }
 
-    /// Returns a unit joined to another.
+    /// Adds a unit at `prototype`, joined to `other`, and returns its slot.
     fn seed(&mut self, prototype: &[S], other: Option<usize>) -> usize {
         let slot = self.network.insert(prototype);
         self.sums.push(Sums::default());

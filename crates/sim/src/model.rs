@@ -39,7 +39,7 @@ pub trait Model {
     /// Returns the length of one time step, µs.
     fn step_us(&self) -> u64;
 
-    /// Returns whether a command can be carried out at all.
+    /// Checks that a command can be carried out at all.
     ///
     /// # Errors
     /// The part of the command that is not a number.

@@ -189,7 +189,7 @@ impl Placed {
 mod tests {
     use super::*;
 
-    /// It touches the disc on every side and cuts nothing off.
+    /// The outline touches the disc on every side and cuts nothing off.
     #[test]
     fn the_outline_of_a_disc_runs_round_it() {
         let centre = Point::new(1.0, -2.0);

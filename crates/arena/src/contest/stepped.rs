@@ -133,7 +133,7 @@ impl SteppedContest {
         self.ended(TaskEnd::OutOfTime)
     }
 
-    /// Returns the result of the task that was under way until now and ended so.
+    /// Ends the task under way by `end` and returns its result, or `None` if there is none.
     fn ended(&mut self, end: TaskEnd) -> Option<TaskRecord> {
         match core::mem::replace(&mut self.stage, Stage::Idle) {
             Stage::Idle => None,

@@ -171,7 +171,7 @@ impl CpmTrial<'_> {
         self.watch(|_, _, _| {})
     }
 
-    /// [Plays](Self::play) both episodes. Calls `see` with every fragment of the first.
+    /// Plays both episodes like [`play`](Self::play). Calls `see` with every fragment of the first.
     ///
     /// # Errors
     /// [`CpmTrialError`] if it cannot be begun.

@@ -205,7 +205,8 @@ impl Header {
         serde_json::from_str(text).map_err(first)
     }
 
-    /// Returns whether there is what it promises.
+    /// Checks that `found` records are as many as the header promises, and that each goal's record
+    /// is among them.
     fn check(&self, found: usize) -> Result<(), DataTextError> {
         let expected = self.records;
         if found != expected {

@@ -114,7 +114,7 @@ fn part_of(side: usize, width: f64, rng: &mut ChaCha8Rng) -> Span {
     }
 }
 
-/// Returns a door, a cupboard or a poster.
+/// Returns the material of a door, a cupboard or a poster, drawn at random.
 fn thing(rng: &mut ChaCha8Rng) -> Material {
     let (base, height) = match rng.random_range(0_u32..3) {
         0 => (0.0, 2.0),

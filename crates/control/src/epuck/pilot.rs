@@ -272,7 +272,7 @@ where
         Ok(turned)
     }
 
-    /// Returns one time step at this twist times `share`.
+    /// Drives for one time step at `twist` times `share`.
     fn drive(&mut self, twist: Twist, share: f64) -> Result<(), PilotError<R::Error>> {
         let part = Twist::new(twist.linear * share, twist.angular * share);
         let speeds = WheelSpeeds::of_twist(part, self.config.most_wheel_speed);

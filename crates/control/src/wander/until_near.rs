@@ -348,7 +348,7 @@ mod tests {
         }
     }
 
-    /// In a chest it turns once round, and drives when it gives way.
+    /// In a chest the robot turns round once. After it gives way, it drives.
     #[test]
     fn it_finds_no_way_out_of_a_chest() {
         let start = Pose::new(Point::new(0.6, 0.6), Heading::EAST);

@@ -101,13 +101,13 @@ impl Interval {
         )
     }
 
-    /// Returns the least it may be.
+    /// Returns the least value that the number may have.
     #[must_use]
     pub const fn low(self) -> f64 {
         self.low
     }
 
-    /// Returns the most it may be.
+    /// Returns the greatest value that the number may have.
     #[must_use]
     pub const fn high(self) -> f64 {
         self.high

@@ -292,7 +292,7 @@ impl CpMapper {
         map.plan(self.at(), |id| map.has(id, landmark))
     }
 
-    /// Returns the robot has been put at a place of the map, with this port behind it.
+    /// Takes in that the robot was put at a place of the map, with port `at` behind it.
     ///
     /// # Errors
     /// [`CpmError::Turn`] if the map has no such port.

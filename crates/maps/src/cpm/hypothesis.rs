@@ -158,8 +158,8 @@ impl Hypothesis {
         all
     }
 
-    /// Returns the fragment just added is one that the map has already. The place it led to is the
-    /// last, and has no position yet.
+    /// Returns the maps in which the fragment `new` is a duplicate of another. The place to which
+    /// it led is the last one and has no position yet.
     fn duplicates(
         &self,
         new: FragmentId,

@@ -255,7 +255,7 @@ impl Localizer {
         Ok(localizer)
     }
 
-    /// Returns one observation on the way. O(all sequences' lengths and the distances of
+    /// Takes in one observation on the way. O(all sequences' lengths and the distances of
     /// prototypes).
     ///
     /// # Errors

@@ -110,8 +110,8 @@ impl Mapper {
         Ok(junction.port(turn.exit(number, degree)?))
     }
 
-    /// Returns the fragment that another one is a duplicate of: the most similar one with which it
-    /// can be unified, which it then is.
+    /// Unifies a fragment with the most similar one that it can duplicate. Returns the merges, or
+    /// `None` if there is no such fragment.
     pub(super) fn unify_with_similar(
         &mut self,
         new: FragmentId,

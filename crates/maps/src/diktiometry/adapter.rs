@@ -14,7 +14,8 @@ use super::{
 const SPAN: usize = 4;
 
 impl Observer {
-    /// Returns the updater: the best track's best match changes the map.
+    /// Updates the map by the best match of the best track. Returns the place where the robot now
+    /// is, and the link that it took.
     pub(super) fn write(
         &mut self,
         track: &Track,
@@ -105,8 +106,8 @@ impl Observer {
         }
     }
 
-    /// Returns a place where the track is projected to be, in the frame it came from or in one of
-    /// its own.
+    /// Adds a place where the track is projected to be, in the current frame or in a new one.
+    /// Returns it with the robot's position in its frame.
     fn make_place(&mut self, projection: &Projection) -> (PlaceId, PointBox) {
         let position = projection.position;
         if position.width() <= 2.0 * self.config.frame_half_width {

@@ -523,7 +523,7 @@ impl Config {
         self.alike_separation * (1.0 - self.shared_scale)
     }
 
-    /// Returns whether the fields are in their ranges.
+    /// Checks that the fields are in their ranges.
     ///
     /// # Errors
     /// [`DiktiometryConfigError`] names the first field that is not.

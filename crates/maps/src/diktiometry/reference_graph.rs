@@ -88,7 +88,7 @@ impl ReferenceGraph {
         id
     }
 
-    /// Returns whether an estimate of where `to` lies in `from` agrees with what is known.
+    /// Checks that an estimate of the position of `to` in `from` agrees with the known relation.
     pub(super) fn allows(
         &self,
         from: FrameId,

@@ -81,7 +81,7 @@ pub(super) struct Hints {
 }
 
 impl Hints {
-    /// Returns the next place, and whether it changed itself; those that did come first.
+    /// Takes the next place, and whether it changed itself. Places that did come first.
     fn next(&mut self) -> Option<(PlaceId, bool)> {
         let changed = self.changed.pop().map(|place| (place, true));
         changed.or_else(|| Some((self.near.pop()?, false)))

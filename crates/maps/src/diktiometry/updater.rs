@@ -11,7 +11,8 @@ use super::{
 };
 
 impl Observer {
-    /// Returns the track went from one place to another: the link between them is counted.
+    /// Takes in that the track went from one place to another. Counts the link between them and
+    /// returns it.
     ///
     /// `robot` is where the robot was projected to be in the frame of the place arrived at.
     pub(super) fn arrive(

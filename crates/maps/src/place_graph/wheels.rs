@@ -38,7 +38,7 @@ const SLIP_TURN: f64 = 0.03 * 0.03;
 const LEAST_VARIANCE: f64 = 1e-6;
 
 impl WheelError {
-    /// Returns errors of which nothing is known but their maximum, as standard deviations.
+    /// Returns errors that are known only up to these standard deviations.
     #[must_use]
     pub fn unknown(scale_deviation: f64, curvature_deviation: f64) -> Self {
         let deviations = Vector2::new(scale_deviation, curvature_deviation);

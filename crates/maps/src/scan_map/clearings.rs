@@ -201,7 +201,7 @@ mod tests {
         grid
     }
 
-    /// A corridor one cell wide from column 1 on, visited up to `visited`.
+    /// Returns a corridor one cell wide from column 1 on, visited up to `visited`.
     fn corridor(length: usize, visited: usize) -> WallGrid {
         let wall = "#".repeat(length + 2);
         let (been, left) = ("v".repeat(visited), ".".repeat(length - visited));

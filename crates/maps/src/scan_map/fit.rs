@@ -206,7 +206,7 @@ mod tests {
 
     const HERE: Point = Point::new(1.025, 1.025);
 
-    /// A room of floor whose walls are the lines of cells that `is_wall` says.
+    /// Returns a room of floor whose walls are the cells for which `is_wall` is true.
     fn room(is_wall: impl Fn(GridIndex) -> bool) -> WallGrid {
         WallGrid::of([[0, 0], [41, 41]], |index| match is_wall(index) {
             true => GroundKind::Wall,
@@ -214,7 +214,8 @@ mod tests {
         })
     }
 
-    /// A scan of beams that all look along `heading` or back, and meet something after `range` m.
+    /// Returns the scan between two walls across the robot's heading, `ahead` and `back`, m, from
+    /// it. Beams to the sides meet nothing.
     fn scan(ahead: f64, back: f64) -> Scan {
         let ring = Ring::full(96, 3.0);
         let mut scan = Scan::clear(ring);
@@ -234,7 +235,7 @@ mod tests {
         (found - expected).abs() < off
     }
 
-    /// Two walls tell the place across them, and nothing along them.
+    /// Two walls tell the robot's position across them, and nothing along them.
     #[test]
     fn walls_tell_the_axis_across_them() {
         // Their middles are 0.8 m to either side.

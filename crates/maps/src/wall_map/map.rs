@@ -288,7 +288,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
             .sum()
     }
 
-    /// Returns whether the ray can be true.
+    /// Checks that the ray contradicts no known wall.
     fn check(&self, cell: Cell, ray: CellRay) -> Result<(), ObserveError> {
         let direction = ray.direction;
         let refuse = |cell, known| {

@@ -284,8 +284,8 @@ impl Parsed {
     }
 }
 
-/// Returns whether start and goals are those of classic competitions; formats that leave them
-/// unsaid can hold no others.
+/// Checks that start and goals are those of classic competitions. Formats that do not state them
+/// can hold no others.
 fn expect_classic(maze: &Maze, format: Format) -> Result<(), WriteError> {
     let mut goals: Vec<Cell> = maze.grid().middle().collect();
     goals.sort_unstable();

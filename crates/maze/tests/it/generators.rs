@@ -115,7 +115,7 @@ proptest! {
     }
 }
 
-/// Their middle holds the start, so the goal is the cell farthest from it.
+/// The middle of such a maze holds the start, so the goal is the cell farthest from it.
 #[test]
 fn the_smallest_mazes_have_a_way_to_go() {
     let check = |width, height, goal, steps| {

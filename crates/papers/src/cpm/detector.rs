@@ -232,7 +232,7 @@ pub(super) fn run(courses: &[Course], job: &Job<'_>) -> Result<Fields, BoxError>
     Ok(tally.finished().fields()?)
 }
 
-/// Returns one sweep from every cell that the robot can reach.
+/// Makes one sweep from every cell that the robot can reach, and adds it to the tally.
 fn sweep_all(
     setting: &Setting,
     course: &Course,

@@ -74,7 +74,8 @@ pub struct MoveExplorerConfigError {
 }
 
 impl MoveExplorerConfigError {
-    /// Returns an error for the first of the fields that is out of its range or not finite.
+    /// Checks that each field is finite and within its range. The error names the first that is
+    /// not.
     pub(super) fn check(fields: impl IntoIterator<Item = CheckedField>) -> Result<(), Self> {
         let wrong = fields
             .into_iter()

@@ -64,7 +64,7 @@ impl<S: Scalar> TryFrom<SavedSoinn<S>> for Soinn<S> {
 }
 
 impl Tally {
-    /// Returns whether a unit can remember this after `steps` inputs.
+    /// Checks that a unit can have this tally after `steps` inputs.
     fn check(&self, steps: u64) -> Result<(), QuantizerConfigError> {
         let wins = |wins| (f64::MIN_POSITIVE..1e280).contains(&wins);
         within("the error of a unit", self.error, SUM)?;

@@ -127,8 +127,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
-        /// The reading is the oracle's to its spacing; a piece of wall shorter than that may slip
-        /// through the oracle alone.
+        /// The reading is the oracle's up to its spacing. The oracle alone may miss a piece of wall
+        /// shorter than that.
         #[test]
         fn the_reading_is_that_of_brute_force(
             ends in prop::collection::vec((-3.0..3.0, -3.0..3.0, -3.0..3.0, -3.0..3.0), 1..8),

@@ -109,7 +109,7 @@ fn each_fault_does_what_it_says() {
     );
 }
 
-/// Pinned: a change of these changes every result that was ever computed with a seed.
+/// Pins the draws: a change of them would change every result ever computed with a seed.
 #[test]
 fn the_same_seed_draws_these_numbers() {
     let mut draws = Chance::of_run(42)

@@ -139,7 +139,7 @@ impl Run {
         }
     }
 
-    /// The command, which goes on if there is something to go on with.
+    /// Returns the command, which continues an unfinished run if there is one.
     fn again(&self, name: &str) -> String {
         match self.unfinished.exists() {
             true => format!("{} --from {name}", self.command),
@@ -147,12 +147,12 @@ impl Run {
         }
     }
 
-    /// After this share of the time that it takes.
+    /// Returns an interrupt after `share` of the run's duration.
     fn at(&self, share: f64) -> End {
         End::Interrupt(self.takes.mul_f64(share))
     }
 
-    /// At any moment while it goes.
+    /// Returns a kill at a random moment of the run.
     fn any_time(&self, rng: &mut ChaCha8Rng) -> End {
         End::KillAfter(self.takes.mul_f64(rng.random()))
     }

@@ -103,8 +103,8 @@ impl Prover<'_> {
             .extend(open.into_iter().filter_map(|claim| claim.last().copied()));
     }
 
-    /// Returns the identities that the map has added. Each claim is several pairs of visits, one of
-    /// which is enough.
+    /// Returns the identities that the map claims after a move. Each claim is several pairs of
+    /// visits, one of which is enough.
     fn claims(
         &mut self,
         visit: usize,

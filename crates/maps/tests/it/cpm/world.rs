@@ -167,7 +167,7 @@ impl World {
     }
 }
 
-/// East is 0, counter-clockwise.
+/// Returns the heading of a direction, rad: 0 is east, counter-clockwise.
 fn radians(way: Direction) -> f64 {
     match way {
         Direction::East => 0.0,

@@ -332,7 +332,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         Ok(Course::Lost)
     }
 
-    /// Returns one movement: a turn, or a straight.
+    /// Makes one movement: a turn, or a straight.
     fn go(&mut self, to: Stand) -> Result<Driven, PlayError> {
         while self.at.heading != to.heading {
             let left = (to.heading.index() + 8 - self.at.heading.index()) % 8;

@@ -181,7 +181,8 @@ impl NoisyMouse {
         decision.unwrap_or(MoveDecision::Stuck)
     }
 
-    /// Returns the result of `plan`.
+    /// Returns the first result of `plan` that is not `stuck`, or `stuck` after [`DOUBTS`]
+    /// attempts.
     ///
     /// Every maze has a way to its goal. So while `plan` returns `stuck`, the mouse believes in
     /// some wall that does not stand. It then doubts all walls, and looks again at those with the
