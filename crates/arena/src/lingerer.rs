@@ -8,7 +8,7 @@ use tolman_systems::baselines::AvoidBrain;
 use tolman_systems::mslst::better::BetterExplorer;
 use tolman_systems::{Brain, Doing, RolledStep};
 
-/// An explorer that wanders on for a while once it has been everywhere, and goes on learning.
+/// An explorer that goes on wandering and learning for a while after it has been everywhere.
 #[derive(Debug)]
 pub(crate) struct Lingerer {
     explorer: BetterExplorer,
@@ -22,8 +22,7 @@ pub(crate) struct Lingerer {
 }
 
 impl Lingerer {
-    /// Returns a brain that makes `times` as many actions as it takes `explorer` to have been
-    /// everywhere.
+    /// Returns a brain that makes `times` as many actions as `explorer` needs to be everywhere.
     pub(crate) fn new(explorer: BetterExplorer, times: u32) -> Self {
         Self {
             explorer,

@@ -1,4 +1,5 @@
-//! A contest at the pace of who looks: action by action, with the next task chosen on the way.
+//! Plays a contest action by action, as fast as the caller wants, with the next task chosen on the
+//! way.
 
 use core::fmt;
 

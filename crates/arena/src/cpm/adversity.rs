@@ -73,7 +73,7 @@ impl SensesLandmarks for OneSensor {
     }
 }
 
-/// Returns the result of the first episode, and whether the robot truly is at the goal at its end.
+/// Plays the first episode. Returns its result, and whether the robot truly ends at the goal.
 fn search<B: CpmRobot>(
     body: B,
     width: f64,

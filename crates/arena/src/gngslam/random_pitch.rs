@@ -14,8 +14,8 @@ use super::room::{Room, Span};
 /// Length of a side, m.
 const SIDE: core::ops::Range<f64> = 3.0..6.5;
 
-/// Between furniture and anything else, m: a lane wide enough for the robot to drive along and turn
-/// in.
+/// Distance between furniture and anything else, m: a lane wide enough for the robot to drive along
+/// and turn in.
 const GAP: f64 = 0.95;
 
 /// Maximum number of pieces of furniture.
@@ -82,7 +82,7 @@ fn closed_room(corners: &[(f64, f64)], windows: usize, rng: &mut ChaCha8Rng) -> 
     room
 }
 
-/// Returns two to four windows on one side, and one thing on each other one.
+/// Returns two to four windows on one side, and one thing on each other side.
 fn decoration(windows: usize, sill: f64, rng: &mut ChaCha8Rng) -> Vec<(Span, Material)> {
     let count = rng.random_range(2_u32..=4);
     let share = f64::from(count).recip();
@@ -178,7 +178,7 @@ fn two_colours(rng: &mut ChaCha8Rng) -> [[u8; 3]; 2] {
     [first, second].map(|hue| strong(hue, rng.random_range(0.6..0.95)))
 }
 
-/// Returns the colour of this hue, in turns, with hardly any white in it.
+/// Returns the nearly saturated colour of this hue, in turns.
 fn strong(hue: f64, brightness: f64) -> [u8; 3] {
     [0.0, 2.0, 4.0].map(|shift: f64| {
         let along = (6.0 * hue + shift) % 6.0;

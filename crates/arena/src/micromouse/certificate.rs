@@ -1,4 +1,4 @@
-//! The checker of a mouse's proof that no second run takes fewer steps.
+//! Checks a mouse's proof that no second run takes fewer steps.
 
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze};
 use tolman_systems::micromouse::Certificate;
@@ -15,9 +15,9 @@ pub enum CertificateError {
     FalseWall {
         /// The cell.
         cell: Cell,
-        /// The side of it.
+        /// Side of the cell.
         direction: Direction,
-        /// The state that it claims.
+        /// State that the certificate claims.
         known: Knowledge,
     },
     /// The certificate lacks a number for some cell, or names a wall that the maze does not have.
@@ -67,8 +67,7 @@ pub enum CertificateError {
     },
 }
 
-/// Maximum number of cells of a step, written down again: the checker takes nothing from the
-/// planners.
+/// Maximum number of cells of a step, defined here again: the checker uses nothing of the planners.
 const MOST_CELLS: u32 = 3;
 
 /// Checks that `certificate` holds in `maze`. Its statements about walls must be true, its run
@@ -179,7 +178,7 @@ fn check_bound(
     Ok(())
 }
 
-/// Returns that the costs disagree, if `open` can be hoped for.
+/// Returns the error that the costs disagree, if `open` can be hoped for.
 const fn costs(certificate: &Certificate, open: u32) -> CertificateError {
     CertificateError::Costs {
         run: certificate.run.len().saturating_sub(1),
@@ -235,7 +234,7 @@ o---o---o---o---o---o
         mouse.certificate().unwrap().clone()
     }
 
-    /// Returns the checker's error once the certificate is changed.
+    /// Returns the checker's error after `change` to the certificate.
     fn refuse(change: impl FnOnce(&mut Certificate)) -> CertificateError {
         let maze = maze();
         let mut certificate = certificate(&maze);
