@@ -1,4 +1,4 @@
-//! Audits checked again: every cycle is measured again from the graph alone.
+//! Verifies audits: measures every cycle again from the graph alone.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
@@ -25,13 +25,13 @@ pub enum AuditCertificateError {
     /// The graph itself cannot be audited.
     #[error(transparent)]
     Graph(#[from] AuditError),
-    /// The certificate is not of a closure of this graph.
+    /// The certificate's edge is not a closure of this graph.
     #[error("edge {edge} is not a closure of this graph")]
     NoClosure {
         /// The edge.
         edge: u32,
     },
-    /// A closure has two.
+    /// A closure has two certificates.
     #[error("edge {edge} has two certificates")]
     Twice {
         /// The edge.
@@ -45,13 +45,13 @@ pub enum AuditCertificateError {
         /// The underlying error.
         error: CycleError,
     },
-    /// A cycle begins with another closure.
+    /// A cycle begins with another closure than its certificate's.
     #[error("a cycle of edge {edge} begins with another one")]
     Another {
         /// The edge.
         edge: u32,
     },
-    /// A residual, covariance or χ² is not what the graph gives.
+    /// A residual, covariance or χ² differs from what the graph gives.
     #[error("{what} of a cycle of edge {edge} is stated as {told}; the graph gives {measured}")]
     Number {
         /// The edge.
@@ -99,7 +99,7 @@ pub enum AuditCertificateError {
         /// The closure it leads over.
         over: u32,
     },
-    /// A cycle leads over a closure of a run that is counted already.
+    /// A cycle leads over a closure of a run that already counts.
     #[error("a cycle of edge {edge} leads over edge {over}, whose run is a witness already")]
     SameRun {
         /// The edge.
@@ -121,7 +121,7 @@ pub enum AuditCertificateError {
         /// The graph's value.
         measured: u32,
     },
-    /// The run is another.
+    /// A closure belongs to another run than the audit states.
     #[error("the audit puts edge {edge} into run {told}; the graph gives {measured}")]
     Run {
         /// The edge.
@@ -288,8 +288,7 @@ impl Checker<'_> {
         Ok(())
     }
 
-    /// Measures a cycle again, compares its numbers with those of the certificate, and counts its
-    /// runs.
+    /// Measures a cycle again, compares its numbers with the certificate's, and counts its runs.
     fn measure(
         &self,
         edge: u32,
@@ -318,7 +317,7 @@ impl Checker<'_> {
     }
 }
 
-/// Holds the numbers of a certificate against those that are measured.
+/// Compares the numbers of a certificate with the measured ones.
 fn compare(
     edge: u32,
     told: &AuditCycle,

@@ -21,7 +21,7 @@ pub struct NoSuchTurn {
 }
 
 impl Turn {
-    /// Out by the port of entry.
+    /// Turn that leaves by the port of entry.
     pub const BACK: Self = Self(0);
 
     /// Returns the turn that leads from port `entry` to port `exit`.

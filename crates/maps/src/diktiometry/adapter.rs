@@ -1,4 +1,4 @@
-//! The adapter: it changes the map by what the best track matched.
+//! Changes the map by the best match of the best track.
 
 use alloc::vec::Vec;
 
@@ -9,8 +9,7 @@ use super::{
     PlaceId, Projection, Similarity, Successor, Track, elide_place, remember, trusted_odometry,
 };
 
-/// Number of earlier places, before the last, that are related to a new one directly: two moves
-/// back, three, …
+/// Number of earlier places, before the last, that are related directly to a new one.
 const SPAN: usize = 4;
 
 impl Observer {
@@ -81,7 +80,11 @@ impl Observer {
         (to, Some(link))
     }
 
-    /// Relates the places met lately to the one just met, by the way between them.
+    /// Relates the recent places to the present one by the way between them.
+    ///
+    /// The robot's stopping point within a place matters only at the two ends of such a way. A
+    /// chain of relations counts it at both ends of every move. With a place radius of 0 there is
+    /// nothing to gain, so nothing is done.
     ///
     /// The robot's stopping point within a place matters only at the two ends of such a way. A
     /// chain of relations counts it at both ends of every move. With a place radius of 0 there is
@@ -122,8 +125,8 @@ impl Observer {
         grid.traverse(start, end, self.config.separation);
     }
 
-    /// Drops a track in favour of another. Takes the places that only it made, and that were not
-    /// met since, out of the map.
+    /// Drops a track in favour of another. Removes the places that only it made and that were not
+    /// met since.
     pub(super) fn abandon(&mut self, loser: &Track, winner: PlaceId) {
         let lately = loser.history.iter().rev().map(|entry| entry.place);
         let made = lately.take_while(|&place| {

@@ -40,9 +40,9 @@ pub enum ObservedMoveError {
         rows: usize,
         /// Its columns.
         columns: usize,
-        /// Number of rows of the configuration, 0 if it has no percepts.
+        /// Number of rows in the configuration, 0 without percepts.
         expected_rows: usize,
-        /// Its columns, 0 if it has no percepts.
+        /// Number of columns in the configuration, 0 without percepts.
         expected_columns: usize,
     },
     /// The configuration has percepts, and the move brings none.

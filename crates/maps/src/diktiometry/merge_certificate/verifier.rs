@@ -11,7 +11,7 @@ use crate::diktiometry::{Config, Journal, MoveOutcome, Percepts};
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MergeCertificateError {
-    /// The certificate is not as it was made.
+    /// The certificate was changed after it was made.
     #[error("certificate {number} was changed: its seal does not fit")]
     Changed {
         /// Number of the certificate.
@@ -24,10 +24,10 @@ pub enum MergeCertificateError {
         number: usize,
         /// The visit.
         visit: usize,
-        /// Number of visits that there are.
+        /// Number of visits in the journal.
         visits: usize,
     },
-    /// A route or a chain of looks does not hang together.
+    /// A route or a chain of looks has a gap.
     #[error(
         "certificate {number} has a gap: two visits that it joins are not known to be at one place"
     )]
@@ -41,14 +41,13 @@ pub enum MergeCertificateError {
         /// Number of the certificate.
         number: usize,
     },
-    /// The certificate's looks prove nothing: there is no pair, or they are as likely as not at two
-    /// places.
+    /// The certificate's looks prove nothing: there is no pair, or a coincidence is as likely.
     #[error("certificate {number} has looks that fit two places as well as one")]
     NoEvidence {
         /// Number of the certificate.
         number: usize,
     },
-    /// Both looks are at the same place, so they agree without being evidence.
+    /// Both looks are at the same place, so that their agreement is no evidence.
     #[error(
         "certificate {number} counts looks at visits {one} and {other}, which are to the same place"
     )]
@@ -88,14 +87,14 @@ pub enum MergeCertificateError {
         /// The other.
         other: usize,
     },
-    /// The probability is another.
+    /// The probability differs from the one computed again.
     #[error("certificate {number} states a probability of {stated}, but it is {found}")]
     Chance {
         /// Number of the certificate.
         number: usize,
-        /// Stated in the certificate.
+        /// Probability stated in the certificate.
         stated: f64,
-        /// Found by the checker.
+        /// Probability that the checker found.
         found: f64,
     },
 }
@@ -135,7 +134,7 @@ struct Verifier<'a> {
     config: &'a Config,
     journal: &'a Journal,
     identities: Identities<'a>,
-    /// Identities that hold without looks.
+    /// Identities that do not rest on looks.
     proven: Identities<'a>,
 }
 
@@ -270,7 +269,8 @@ impl Verifier<'_> {
     }
 }
 
-/// Returns the minimum distance between the places of two visits if they are different, m.
+/// Returns the minimum distance between the places of two visits, m, as if they were different
+/// places.
 pub(super) fn least_distance([one, other]: [usize; 2], config: &Config, journal: &Journal) -> f64 {
     let may_be_alike = match config.percepts {
         Percepts::None => true,

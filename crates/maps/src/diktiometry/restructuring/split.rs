@@ -5,7 +5,12 @@ use tolman_geom::{Interval, PointBox};
 use super::Diagnosis;
 use crate::diktiometry::{Counts, Diktiometry, Estim, Link, LinkId, LinkStatus, PlaceId};
 
-/// Makes two places of one: the new one, in the same frame.
+/// Splits a place in two; the new one is in the same frame.
+///
+/// By estims, "the two new places created by a split each take the sides of the original position
+/// estimate indicated by their respective estims. Action link sets are pruned eventually by the
+/// transient elision mechanism": both have all links. By links, each takes the incoming links of
+/// its side and the links taken after them.
 ///
 /// By estims, "the two new places created by a split each take the sides of the original position
 /// estimate indicated by their respective estims. Action link sets are pruned eventually by the
@@ -65,7 +70,7 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
     new
 }
 
-/// Returns a link of the same action as another, with a count of one, as its worth has yet to show.
+/// Returns a link of the same action as another, with a count of one, since it is not proven yet.
 fn copy(map: &mut Diktiometry, link: &Link, from: PlaceId, to: PlaceId) -> LinkId {
     let id = map.paths.link_to(from, link.action, to);
     let new = map.link_mut(id);
