@@ -1,4 +1,4 @@
-//! Reading of a corridor from ranges and compass.
+//! Reads corridors by ranges and compass.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -8,7 +8,7 @@ use tolman_robot::{Compass, Ranges, Scan};
 use super::{RoutineConfig, SenseError};
 
 impl RoutineConfig {
-    /// Returns half a corridor: how far from a wall ahead a robot in the middle of a cell stands.
+    /// Returns half a corridor's width, m: the distance of a wall ahead from the middle of a cell.
     pub(super) const fn half(&self) -> f64 {
         0.5 * self.corridor_width
     }
@@ -41,7 +41,7 @@ impl RoutineConfig {
         0.25 * self.corridor_width
     }
 
-    /// Returns the distance covered in one time step, m, and the greatest width of a jamb.
+    /// Returns the distance covered in one time step, m, which is also a jamb's greatest width.
     pub(super) const fn stride(&self) -> f64 {
         0.05 * self.corridor_width
     }
@@ -124,7 +124,7 @@ pub(super) fn round_scan<S: Ranges>(sensing: &S) -> Result<&Scan, SenseError> {
     })
 }
 
-/// Openings and doorways beside the way, from which the middle of the next place follows.
+/// Openings and doorways beside the way, which locate the next place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beside([Span; 3]);
 
@@ -150,7 +150,7 @@ enum Span {
     Left,
     /// The opening is not there.
     Absent,
-    /// The opening began this far along the way, m.
+    /// The opening began at this distance along the way, m.
     Since(f64),
 }
 

@@ -31,7 +31,7 @@ pub struct MapFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// The header or the JSON is invalid, or names another system; or the map cannot be written as
+    /// The header or the JSON is invalid, names another system, or the map cannot be written as
     /// JSON.
     #[error(transparent)]
     File(#[from] FileError),
@@ -83,8 +83,7 @@ impl MapFile {
 
     /// Reads the text of a file.
     ///
-    /// # Errors
-    /// [`MapFileError`] with the place and what to do about it.
+    /// # Errors [`MapFileError`] with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
         let (origin, body): (_, Body) = FILES.read(text)?;
         let places = body.graph.places().len();

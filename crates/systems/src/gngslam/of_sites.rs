@@ -6,8 +6,7 @@ use tolman_robot::{Mapper, Odometry, Scan, Snapshot, Sounding};
 
 use crate::places::{OfSites, Site, SiteStep, SiteWay};
 
-/// Tells a place graph of the places of a log: what the laser reads at each, and how the robot came
-/// there.
+/// Feeds a place graph with the places of a log: the scan at each, and the way to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PlaceGraphOfSites {
@@ -16,7 +15,7 @@ pub struct PlaceGraphOfSites {
 }
 
 impl PlaceGraphOfSites {
-    /// Returns the values for offices, and scans matched to those before.
+    /// Returns the values for offices and matched scans.
     #[must_use]
     pub const fn indoor() -> Self {
         let mut config = PlaceGraphConfig::indoors();
