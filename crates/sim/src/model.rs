@@ -3,8 +3,8 @@ use tolman_robot::Body;
 
 use crate::{Chance, Contact, Surroundings};
 
-/// Motion of a robot in one time step: a circular arc of `distance` m of path along which it turns
-/// by `turn` rad, counter-clockwise.
+/// Motion of a robot in one time step: a circular arc with a path of length `distance`, m, and a
+/// turn of `turn`, rad, counter-clockwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Motion {
     /// Path length, m; negative is backward.

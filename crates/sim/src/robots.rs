@@ -1,4 +1,4 @@
-//! The robots, one file each, reading like their data sheets.
+//! Models of robots, one file each, which read like data sheets.
 
 use crate::noise::{Faults, Values};
 

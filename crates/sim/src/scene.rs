@@ -5,8 +5,8 @@ use tolman_robot::Body;
 use crate::casters::BeamSweep;
 use crate::{WallSegment, World};
 
-/// Everything a body can meet at one moment: the world's walls, the doors that are shut, and the
-/// bodies of all robots.
+/// Everything that a body can meet at one moment: the world's walls, the shut doors, and the bodies
+/// of all robots.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scene<'a> {
     pub(crate) world: &'a World,
@@ -18,7 +18,7 @@ pub(crate) struct Scene<'a> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Crowd {
     bodies: Vec<Placed>,
-    /// The disc round each, stored together to find bodies out of reach quickly.
+    /// Disc round each body, stored together to find bodies out of reach quickly.
     discs: Vec<Disc>,
 }
 

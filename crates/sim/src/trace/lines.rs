@@ -1,4 +1,4 @@
-//! The lines of a trace as they stand in the file.
+//! The lines of a trace as they are written in the file.
 
 use serde::{Deserialize, Serialize};
 use tolman_geom::Pose;
@@ -34,7 +34,7 @@ pub(super) struct Start<M: Recordable> {
     pub(super) disturbances: Vec<String>,
 }
 
-/// Any line of a trace but the first.
+/// Any line of a trace except the first.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", bound = "")]
 pub enum TraceLine<M: Recordable> {
@@ -60,7 +60,7 @@ pub enum TraceLine<M: Recordable> {
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, bound = "")]
 pub struct StepRecord<M: Recordable> {
-    /// Number of steps since the run began, this one among them.
+    /// Number of steps since the run began, including this one.
     pub tick: u64,
     /// Microseconds since the run began.
     pub time_us: u64,

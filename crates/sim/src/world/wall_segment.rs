@@ -3,7 +3,7 @@ use tolman_geom::{Point, Vector};
 use super::Material;
 use crate::casters::Seen;
 
-/// A straight wall without thickness: a closed segment, its ends part of it.
+/// A straight wall without thickness: a closed segment, which contains its ends.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WallSegment {

@@ -261,7 +261,7 @@ impl OnlineSlam {
         &self.map
     }
 
-    /// Takes note that the robot has been lifted and put down, perhaps elsewhere.
+    /// Takes in that the robot has been lifted and put down, perhaps elsewhere.
     pub fn put_down(&mut self) {
         self.was_put_down = true;
         self.looks_round = self.config.first_looks;
@@ -270,20 +270,18 @@ impl OnlineSlam {
         self.rolled.clear();
     }
 
-    /// Returns whether it goes where the floor goes on: once it has looked round.
+    /// Returns whether the robot goes to frontiers: once it has looked round.
     fn goes_beyond(&self) -> bool {
         self.config.explore == ExplorationPolicy::ToTheUnknown && self.looks_round == 0
     }
 
-    /// Returns whether it has looked for long without finding a place, and knows of nowhere else to
-    /// look.
+    /// Returns whether it has found no place for many looks, and has no frontier left.
     fn has_explored(&self) -> bool {
         let is_quiet = self.quiet >= self.config.quiet_looks;
         is_quiet && (self.ends_here || self.config.explore == ExplorationPolicy::ByChance)
     }
 
-    /// Goes on a little: round, or straight on until something is near and then elsewhere by
-    /// chance.
+    /// Wanders a little: looks round, or drives straight on until something is near and then turns.
     fn wander<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
     where
         R: Robot<Command = TurnTranslate>,
@@ -325,7 +323,7 @@ impl OnlineSlam {
         }
     }
 
-    /// Drives a piece of the way, as far as nothing is near.
+    /// Drives a piece of the way, up to where something is near.
     fn drive<R>(&mut self, robot: &mut R) -> Result<LegEnd, R::Error>
     where
         R: Robot<Command = TurnTranslate>,
@@ -340,7 +338,7 @@ impl OnlineSlam {
         Ok(end)
     }
 
-    /// Makes a piece of the turn under way.
+    /// Makes a piece of the turn in progress.
     fn turn_on<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
     where
         R: Robot<Command = TurnTranslate>,
@@ -353,8 +351,8 @@ impl OnlineSlam {
         self.turn_by(robot, piece)
     }
 
-    /// Turns in place by `angle`, rad, counter-clockwise, by the wheels. If it touches something,
-    /// it drives free of that instead.
+    /// Turns in place by `angle`, rad, counter-clockwise, by odometry. If the robot touches
+    /// something, it drives free instead.
     fn turn_by<R>(&mut self, robot: &mut R, angle: f64) -> Result<(), R::Error>
     where
         R: Robot<Command = TurnTranslate>,
@@ -390,7 +388,7 @@ impl OnlineSlam {
         Err(OnlineSlamError::NoSnapshot { steps })
     }
 
-    /// Notes the place nearest to a landmark that the robot senses.
+    /// Records the place nearest to a landmark that the robot senses.
     fn remember(&mut self, landmark: Option<Landmark>) {
         let (Some(landmark), Some(here), true) =
             (landmark, self.map.here(), self.map.is_localized())
@@ -434,8 +432,7 @@ impl OnlineSlam {
         }
     }
 
-    /// Goes a piece of the way to where the floor goes on beyond the map; `false` if there is
-    /// nothing like that.
+    /// Goes a piece of the way to a frontier. Returns `false` if there is none.
     fn go_beyond<R>(&mut self, robot: &mut R, here: Pose) -> Result<bool, R::Error>
     where
         R: Robot<Command = TurnTranslate>,

@@ -10,7 +10,7 @@ use super::route::Target;
 pub struct LandmarkSighting {
     /// The landmark.
     pub landmark: Landmark,
-    /// Place nearest to where the landmark was sensed.
+    /// Place nearest to the position where the landmark was sensed.
     pub place: u32,
     /// Position at which the landmark was sensed, in the place's frame, m.
     pub at: Point,

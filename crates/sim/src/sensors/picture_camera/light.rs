@@ -12,10 +12,10 @@ pub struct Light {
     pub cast: [f64; 3],
     /// Direction from which most of the light comes.
     pub from: Heading,
-    /// Additional brightness of a wall that faces the light, as a share; one that faces away is as
-    /// much darker.
+    /// Additional brightness of a wall that faces the light, as a share. A wall that faces away is
+    /// darker by the same share.
     pub shade: f64,
-    /// Share of full light that glowing walls cast over the whole picture if they fill it.
+    /// Share of full light that glowing walls would add to the whole picture if they filled it.
     pub glare: f64,
     /// Changes of the light.
     pub drift: LightDrift,
@@ -115,7 +115,7 @@ pub(super) struct Weather {
 type Drifts = [f64; 6];
 
 impl Weather {
-    /// Lets the weather of the next picture come, and returns its light.
+    /// Advances the weather by one picture, and returns its light.
     pub(super) fn next(&mut self, light: &Light, draws: &mut Draws) -> Shine {
         let fresh: Drifts = core::array::from_fn(|_| draws.gaussian());
         let kept = match self.now {
@@ -134,7 +134,7 @@ impl Weather {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shine {
     gain: [f64; 3],
-    /// Unit vector to where it comes from.
+    /// Unit vector towards the light.
     to_light: Vector,
     shade: f64,
     outside: f64,
@@ -175,7 +175,7 @@ impl Shine {
         core::array::from_fn(|part| colour[part] * self.gain[part])
     }
 
-    /// Returns the share of full light that lies over a picture whose share `share` glows.
+    /// Returns the share of full light added to a picture of which `share` glows.
     pub(super) fn veil(&self, share: f64) -> f64 {
         (self.glare * self.outside * share).min(0.9)
     }

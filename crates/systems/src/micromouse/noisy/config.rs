@@ -44,9 +44,9 @@ impl NoisyMouseConfig {
 /// Source of a mouse's estimate of its pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PoseSource {
-    /// Assumes that its wheels do what they are told.
+    /// Assumes that its wheels follow the commands exactly.
     DeadReckoning,
-    /// Compares what it sees with the walls that it knows.
+    /// Compares its readings with the walls that it knows.
     ParticleFilter,
 }
 
@@ -55,7 +55,7 @@ pub enum PoseSource {
 pub enum MotionSource {
     /// The commands.
     Commands,
-    /// The encoders, and the commands where the encoders give nothing.
+    /// The encoders, and the commands while the encoders give nothing.
     Encoders,
 }
 

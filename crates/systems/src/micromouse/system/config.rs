@@ -14,7 +14,7 @@ pub struct MazeMouseConfig {
     pub wall_thickness: f64,
     /// Turn made in a time step at the full command, rad. > 0.
     pub turn_per_step: f64,
-    /// Way covered in a time step at the full command, m. > 0.
+    /// Distance covered in a time step at the full command, m. > 0.
     pub translate_per_step: f64,
 }
 
