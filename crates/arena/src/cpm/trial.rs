@@ -253,7 +253,7 @@ pub enum CpmTrialError {
     #[error(transparent)]
     Course(#[from] CourseError),
     /// The watcher of a robot broke its learning off.
-    #[error("broken off after {walks} fragments")]
+    #[error("the watcher stopped the lesson after {walks} fragments; let it run to its end")]
     BrokenOff {
         /// Number of walks.
         walks: u32,

@@ -8,10 +8,14 @@ use tolman_systems::micromouse::Certificate;
 #[non_exhaustive]
 pub enum CertificateError {
     /// The certificate is about another maze.
-    #[error("the certificate is for a maze with another size, start or goals")]
+    #[error(
+        "the certificate is for a maze with another size, start or goals; check it with the maze it was made for"
+    )]
     OtherMaze,
     /// The certificate states something false about a wall.
-    #[error("the certificate says that the {direction} side of {cell} is {known:?}, but it is not")]
+    #[error(
+        "the certificate says that the {direction} side of {cell} is {known:?}, but it is not; explore the maze again"
+    )]
     FalseWall {
         /// The cell.
         cell: Cell,
@@ -21,7 +25,7 @@ pub enum CertificateError {
         known: Knowledge,
     },
     /// The certificate lacks a number for some cell, or names a wall that the maze does not have.
-    #[error("the certificate has {found} numbers where the maze has {cells} cells")]
+    #[error("the certificate has {found} numbers for {cells} cells; give one per cell")]
     Size {
         /// Number of numbers in the certificate.
         found: usize,
@@ -29,7 +33,7 @@ pub enum CertificateError {
         cells: usize,
     },
     /// The run does not lead from the start to a goal.
-    #[error("the run does not begin at the start and end at a goal")]
+    #[error("the run has to begin at the start and end at a goal")]
     Ends,
     /// A step of the run is not known to be possible.
     #[error("step {index} of the run, from {from} to {to}, is not known to be possible")]

@@ -26,19 +26,19 @@ pub enum AuditCertificateError {
     #[error(transparent)]
     Graph(#[from] AuditError),
     /// The certificate's edge is not a closure of this graph.
-    #[error("edge {edge} is not a closure of this graph")]
+    #[error("edge {edge} is not a closure of this graph; name the graph that was audited")]
     NoClosure {
         /// The edge.
         edge: u32,
     },
     /// A closure has two certificates.
-    #[error("edge {edge} has two certificates")]
+    #[error("edge {edge} has two certificates; remove one")]
     Twice {
         /// The edge.
         edge: u32,
     },
     /// A cycle is invalid.
-    #[error("the cycle of edge {edge} is invalid: {error}")]
+    #[error("the cycle of edge {edge} is invalid: {error}; audit the graph again")]
     Cycle {
         /// The edge.
         edge: u32,
@@ -46,13 +46,15 @@ pub enum AuditCertificateError {
         error: CycleError,
     },
     /// A cycle begins with another closure than its certificate's.
-    #[error("a cycle of edge {edge} begins with another one")]
+    #[error("a cycle of edge {edge} begins with another edge; audit the graph again")]
     Another {
         /// The edge.
         edge: u32,
     },
     /// A residual, covariance or χ² differs from what the graph gives.
-    #[error("{what} of a cycle of edge {edge} is stated as {told}; the graph gives {measured}")]
+    #[error(
+        "{what} of a cycle of edge {edge} is stated as {told}, but the graph gives {measured}; audit the graph again"
+    )]
     Number {
         /// The edge.
         edge: u32,
@@ -64,7 +66,9 @@ pub enum AuditCertificateError {
         measured: f64,
     },
     /// The cycle that should refute a closure is within its bound.
-    #[error("the cycle of edge {edge} has χ² {chi2}, which is within the bound {most}")]
+    #[error(
+        "the cycle of edge {edge} refutes nothing, as its χ² {chi2} is within the bound {most}; audit the graph again"
+    )]
     Within {
         /// The edge.
         edge: u32,
@@ -75,7 +79,7 @@ pub enum AuditCertificateError {
     },
     /// A cycle that should support a closure is beyond its bound or too wide.
     #[error(
-        "a cycle of edge {edge} does not support it: χ² {chi2} of at most {most}, or a region that is too wide"
+        "a cycle of edge {edge} does not support it: its χ² is {chi2} of at most {most}, or its region is too wide; audit the graph again"
     )]
     Unsupported {
         /// The edge.
@@ -86,13 +90,15 @@ pub enum AuditCertificateError {
         most: f64,
     },
     /// A closure has no cycle that supports it.
-    #[error("the audit calls edge {edge} supported, but gives no cycle")]
+    #[error("the audit calls edge {edge} supported, but gives no cycle; audit the graph again")]
     NoWitness {
         /// The edge.
         edge: u32,
     },
     /// A cycle leads over a closure without a certificate of its own.
-    #[error("a cycle of edge {edge} leads over edge {over}, which no certificate supports")]
+    #[error(
+        "a cycle of edge {edge} leads over edge {over}, which no certificate supports; audit the graph again"
+    )]
     Unproven {
         /// The edge.
         edge: u32,
@@ -100,7 +106,9 @@ pub enum AuditCertificateError {
         over: u32,
     },
     /// A cycle leads over a closure of a run that already counts.
-    #[error("a cycle of edge {edge} leads over edge {over}, whose run is a witness already")]
+    #[error(
+        "a cycle of edge {edge} leads over edge {over}, whose run is a witness already; audit the graph again"
+    )]
     SameRun {
         /// The edge.
         edge: u32,
@@ -108,13 +116,17 @@ pub enum AuditCertificateError {
         over: u32,
     },
     /// The cycle that refutes a closure has other steps than the audit states.
-    #[error("the cycle of edge {edge} has other steps than the audit states")]
+    #[error(
+        "the cycle of edge {edge} has other steps than the audit states; audit the graph again"
+    )]
     RefutedBy {
         /// The edge.
         edge: u32,
     },
     /// The number of runs differs.
-    #[error("the audit states {told} runs of closures; the graph gives {measured}")]
+    #[error(
+        "the audit states {told} runs of closures, but the graph gives {measured}; audit the graph again"
+    )]
     Runs {
         /// The audit's value.
         told: u32,
@@ -122,7 +134,9 @@ pub enum AuditCertificateError {
         measured: u32,
     },
     /// A closure belongs to another run than the audit states.
-    #[error("the audit puts edge {edge} into run {told}; the graph gives {measured}")]
+    #[error(
+        "the audit puts edge {edge} into run {told}, but the graph gives {measured}; audit the graph again"
+    )]
     Run {
         /// The edge.
         edge: u32,

@@ -27,7 +27,7 @@ pub enum MapDoubt {
     },
     /// Another map explains the observations as well.
     #[error(
-        "several maps explain what the robot met, and this one has a probability of {percent:.0} %"
+        "several maps explain the robot's observations, and this one has a probability of {percent:.0} %"
     )]
     Unsure {
         /// Probability of the map among those that explain the observations, %.

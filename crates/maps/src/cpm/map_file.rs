@@ -107,10 +107,14 @@ pub enum MapFileError {
         found: usize,
     },
     /// The map has fragments but no dictionary version, so their patterns cannot be identified.
-    #[error("it has fragments, but not the number of patterns they were written with")]
+    #[error(
+        "it has fragments, but not the number of patterns they were written with; learn the map again"
+    )]
     Unversioned,
     /// The patterns were changed after the file was written.
-    #[error("its patterns have the fingerprint {found}, not {expected}: they were changed")]
+    #[error(
+        "its patterns have the fingerprint {found}, not {expected}: they were changed; copy the file again"
+    )]
     Fingerprint {
         /// Version the file states.
         expected: String,
@@ -121,7 +125,9 @@ pub enum MapFileError {
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
     /// A junction has more ports than any junction may have.
-    #[error("junction {junction} has {ports} ports, at most {MOST_PORTS} are allowed")]
+    #[error(
+        "junction {junction} has {ports} ports, but at most {MOST_PORTS} are allowed; learn the map again"
+    )]
     TooManyPorts {
         /// Its number.
         junction: u32,
@@ -137,7 +143,9 @@ pub enum MapFileError {
         source: BearingsError,
     },
     /// A junction has another number of bearings than of ports.
-    #[error("junction {junction} has {bearings} bearings for {ports} ports")]
+    #[error(
+        "junction {junction} has {bearings} bearings for {ports} ports; give one for each port, or none"
+    )]
     BearingsOfPorts {
         /// Its number.
         junction: u32,
@@ -147,7 +155,7 @@ pub enum MapFileError {
         ports: usize,
     },
     /// Two entries have one id, or an id is larger than any that was given out.
-    #[error("{what} {id} appears twice, or was never assigned")]
+    #[error("{what} {id} appears twice, or was never assigned; learn the map again")]
     BadId {
         /// Kind of entry: a fragment or a junction.
         what: &'static str,
@@ -155,7 +163,7 @@ pub enum MapFileError {
         id: u32,
     },
     /// A fragment and a port contradict each other.
-    #[error("end {} of fragment {} and port {port} of junction {junction} do not belong to each other", .end.sign, .end.fragment.0)]
+    #[error("end {} of fragment {} and port {port} of junction {junction} do not belong to each other; learn the map again", .end.sign, .end.fragment.0)]
     Unjoined {
         /// The end.
         end: End,

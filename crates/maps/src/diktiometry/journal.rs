@@ -40,7 +40,7 @@ pub enum UndoError {
     #[error("no journal is kept; set `journal` of the configuration to `All`")]
     NoJournal,
     /// The journal has fewer moves.
-    #[error("{asked} moves cannot be undone; the journal has only {moves}")]
+    #[error("{asked} moves cannot be undone; the journal has only {moves}; undo fewer")]
     TooFar {
         /// Number of moves that should be undone.
         asked: u64,

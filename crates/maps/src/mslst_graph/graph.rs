@@ -56,7 +56,7 @@ pub enum GraphError {
     },
     /// An edge leads to a node that does not exist.
     #[error(
-        "node {node}: its {action} edge leads to node {head}, which does not exist; there are {count} nodes"
+        "node {node}: its {action} edge leads to node {head}, which does not exist, as there are {count} nodes: learn the map again"
     )]
     NoSuchNode {
         /// The node.
@@ -70,7 +70,7 @@ pub enum GraphError {
     },
     /// An edge is stored in one direction only.
     #[error(
-        "node {node}: its {action} edge leads to node {head}, which has no {} edge back",
+        "node {node}: its {action} edge leads to node {head}, which has no {} edge back: learn the map again",
         action.opposite()
     )]
     OneWay {

@@ -86,7 +86,7 @@ pub enum PlaceMapError {
         found: usize,
     },
     /// A record's number is beyond the table.
-    #[error("there is no record {record}: the table has {count}")]
+    #[error("there is no record {record}: give a number below {count}")]
     NoSuchRecord {
         /// The number.
         record: usize,

@@ -6,7 +6,7 @@ use thiserror::Error;
 pub enum PoseGraphError {
     /// There is no such pose.
     #[error(
-        "the edge from {from} to {to} names a pose that does not exist: the graph has {poses} poses"
+        "the edge from {from} to {to} names a pose that does not exist: add it first; the graph has {poses} poses"
     )]
     NoPose {
         /// The pose it leaves.

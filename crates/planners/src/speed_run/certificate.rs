@@ -29,7 +29,9 @@ pub struct SpeedRunCertificate {
 pub enum SpeedRunCertificateError {
     /// A straight or turn that cannot be made where the mouse is, such as a diagonal in the middle
     /// of a cell.
-    #[error("move {number} ({run_move:?}) cannot be made from where the mouse is then")]
+    #[error(
+        "move {number} ({run_move:?}) cannot be made from the mouse's position then: search the run again"
+    )]
     Impossible {
         /// Number of the move, from 0.
         number: usize,
@@ -37,7 +39,9 @@ pub enum SpeedRunCertificateError {
         run_move: RunMove,
     },
     /// A move through a wall, or through an unknown one.
-    #[error("move {number} ({run_move:?}) crosses an edge that is not known to be open")]
+    #[error(
+        "move {number} ({run_move:?}) crosses an edge that is not known to be open: look at it first"
+    )]
     NotOpen {
         /// Number of the move, from 0.
         number: usize,

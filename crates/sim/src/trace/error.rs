@@ -42,13 +42,13 @@ pub enum ReplayError {
     #[error("the trace is empty; record one")]
     Empty,
     /// The trace has another format.
-    #[error("line 1: the format is `{found}`; expected `tolman-trace`")]
+    #[error("line 1: the format is `{found}`; expected `tolman-trace`; give a recorded trace")]
     Format {
         /// The format found.
         found: String,
     },
     /// The trace has a version that this program does not know.
-    #[error("line 1: the version is {found}; this program reads version 1")]
+    #[error("line 1: the version is {found}; this program reads version 1; record the trace again")]
     Version {
         /// The version found.
         found: u32,
@@ -90,7 +90,7 @@ pub enum ReplayError {
     },
     /// The lines of a tick are not one per robot, in order.
     #[error(
-        "line {line}: expected robot {robot} at tick {tick}; lines are missing or out of order"
+        "line {line}: expected robot {robot} at tick {tick}; lines are missing or out of order; record the trace again"
     )]
     Order {
         /// Number of the line, from 1.

@@ -166,13 +166,15 @@ pub enum WorldFileError {
     #[error("not a world file: {0}")]
     Json(#[from] serde_json::Error),
     /// The file has another format.
-    #[error("the format is `{found}`; expected `{FORMAT}`")]
+    #[error("the format is `{found}`, expected `{FORMAT}`; give a world file")]
     Format {
         /// Format that it names.
         found: String,
     },
     /// The file has a version that this program does not know.
-    #[error("the version is {found}; this program reads version {VERSION}")]
+    #[error(
+        "the version is {found}, but this program reads version {VERSION}; write the world again"
+    )]
     Version {
         /// Version that it names.
         found: u32,

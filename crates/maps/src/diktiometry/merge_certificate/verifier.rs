@@ -12,13 +12,15 @@ use crate::diktiometry::{Config, Journal, MoveOutcome, Percepts};
 #[non_exhaustive]
 pub enum MergeCertificateError {
     /// The certificate was changed after it was made.
-    #[error("certificate {number} was changed: its seal does not fit")]
+    #[error("certificate {number} was changed, as its seal does not fit; certify the merges again")]
     Changed {
         /// Number of the certificate.
         number: usize,
     },
     /// The journal has no such visit.
-    #[error("certificate {number} names visit {visit}, but the journal has only {visits} visits")]
+    #[error(
+        "certificate {number} names visit {visit}, but the journal has only {visits} visits; give the journal it was made from"
+    )]
     NoSuchVisit {
         /// Number of the certificate.
         number: usize,
@@ -29,20 +31,24 @@ pub enum MergeCertificateError {
     },
     /// A route or a chain of looks has a gap.
     #[error(
-        "certificate {number} has a gap: two visits that it joins are not known to be at one place"
+        "certificate {number} has a gap, as two visits that it joins are not known to be at one place; certify the merges again"
     )]
     Gap {
         /// Number of the certificate.
         number: usize,
     },
     /// The certificate claims to rest on looks and does not, or the reverse.
-    #[error("certificate {number} states wrongly whether it rests on looks")]
+    #[error(
+        "certificate {number} states wrongly whether it rests on looks; certify the merges again"
+    )]
     Ground {
         /// Number of the certificate.
         number: usize,
     },
     /// The certificate's looks prove nothing: there is no pair, or a coincidence is as likely.
-    #[error("certificate {number} has looks that fit two places as well as one")]
+    #[error(
+        "certificate {number} has looks that fit two places as well as one; collect more looks"
+    )]
     NoEvidence {
         /// Number of the certificate.
         number: usize,
