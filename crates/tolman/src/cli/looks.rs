@@ -12,7 +12,7 @@ pub(super) struct Looks {
     /// view
     #[arg(long)]
     pub(super) live: bool,
-    /// Draw the robot's way over the maze or the world
+    /// Draw the robot's path over the maze or the world
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
     /// Write a trace of the run, as JSON lines: the world and the robot, then command, outcome and

@@ -39,7 +39,7 @@ Examples:
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --json
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --replay hosted.html")]
 pub(super) struct Arguments {
-    /// Command that starts the mouse; split into words as a shell would, but run without one
+    /// Command that starts the mouse. It is split into words as by a shell, but run without one
     #[arg(long, value_name = "CMD")]
     mouse: String,
     /// Maze file of any format, or a folder of them
