@@ -13,7 +13,6 @@ use crate::chance::{Chance, Channel, Draws};
 
 /// Places, and the place to which each direction leads from them.
 ///
-///
 /// ```
 /// use tolman_maze::{Direction, Grid, Maze};
 /// use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};

@@ -15,8 +15,6 @@ pub enum DoorState {
 /// A wall that can be opened and shut.
 ///
 /// A door does not shut while a body stands in it; it waits until the body is out of the way.
-///
-/// A door that is to shut while a body stands in it waits until the body is out of the way.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Door {

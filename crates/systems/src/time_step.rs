@@ -10,9 +10,6 @@ use tolman_robot::{
 ///
 /// A log without the actions cannot fill [`doing`](Self::doing), and a brain learns nothing from
 /// it.
-///
-/// A log that does not name the actions cannot fill [`doing`](Self::doing), and a brain learns
-/// nothing of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeStep {
     /// The ranges in the robot's frame, m; `None` for a drop-out.

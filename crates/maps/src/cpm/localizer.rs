@@ -502,10 +502,6 @@ fn anywhere(maps: usize, tracks: &[Track]) -> Vec<f64> {
 /// The likelihood is exponential, not normal. Errors of observations a stride apart are correlated,
 /// so a distant one says less than independent ones would. With it beliefs are right as often as
 /// they claim.
-///
-/// The likelihood is exponential, not normal: observations a stride apart err by much the same, so
-/// a far one says less than independent ones would. With it beliefs are right as often as they
-/// claim.
 const NEAR: f64 = 0.14;
 
 /// Probability of mistaking a junction for another kind.

@@ -85,10 +85,6 @@ impl Observer {
     /// The robot's stopping point within a place matters only at the two ends of such a way. A
     /// chain of relations counts it at both ends of every move. With a place radius of 0 there is
     /// nothing to gain, so nothing is done.
-    ///
-    /// The robot's stopping point within a place matters only at the two ends of such a way. A
-    /// chain of relations counts it at both ends of every move. With a place radius of 0 there is
-    /// nothing to gain, so nothing is done.
     fn relate_lately(&mut self, track: &Track, to: PlaceId, moved: PointBox) {
         if self.config.place_radius <= 0.0 {
             return;

@@ -45,8 +45,6 @@ const LONGEST: usize = 5;
 /// A claim that the robot was at one place at two visits, with its evidence.
 ///
 /// Visit 0 is the start. Visit k is at the end of move k of the journal.
-///
-/// Visit 0 is the start, visit k where move k of the journal ended.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MergeCertificate {

@@ -122,9 +122,6 @@ fn near<'a>(surfaces: &[&'a Surface], pose: Pose, radius: f64) -> Vec<&'a Surfac
 ///
 /// Surfaces are sorted by column of their grid, but not within a column, so the bounds are a column
 /// wider.
-///
-/// They come by column of their grid, and within a column in any order: so the bounds are a column
-/// wider.
 fn between<'a, 'b>(surfaces: &'b [&'a Surface], low: f64, high: f64) -> &'b [&'a Surface] {
     let slack = CELL + SLACK;
     let x = |surface: &Surface| surface.position().x;

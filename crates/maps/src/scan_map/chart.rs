@@ -12,8 +12,6 @@ use super::{Clearings, GroundPlan, ScanMap, ScanPlace, WallGrid};
 /// them.
 ///
 /// Navigation needs no more, and a file holds no more.
-///
-/// Navigation needs no more, and a file holds no more.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanChart {
     ground: GroundPlan,

@@ -13,9 +13,6 @@ pub(super) const LANES: usize = 4;
 ///
 /// [`aim`](Self::aim) gives every beam the ring's range; obstacles then shorten it.
 ///
-///
-/// [`aim`](Self::aim) makes every beam as long as the ring's range; what then is met shortens it.
-///
 /// ```
 /// use tolman_geom::{Heading, Point, Pose};
 /// use tolman_robot::Ring;

@@ -13,8 +13,6 @@ use super::{Arrival, Rover};
 /// The map of a rover: turns the rover's arrivals into the observer's moves.
 ///
 /// Action n of the map is direction n of [`Direction::ALL`].
-///
-/// Action n of the map is direction n of [`Direction::ALL`].
 #[derive(Clone, Debug)]
 pub struct RoverMap {
     observer: Observer,

@@ -10,9 +10,6 @@ use tolman_planners::moves::MouseStep;
 ///
 /// It is written as the paper's test program takes it, with one key for each:
 ///
-///
-/// It is written as the paper's test program takes it, with one key for each:
-///
 /// ```
 /// use tolman_systems::micromouse::{Movement, Order, Rotation};
 ///

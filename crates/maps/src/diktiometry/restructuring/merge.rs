@@ -10,8 +10,6 @@ use crate::diktiometry::{
 /// their frames forbid it.
 ///
 /// O(relations and links of the younger · log degree of the older).
-///
-/// O(relations and links of the younger · log degree of the older).
 pub(super) fn merge(
     map: &mut Diktiometry,
     a: PlaceId,

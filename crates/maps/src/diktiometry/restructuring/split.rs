@@ -11,11 +11,6 @@ use crate::diktiometry::{Counts, Diktiometry, Estim, Link, LinkId, LinkStatus, P
 /// estimate indicated by their respective estims. Action link sets are pruned eventually by the
 /// transient elision mechanism": both have all links. By links, each takes the incoming links of
 /// its side and the links taken after them.
-///
-/// By estims, "the two new places created by a split each take the sides of the original position
-/// estimate indicated by their respective estims. Action link sets are pruned eventually by the
-/// transient elision mechanism": both have all links. By links, each takes the incoming links of
-/// its side and what was taken after them.
 pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis) -> PlaceId {
     let here = map.place(place).clone();
     let new = map.add_place(here.frame, here.position);

@@ -25,11 +25,6 @@ const BORDERS: usize = 2 * EDGES;
 /// each row. Three edges form a triangle: its sides are the angles between them, its corners the
 /// contrasts. Both do not depend on the robot's rotation, and contrasts do not depend on
 /// brightness.
-///
-/// An *edge* is the border between two columns that differ, with its *contrast*, by how much in
-/// each row. Three edges are a triangle: its sides are the angles between them, its corners the
-/// contrasts. Both are the same however the robot is turned, and contrasts are the same however
-/// bright it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct TriangleIndex {
     tree: FeatureTree,
