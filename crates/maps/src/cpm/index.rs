@@ -7,7 +7,8 @@ use super::nodes::Nodes;
 use super::pattern::{Dictionary, PatternId};
 
 /// Ranks the fragments of a large map by how promising a comparison is, in the way that texts are
-/// ranked.
+/// ranked. "One can use the 'term frequency-inverse document frequency', *tf-idf*, for
+/// path-fragment matching in more complex environment" (section 8).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FragmentIndex {
     bags: Nodes<FragmentId, Bag>,
