@@ -167,7 +167,7 @@ mod tests {
 
     use super::*;
 
-    /// A robot that senses nothing and counts its steps.
+    /// A robot without sensors that counts its steps.
     struct Blind {
         sensing: LaserSensing,
         steps: u32,

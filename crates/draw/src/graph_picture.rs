@@ -89,7 +89,7 @@ pub enum EdgeLine {
     /// A line.
     #[default]
     Plain,
-    /// A dashed line, for what is doubtful.
+    /// A dashed line, for doubtful things.
     Dashed,
     /// A line with an arrow head towards its end; two that run opposite ways show both heads.
     Arrow,

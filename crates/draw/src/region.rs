@@ -3,7 +3,7 @@
 use tolman_geom::{Heading, Point, Pose};
 use tolman_sim::Bounds;
 
-/// A region that holds something whose place is not known exactly, for
+/// A region that contains something at an uncertain position, for
 /// [`FloorPlan::region`](super::FloorPlan::region).
 ///
 /// ```

@@ -1,4 +1,4 @@
-//! The box plots that every experiment gets.
+//! Makes the box plots that every experiment gets.
 
 use super::{Experiment, Metric, Run, Statistic, Table};
 use tolman_draw::{BoxGroup, BoxPlot, Dot, Figure, PaperMark, Series};

@@ -59,7 +59,7 @@ pub enum Remedy {
     PlayedAgain,
     /// The run is known from another line, or was not asked for.
     Ignored,
-    /// The line does not say which run it was. Any missing runs are played.
+    /// The line does not name its run. Any missing runs are played.
     MissingPlayed,
 }
 

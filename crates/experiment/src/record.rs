@@ -1,4 +1,4 @@
-//! Records: what a run measures, as a struct with a column for each field.
+//! Defines records: the measurements of a run, as a struct with a column for each field.
 
 use core::any::type_name;
 
@@ -239,7 +239,7 @@ mod tests {
             before: u32 => neither("throws before"),
             /// Whether it counts.
             counts: bool => higher("counted"),
-            /// What the player said.
+            /// Message of the player.
             said: Option<String> => neither("words"),
             /// The way of the dart.
             way: Vec<f64> => neither("way"),

@@ -1,4 +1,4 @@
-//! One run: what identifies it, and its results.
+//! Identifies one run, and holds its results.
 
 use alloc::collections::BTreeMap;
 use core::any::type_name;

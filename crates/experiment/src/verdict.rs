@@ -54,7 +54,7 @@ pub enum Doubt {
     OneRun,
     /// The event that the metric waits for did not happen.
     NotReached,
-    /// Files that its runs need are missing: which, and where to get them.
+    /// Files that its runs need are missing: their names, and their source.
     NoData(String),
     /// No run was made.
     NoRuns,

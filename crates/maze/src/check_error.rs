@@ -57,7 +57,7 @@ pub enum CheckError {
 }
 
 impl CheckError {
-    /// Returns the cell to look at, if it is one of the maze.
+    /// Returns the cell with the fault, or `None` if the fault concerns no single cell.
     pub(crate) const fn cell(self) -> Option<Cell> {
         match self {
             Self::OpenBorder { cell, .. } => Some(cell),

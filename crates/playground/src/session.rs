@@ -26,7 +26,7 @@ pub struct Session {
 pub enum SessionTask {
     /// The system learns the maze.
     Explore,
-    /// The system finds out where it was put down.
+    /// The system localizes after it was put down.
     Localize,
     /// The system drives to the goal.
     Home,
@@ -91,7 +91,7 @@ impl Session {
     }
 
     /// Lifts the robot and puts it down in the cell at a position in the world, m. The system knows
-    /// that it was lifted, not where it is, and begins to find out.
+    /// that it was lifted, but not its new place, and begins to localize.
     ///
     /// # Errors
     /// [`PlaygroundError`] if the robot cannot stand there.
@@ -139,7 +139,7 @@ impl Session {
         self.contest.outing()
     }
 
-    /// Returns the run so far as the replay player takes it. O(steps + map).
+    /// Returns the run so far in the replay player's form. O(steps + map).
     ///
     /// # Errors
     /// [`PlaygroundError::Replay`] if it cannot be written.

@@ -151,7 +151,7 @@ pub(crate) fn within(
 #[error("the network has no unit {0}: give the id of a present unit")]
 pub struct UnknownUnit(pub UnitId);
 
-/// Reason why what was saved cannot be resumed.
+/// Reason why a saved network cannot be resumed.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SnapshotError {
@@ -207,10 +207,10 @@ pub enum SnapshotError {
         /// The ends.
         ends: (UnitId, UnitId),
     },
-    /// A list has another length than what it belongs to.
+    /// A list has the wrong length.
     #[error("there are {found} {what}, expected {expected}: save the network again")]
     WrongCount {
-        /// Kind of thing that is listed.
+        /// Kind of the list's items.
         what: &'static str,
         /// Number that there must be.
         expected: usize,
@@ -219,7 +219,7 @@ pub enum SnapshotError {
     },
 }
 
-/// Refuses a list of another length than what it belongs to.
+/// Refuses a list of the wrong length.
 pub(crate) fn check_count(
     what: &'static str,
     expected: usize,

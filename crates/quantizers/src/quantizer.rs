@@ -1,4 +1,4 @@
-//! What all quantizers have in common.
+//! Defines the common interface of quantizers.
 
 use crate::{Events, InputError, Nearest, NearestTwo, Network, NetworkSnapshot, Scalar};
 

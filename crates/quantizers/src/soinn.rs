@@ -68,8 +68,7 @@ pub struct Tally {
     pub error: f64,
     /// M: how many those are.
     pub wins: f64,
-    /// The step at which it came, or the older of the two it was put between, from which it has
-    /// wins.
+    /// Step at which it was made, or that of the older of the two units between which it was put.
     pub since: u64,
     /// R: E / M after the last insertion it had part in, or `None` if there was none.
     pub radius: Option<f64>,
@@ -104,7 +103,7 @@ impl Tally {
         }
     }
 
-    /// Returns the tally of a unit put between two.
+    /// Returns the tally of a unit that was put between two others.
     fn between(q: Self, f: Self) -> Self {
         Self {
             error: (q.error + f.error) / 6.0,
@@ -271,8 +270,8 @@ impl<S: Scalar> Soinn<S> {
         self.network.cut_old_edges(first, self.config.max_age);
     }
 
-    /// Carries out the first half of step 10. What would be undone is not begun, so the network
-    /// stays as it was to the bit.
+    /// Carries out the first half of step 10. An insertion that would be undone is not begun, so
+    /// the network stays the same to the bit.
     fn insert_where_error_is_large(&mut self) {
         if self.config.insertion == ErrorInsertion::Off || !self.network.has_ids_left() {
             return;

@@ -4,7 +4,7 @@ use serde::Serialize;
 use tolman_geom::{Point, Vector};
 use tolman_sim::{Area, Bounds, World};
 
-/// Fixed things: walls, zones of the floor, and doors. Coordinates are in metres, x to the right
+/// Static things: walls, zones of the floor, and doors. Coordinates are in metres, x to the right
 /// and y upwards.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scenery {

@@ -1,5 +1,5 @@
-//! The capabilities of a robot's sensing. A layer or a system names in its bounds what it needs,
-//! and so runs on every robot that senses it.
+//! Capabilities of a robot's sensing. A layer or a system names its needs in its bounds, and so
+//! runs on every robot that meets them.
 
 use tolman_geom::Heading;
 
@@ -32,7 +32,8 @@ pub trait Sees {
 
 /// Sensing with contact.
 pub trait Bumps {
-    /// Returns whether the body touched something in this time step, or `None` if nothing tells.
+    /// Returns whether the body touched something in this time step, or `None` without a bumper or
+    /// for a drop-out.
     fn bump(&self) -> Option<bool>;
 }
 

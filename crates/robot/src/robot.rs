@@ -43,7 +43,7 @@ pub trait Robot {
     /// The reason why the robot does not carry out the command. It then stands still.
     fn step(&mut self, command: &Self::Command) -> Result<(), Self::Error>;
 
-    /// Tells the robot to stand still, for one time step.
+    /// Commands the robot to stand still for one time step.
     ///
     /// # Errors
     /// As [`Self::step`].

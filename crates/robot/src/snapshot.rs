@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::{LaserSensing, Picture, Sounding, Soundings};
 
-/// Perception of a robot at its place, whatever its sensors are.
+/// Perception of a robot at its place, by any sensors.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot {
@@ -19,7 +19,7 @@ pub trait TakesSnapshots: Soundings {
     fn snapshot(&self) -> Option<Snapshot>;
 }
 
-/// Of what the laser reads alone.
+/// Snapshots of the laser's readings alone.
 impl<S: AsRef<LaserSensing>> TakesSnapshots for S {
     fn snapshot(&self) -> Option<Snapshot> {
         let soundings: Vec<Sounding> = self.soundings().collect();

@@ -71,7 +71,7 @@ pub(super) fn check(sample: &[f64], needed: usize) -> Result<(), SampleError> {
     }
 }
 
-/// Refuses what is not a probability; the ends are allowed.
+/// Refuses a number that is not a probability; 0 and 1 are allowed.
 pub(super) fn check_probability(value: f64) -> Result<(), SampleError> {
     if (0.0..=1.0).contains(&value) {
         Ok(())

@@ -1,4 +1,4 @@
-//! Everything held to SciPy's values; `tests/data/stats.py` makes them.
+//! Compares everything with SciPy's values, which `tests/data/stats.py` makes.
 
 use serde::Deserialize;
 

@@ -134,7 +134,7 @@ impl LearnedMap for MapText {
     }
 }
 
-/// Everything that a robot is sent out with.
+/// Everything needed to send out a robot.
 #[derive(Clone, Debug)]
 pub struct Setup<'a> {
     /// Name of the maze or world.

@@ -2,7 +2,7 @@
 
 use super::page::{CrateRow, Page};
 
-/// A member of the workspace and what it depends on directly.
+/// A member of the workspace and its direct dependencies.
 #[derive(Debug)]
 pub(super) struct Package {
     pub(super) name: String,

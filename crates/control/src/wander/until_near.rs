@@ -52,7 +52,7 @@ impl UntilNearConfig {
     }
 }
 
-/// Drives a robot straight on until something is near, and turns it to where the way is clear.
+/// Drives a robot straight on until something is near, and turns it until the way is clear.
 #[derive(Clone, Debug)]
 pub struct UntilNear {
     config: UntilNearConfig,
@@ -84,7 +84,7 @@ pub enum TurnByEnd {
 const MOST_REVERSALS: u32 = 4;
 
 impl UntilNear {
-    /// Returns a driver that has heard nothing yet.
+    /// Returns a driver without readings.
     #[must_use]
     pub fn new(config: UntilNearConfig) -> Self {
         Self {
@@ -99,8 +99,8 @@ impl UntilNear {
         self.near.give_way(share);
     }
 
-    /// Lets things come as near ahead as `share` of the limit, 0 … 1, from now on; those beside
-    /// keep theirs.
+    /// Sets the limit ahead to `share` of its full value, 0 … 1, from now on. The limits beside
+    /// stay the same.
     pub fn limit_ahead(&mut self, share: f64) {
         let limits = self.config.limits;
         self.near.limit(NearLimits {
@@ -188,9 +188,8 @@ impl UntilNear {
         creep(robot, back, steps, |sensing| self.near.take_in(sensing))
     }
 
-    /// Turns in place by `angle`, rad, counter-clockwise, and no farther, as well as the wheels
-    /// tell, whatever is near. Where the body touches something it [goes free](Self::go_free) of
-    /// that instead.
+    /// Turns in place by `angle`, rad, counter-clockwise, and no farther, by odometry, whatever is
+    /// near. Where the body touches something it [goes free](Self::go_free) of that instead.
     ///
     /// # Errors
     /// If the robot fails.

@@ -1,4 +1,4 @@
-//! Chooses what is open on a page, and what is folded until a reader opens it.
+//! Chooses the parts of a page that are open, and those that are folded until a reader opens them.
 //!
 //! The open part takes at most six desktop screens. The main tables come first, each with its first
 //! metrics and figures. The rest is one click away. Heights are estimates on the safe side, because

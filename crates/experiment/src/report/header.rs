@@ -1,4 +1,4 @@
-//! The head of the page: what was run, with what, and the result at a glance.
+//! Writes the head of the page: the runs, their settings, and the result at a glance.
 
 use maud::{Markup, html};
 

@@ -70,8 +70,8 @@ impl Pyramid {
     }
 }
 
-/// Returns the pose in the window about `expected` at which the outline lies best on the grid.
-/// O(headings · points · (reach / width)²) and what bounds leave.
+/// Returns the pose in the window about `expected` at which the outline fits the grid best.
+/// O(headings · points · (reach / width)²) without the bounds, which save most of it.
 pub(super) fn best(
     grid: &LikelihoodGrid,
     pyramid: &Pyramid,

@@ -13,9 +13,9 @@ pub(super) struct ScanOutline {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SurfacePoint {
     pub(super) at: Point,
-    /// Across the surface, of unit length; zero where the beams beside it tell nothing.
+    /// Unit normal of the surface; zero if the neighbouring beams do not determine it.
     pub(super) normal: Vector,
-    /// Whether the same surface goes on to the next point.
+    /// Whether the same surface continues to the next point.
     pub(super) goes_on: bool,
 }
 

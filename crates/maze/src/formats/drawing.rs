@@ -254,7 +254,7 @@ const HORIZONTAL: &str =
     "`---` or three blanks between two posts, since a cell is three characters wide";
 
 impl Row<'_> {
-    /// Returns the character at `offset`; lines go on with blanks after their end.
+    /// Returns the character at `offset`; blanks beyond the end of the line.
     fn char(&self, offset: usize) -> char {
         let bytes = self.line.text.as_bytes();
         match bytes.get(self.indent + offset) {

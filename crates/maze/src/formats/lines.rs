@@ -1,4 +1,4 @@
-//! Lines of a text with their numbers, so that every fault can say where it is.
+//! Reads the lines of a text with their numbers, so that every fault can name its place.
 
 use super::{MazeError, MazeFault};
 

@@ -153,7 +153,7 @@ fn share(part: u32, whole: u32) -> Option<f64> {
     (whole > 0).then(|| f64::from(part) / f64::from(whole))
 }
 
-/// Row of a robot that walks, and looks again from the middle of what it believes is a place.
+/// Row of a robot that walks, and looks again from the believed middle of a place.
 const ON_THE_WAY: &str = "Ours, on the way";
 
 /// Returns the rows of single sweeps: each setting in the mazes as they are drawn, and with wide

@@ -278,7 +278,7 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
 }
 
 impl FreshRow {
-    /// Returns the configuration of the runs, without what the mapper knows of each drawing.
+    /// Returns the configuration of the runs, without the mapper's knowledge of each drawing.
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
         struct Settings {

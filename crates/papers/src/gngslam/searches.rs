@@ -27,7 +27,7 @@ pub(super) struct Searches {
     seed: u64,
     /// Records by source.
     places: [Places; SOURCES.len()],
-    /// Searches by row and number. A caller waits while another one works on the search it needs.
+    /// Searches by row and number. A caller waits while another one works on the same search.
     started: Mutex<BTreeMap<(usize, u32), Shared>>,
 }
 

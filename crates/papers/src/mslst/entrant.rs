@@ -19,15 +19,15 @@ use tolman_systems::mslst::{Learned, MslstConfig, Navigator};
 /// A brain that competes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Entrant {
-    /// An agent that learns nothing before.
+    /// An agent that learns nothing beforehand.
     Agent(Agent),
     /// MSLST, which learns a map first.
     Mslst(MslstConfig),
-    /// The better system, whose sensors have errors.
+    /// The better system, on sensors with errors.
     Better,
 }
 
-/// An entrant that has learned what it learns, ready for any number of runs.
+/// An entrant that has finished learning and is ready for any number of runs.
 #[derive(Debug)]
 pub(super) enum Ready {
     Agent(Agent),
@@ -91,7 +91,7 @@ impl Entrant {
         }
     }
 
-    /// Returns its robot. That of the better system has sensors with errors.
+    /// Returns its robot. The better system's robot has sensors with errors.
     pub(super) fn robot(self, venue: &Venue) -> LaserPioneerConfig {
         match self {
             Self::Agent(_) | Self::Mslst(_) => venue.robot.clone(),

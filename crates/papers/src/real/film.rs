@@ -1,4 +1,5 @@
-//! Replays of logs: the way found and the odometry, what the laser read, and the map as it grew.
+//! Makes replays of logs: the estimated trajectory, the odometry, the laser's readings, and the map
+//! as it grew.
 
 use tolman_geom::Point;
 use tolman_maps::scan_matching::OccupancyGrid;

@@ -154,7 +154,7 @@ impl<const N: usize> Chart<N> {
         self.goals.contains(across) || onward.any(|on| self.certain.contains(across, on))
     }
 
-    /// Looks to the four sides, each as far as the next wall. Whether there was anything new.
+    /// Looks to the four sides, each as far as the next wall. Returns whether anything was new.
     fn look(&mut self, truth: &Sides<N>, from: Cell) -> bool {
         let (mut news, mut shorter) = (false, false);
         let limit = self.closed.unwrap_or(u16::MAX);

@@ -13,7 +13,7 @@ use crate::{Arcs, costs_from};
 /// A speed run, with the claim that none is faster.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpeedRunCertificate {
-    /// Cell in whose middle it begins.
+    /// Cell in whose middle the run begins.
     pub start: Cell,
     /// Heading of the mouse at the beginning.
     pub heading: Direction,
@@ -27,7 +27,7 @@ pub struct SpeedRunCertificate {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SpeedRunCertificateError {
-    /// A straight or turn that cannot be made where the mouse is, such as a diagonal in the middle
+    /// A straight or turn is impossible at the mouse's position, such as a diagonal in the middle
     /// of a cell.
     #[error(
         "move {number} ({run_move:?}) cannot be made from the mouse's position then: search the run again"

@@ -3,14 +3,14 @@
 use crate::QuantizerConfigError;
 use crate::error::within;
 
-/// A common factor of many sums. All decay by one multiplication instead of a sweep, since what is
-/// kept of a sum is the sum divided by the factor.
+/// A common factor of many sums. All decay by one multiplication instead of a sweep, since each sum
+/// is stored divided by the factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Decay {
     factor: f64,
 }
 
-/// Value below which the factor is made 1 again: long before numbers lose precision, and so seldom
+/// Value below which the factor is reset to 1: long before numbers lose precision, and so rarely
 /// that it costs nothing.
 const SMALLEST: f64 = 1.0 / (1_u64 << 63) as f64;
 

@@ -72,8 +72,8 @@ impl<S: Scalar> Best<S> {
     }
 }
 
-/// One term of a squared distance. Everything that computes distances does it by these, feature
-/// after feature, so that all agree to the bit.
+/// One term of a squared distance. All distances are computed from these, feature after feature, so
+/// that all agree to the bit.
 pub(crate) trait Terms<S>: Copy {
     /// Returns the term of `feature` if it differs by `difference`; 0 if it is not compared.
     fn square(self, feature: usize, difference: S) -> S;

@@ -5,7 +5,7 @@ use anyhow::anyhow;
 use super::Failure;
 use super::replay_file::{self, Overwrite};
 
-/// Options that say how a run is shown and written down.
+/// Options for showing and recording a run.
 #[derive(clap::Args)]
 pub(super) struct Looks {
     /// Show the run on the terminal. Space pauses, → steps, + and - change the speed, q closes the

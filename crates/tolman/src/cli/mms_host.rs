@@ -198,8 +198,8 @@ impl Watched {
     }
 }
 
-/// Returns a maze as mms has it, whatever the file says: the mouse starts in the south-west, and
-/// the goal is the middle.
+/// Returns a maze under mms's rules, whatever the file says: the mouse starts in the south-west,
+/// and the goal is the middle.
 fn of_mms(maze: &Maze) -> Maze {
     let mut maze = maze.clone();
     maze.set_start(Some((Cell::new(0, 0), Direction::North)));

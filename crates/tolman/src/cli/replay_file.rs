@@ -39,7 +39,7 @@ fn formats() -> &'static [ReplayFormat] {
     FORMATS.get().map_or(&[], Vec::as_slice)
 }
 
-/// Endings of names that ask for a format, with what to do where the program lacks it.
+/// Endings of names that request a format, with the advice if the program lacks it.
 const ELSEWHERE: [(&str, &str); 2] = [
     ("mcap", "build it with --features mcap"),
     (

@@ -193,7 +193,7 @@ pub(in crate::cli) enum MapOr<T> {
     Other(T),
 }
 
-/// Returns the text of a learned map's file, or what `other` makes of the text.
+/// Returns the text of a learned map's file, or the result of `other` for another kind of text.
 ///
 /// # Errors
 /// Bad input with the file's name, or the error of `other`.

@@ -1,4 +1,4 @@
-//! What a key means.
+//! Meanings of keys.
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
