@@ -81,7 +81,7 @@ pub fn try_on(
     watch(maze, searcher, seed, |_| {})
 }
 
-/// Sends and judges a mouse like [`try_on`](Self::try_on). Calls `see` with every step as soon as
+/// Sends and judges a mouse like [`try_on`]. Calls `see` with every step as soon as
 /// it is made.
 ///
 /// # Errors

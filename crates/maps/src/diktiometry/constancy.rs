@@ -1,7 +1,7 @@
 use super::Expected;
 
-/// Constancy of something that may come and go, such as a door that is shut and opened. Records when
-/// it was last looked for, whether it was there, and how often that had changed.
+/// Constancy of something that may come and go, such as a door that is shut and opened. Records
+/// when it was last looked for, whether it was there, and how often that had changed.
 ///
 /// Beyond the paper, whose counts say how often a link works, but not whether it works now.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -110,8 +110,8 @@ impl Wanderer {
     }
 
     /// Drives one leg, or several short ones, and returns the record of the place at its end. It
-    /// takes at most [`most_tries`](WandererConfig::most_tries) legs and turns, each with a bound on
-    /// its time steps.
+    /// takes at most [`most_tries`](WandererConfig::most_tries) legs and turns, each with a bound
+    /// on its time steps.
     ///
     /// # Errors
     /// [`WandererError`] if the robot fails or takes no snapshot.
