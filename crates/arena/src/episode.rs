@@ -26,7 +26,7 @@ pub use step::{Chooser, Step};
 pub struct Trial<'a> {
     /// Course of the run.
     pub course: &'a Course,
-    /// The robot.
+    /// Configuration of the robot.
     pub robot: LaserPioneerConfig,
     /// Pose at the beginning.
     pub start: Pose,

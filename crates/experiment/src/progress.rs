@@ -18,7 +18,7 @@ pub enum ProgressEvent<'a> {
     },
     /// A line of a file of runs cannot be used.
     BrokenLine {
-        /// The file.
+        /// Path of the file.
         file: &'a Path,
         /// Number of the line, from 1.
         line: u64,

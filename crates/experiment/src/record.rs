@@ -157,7 +157,7 @@ pub enum FieldsError {
     NoField {
         /// Name of the field.
         field: String,
-        /// Its value.
+        /// Value that was given.
         value: String,
     },
     /// The fields are not those of the record.

@@ -50,7 +50,7 @@ impl Table {
         self
     }
 
-    /// Adds rows.
+    /// Adds rows below those that the table has.
     #[must_use]
     pub fn rows(mut self, rows: impl IntoIterator<Item = Row>) -> Self {
         self.rows.extend(rows);
@@ -569,7 +569,7 @@ impl Metric {
         self
     }
 
-    /// Sets the unit.
+    /// Sets the unit, which is shown after the title.
     #[must_use]
     pub fn unit(mut self, unit: impl Into<String>) -> Self {
         self.unit = unit.into();

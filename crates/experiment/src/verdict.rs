@@ -16,7 +16,7 @@ use tolman_stats::{
 /// - Otherwise the runs *cannot tell*.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// The finding.
+    /// Result of the comparison with the paper.
     pub finding: Finding,
     /// Interval of ours minus the paper's, in the metric's unit; `None` if it is unknown. Half its
     /// width is the smallest difference that could have been detected.

@@ -21,7 +21,7 @@ use super::{
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Verification {
-    /// The folder.
+    /// Path of the folder.
     pub folder: PathBuf,
     /// Number of runs in the folder.
     pub runs: usize,

@@ -24,7 +24,7 @@ pub enum CheckError {
         grid.width().saturating_sub(1), grid.height().saturating_sub(1)
     )]
     StartOutside {
-        /// The start as given.
+        /// Start that was given.
         start: Cell,
         /// The size of the maze.
         grid: Grid,

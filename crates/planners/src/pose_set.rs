@@ -56,7 +56,7 @@ pub struct PoseSet<const N: usize> {
 pub enum PoseKnowledge {
     /// Only here.
     Found {
-        /// The cell.
+        /// Cell of the mouse.
         cell: Cell,
         /// Heading of the mouse.
         heading: Direction,

@@ -36,10 +36,10 @@ pub enum SessionTask {
 /// actions.
 const EVERY: u32 = 4;
 
-/// A session at a moment.
+/// State of a session.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SessionState {
-    /// The task.
+    /// Task in progress, or the last one.
     pub task: SessionTask,
     /// Whether the task is under way.
     pub is_busy: bool,

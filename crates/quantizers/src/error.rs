@@ -204,7 +204,7 @@ pub enum SnapshotError {
     /// An edge has an end that is not a unit, joins a unit to itself or stands there twice.
     #[error("the edge {}–{} has an end that is not a unit, or joins a unit to itself, or comes twice: remove it", .ends.0, .ends.1)]
     BadEdge {
-        /// The ends.
+        /// Ids of the units at its ends.
         ends: (UnitId, UnitId),
     },
     /// A list has the wrong length.

@@ -47,7 +47,7 @@ pub enum EventContent<'a> {
     Erase {
         /// Frame in which it was drawn.
         frame: String,
-        /// Id.
+        /// Id of the thing on its topic.
         id: String,
     },
     /// The range sensor was read.

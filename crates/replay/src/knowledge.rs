@@ -335,7 +335,7 @@ impl TimeSeries {
 pub struct Sample {
     /// First step at which this holds.
     pub step: u32,
-    /// The value.
+    /// Value of the quantity, in its own unit.
     pub value: f64,
 }
 

@@ -46,7 +46,7 @@ pub enum ZoneKind {
 pub struct SceneryDoor {
     /// Name of the door.
     pub name: String,
-    /// Its ends.
+    /// Ends of the door, m.
     pub ends: [Point; 2],
     /// Changes, ascending by step; before the first one it is open.
     pub changes: Vec<DoorChange>,

@@ -102,7 +102,7 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
         Ok(robot)
     }
 
-    /// Returns the port.
+    /// Ends the connection and returns its port.
     pub fn into_port(self) -> P {
         self.port
     }

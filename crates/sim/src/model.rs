@@ -68,7 +68,7 @@ pub trait Model {
 pub struct CommandError {
     /// Part of the command.
     pub part: &'static str,
-    /// Its value.
+    /// Value that was given.
     pub value: f64,
 }
 

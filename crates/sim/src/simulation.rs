@@ -432,7 +432,7 @@ pub enum PlaceError {
         pose.position.x, pose.position.y, pose.heading.radians()
     )]
     NotFinite {
-        /// The pose.
+        /// Pose that was given.
         pose: Pose,
     },
     /// The position is inside a wall or outside the world.
@@ -441,7 +441,7 @@ pub enum PlaceError {
         pose.position.x, pose.position.y
     )]
     NotOnFloor {
-        /// The pose.
+        /// Pose that was given.
         pose: Pose,
     },
     /// The robot would overlap a wall or a shut door.
@@ -451,7 +451,7 @@ pub enum PlaceError {
         pose.position.x, pose.position.y, pose.heading.radians()
     )]
     InWall {
-        /// The pose.
+        /// Pose that was given.
         pose: Pose,
         /// Clearance that the robot needs on every side, m.
         radius: f64,
@@ -464,7 +464,7 @@ pub enum PlaceError {
         pose.position.x, pose.position.y, other.0
     )]
     InRobot {
-        /// The pose.
+        /// Pose that was given.
         pose: Pose,
         /// The robot that stands there.
         other: RobotId,

@@ -37,7 +37,7 @@ pub struct Layout {
 /// An unexplored port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OpenPort {
-    /// The port.
+    /// Port of the map.
     pub port: Port,
     /// The cell of its junction.
     pub cell: Cell,

@@ -26,7 +26,7 @@ pub struct PutDown<'a> {
     pub here: usize,
     /// Patterns that the robot learned before.
     pub patterns: &'a CommonPatterns,
-    /// The robot.
+    /// Configuration of the robot.
     pub robot: EpuckConfig,
     /// Its way to the first place.
     pub approach: Approach,

@@ -30,7 +30,7 @@ pub struct CpmTrial<'a> {
     pub course: &'a Course,
     /// Patterns that the robot learned before, if its mode uses them.
     pub patterns: &'a CommonPatterns,
-    /// The robot.
+    /// Configuration of the robot.
     pub robot: EpuckConfig,
     /// Mode of mapping.
     pub mode: Mode,

@@ -48,7 +48,7 @@ pub struct MazePlace {
 /// One end of a corridor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct CorridorEnd {
-    /// The corridor.
+    /// Number of the corridor.
     pub corridor: u32,
     /// Sign of the end: *minus* where the corridor's drawing began.
     pub sign: Sign,
@@ -57,7 +57,7 @@ pub struct CorridorEnd {
 /// A port of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct WorldPort {
-    /// The place.
+    /// Number of the place.
     pub place: u32,
     /// Its port, counter-clockwise.
     pub number: u32,

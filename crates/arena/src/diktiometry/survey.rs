@@ -29,7 +29,7 @@ use tolman_systems::stream;
 pub struct SurveyConfig {
     /// The robot and its noise.
     pub robot: SurveyorConfig,
-    /// The mapper.
+    /// Configuration of the mapper.
     pub mapper: Config,
     /// Exploration probability: how often an applicable script is begun, 0 to 1. Paper: "generally
     /// 30% of the time".
@@ -123,7 +123,7 @@ pub struct Survey {
 /// A place of a learned map where it is drawn over the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaceMark {
-    /// Its id.
+    /// Id of the place on the map.
     pub id: u32,
     /// The box that holds it as seen from the start, m.
     pub bounds: Bounds,

@@ -49,7 +49,7 @@ impl PlaceDrive {
 /// A place map, and drives by it.
 #[derive(Clone, Debug)]
 pub struct DrivenMap {
-    /// The map.
+    /// Place map that was learned.
     pub map: PlaceMap,
     /// True pose of its odometry's origin.
     pub world_from_map: Pose,

@@ -17,7 +17,7 @@ pub enum CertificateError {
         "the certificate says that the {direction} side of {cell} is {known:?}, but it is not; explore the maze again"
     )]
     FalseWall {
-        /// The cell.
+        /// Cell of the wall.
         cell: Cell,
         /// Side of the cell.
         direction: Direction,
@@ -57,7 +57,7 @@ pub enum CertificateError {
         /// Lower bound claimed for any run.
         open: u32,
     },
-    /// The bound has a hole.
+    /// A step breaks the lower bound.
     #[error(
         "the bound does not hold: a step from {from}, at least {at_least} from the goal, leads to {to}"
     )]

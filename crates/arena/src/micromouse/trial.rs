@@ -34,9 +34,9 @@ pub struct RefereedStep {
 /// Side of a cell that a mouse has looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SideSeen {
-    /// The cell.
+    /// Cell to which the side belongs.
     pub cell: Cell,
-    /// Its side.
+    /// Side of the cell.
     pub side: Direction,
     /// Whether a wall stands there.
     pub stands: bool,

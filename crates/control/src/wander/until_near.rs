@@ -60,7 +60,7 @@ pub struct UntilNear {
     bump: StopAtBump,
 }
 
-/// End of a turn.
+/// Way in which a turn ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnEnd {
     /// The way ahead is clear.

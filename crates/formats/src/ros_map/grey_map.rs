@@ -45,7 +45,7 @@ pub enum GreyMapError {
     TooBright {
         /// Position in the file, in bytes.
         byte: usize,
-        /// The value.
+        /// Value that is too bright.
         value: u64,
         /// Maximum value, that of white.
         most: u16,

@@ -35,7 +35,7 @@ pub enum RosMapHeaderError {
     Twice {
         /// Number of the line.
         line: usize,
-        /// The key.
+        /// Name of the key.
         key: String,
     },
     /// A value is invalid.
@@ -43,7 +43,7 @@ pub enum RosMapHeaderError {
     Value {
         /// Number of the line.
         line: usize,
-        /// The key.
+        /// Name of the key.
         key: &'static str,
         /// Value found.
         value: String,
@@ -63,7 +63,7 @@ pub enum RosMapHeaderError {
     /// A key is missing.
     #[error("the key `{key}` is missing; add it as map_server writes it")]
     Missing {
-        /// The key.
+        /// Name of the key.
         key: &'static str,
     },
 }

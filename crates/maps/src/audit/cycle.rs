@@ -70,7 +70,7 @@ pub enum CycleError {
     NoClosure {
         /// Number of the step, from 0.
         step: usize,
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
     /// A step leads along odometry that does not exist.
@@ -78,7 +78,7 @@ pub enum CycleError {
     NoOdometry {
         /// Number of the step, from 0.
         step: usize,
-        /// The pose.
+        /// Number of the pose.
         pose: u32,
     },
     /// A step leads nowhere.

@@ -36,7 +36,7 @@ pub enum ClosureVerdict {
     Refuted {
         /// Contents of the cycle beside the closure.
         by: RefutedBy,
-        /// The cycle.
+        /// Cycle beyond its bound.
         cycle: AuditCycle,
     },
     /// Neither.

@@ -28,19 +28,19 @@ pub enum AuditCertificateError {
     /// The certificate's edge is not a closure of this graph.
     #[error("edge {edge} is not a closure of this graph; name the graph that was audited")]
     NoClosure {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
     /// A closure has two certificates.
     #[error("edge {edge} has two certificates; remove one")]
     Twice {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
     /// A cycle is invalid.
     #[error("the cycle of edge {edge} is invalid: {error}; audit the graph again")]
     Cycle {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// The underlying error.
         error: CycleError,
@@ -48,7 +48,7 @@ pub enum AuditCertificateError {
     /// A cycle begins with another closure than its certificate's.
     #[error("a cycle of edge {edge} begins with another edge; audit the graph again")]
     Another {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
     /// A residual, covariance or χ² differs from what the graph gives.
@@ -56,7 +56,7 @@ pub enum AuditCertificateError {
         "{what} of a cycle of edge {edge} is stated as {told}, but the graph gives {measured}; audit the graph again"
     )]
     Number {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// Name of the number.
         what: &'static str,
@@ -70,7 +70,7 @@ pub enum AuditCertificateError {
         "the cycle of edge {edge} refutes nothing, as its χ² {chi2} is within the bound {most}; audit the graph again"
     )]
     Within {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// χ² of the cycle.
         chi2: f64,
@@ -82,7 +82,7 @@ pub enum AuditCertificateError {
         "a cycle of edge {edge} does not support it: its χ² is {chi2} of at most {most}, or its region is too wide; audit the graph again"
     )]
     Unsupported {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// χ² of the cycle.
         chi2: f64,
@@ -92,7 +92,7 @@ pub enum AuditCertificateError {
     /// A closure has no cycle that supports it.
     #[error("the audit calls edge {edge} supported, but gives no cycle; audit the graph again")]
     NoWitness {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
     /// A cycle leads over a closure without a certificate of its own.
@@ -100,7 +100,7 @@ pub enum AuditCertificateError {
         "a cycle of edge {edge} leads over edge {over}, which no certificate supports; audit the graph again"
     )]
     Unproven {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// The closure it leads over.
         over: u32,
@@ -110,7 +110,7 @@ pub enum AuditCertificateError {
         "a cycle of edge {edge} leads over edge {over}, whose run is a witness already; audit the graph again"
     )]
     SameRun {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// The closure it leads over.
         over: u32,
@@ -120,7 +120,7 @@ pub enum AuditCertificateError {
         "the cycle of edge {edge} has other steps than the audit states; audit the graph again"
     )]
     RefutedBy {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
     /// The number of runs differs.
@@ -138,7 +138,7 @@ pub enum AuditCertificateError {
         "the audit puts edge {edge} into run {told}, but the graph gives {measured}; audit the graph again"
     )]
     Run {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// The certificate's value.
         told: u32,

@@ -22,7 +22,7 @@ pub enum MapDoubt {
     Twice {
         /// The older one.
         one: JunctionId,
-        /// The other.
+        /// Id of the other place.
         other: JunctionId,
     },
     /// Another map explains the observations as well.

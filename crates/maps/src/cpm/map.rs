@@ -76,7 +76,7 @@ impl fmt::Display for Sign {
 /// One end of a fragment, such as 𝔸⁺.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct End {
-    /// The fragment.
+    /// Fragment to which the end belongs.
     pub fragment: FragmentId,
     /// The end's sign.
     pub sign: Sign,
@@ -99,7 +99,7 @@ impl End {
     serde(from = "(JunctionId, u32)", into = "(JunctionId, u32)")
 )]
 pub struct Port {
-    /// The junction.
+    /// Junction to which the port belongs.
     pub junction: JunctionId,
     /// Number of the port, counter-clockwise from the port of the junction's first entry, which is
     /// 0.

@@ -165,11 +165,11 @@ pub enum MapFileError {
     /// A fragment and a port contradict each other.
     #[error("end {} of fragment {} and port {port} of junction {junction} do not belong to each other; learn the map again", .end.sign, .end.fragment.0)]
     Unjoined {
-        /// The end.
+        /// End of the fragment.
         end: End,
-        /// The junction.
+        /// Id of the junction.
         junction: u32,
-        /// The port.
+        /// Number of the port at the junction.
         port: u32,
     },
 }

@@ -83,7 +83,7 @@ pub enum DictionaryError {
     /// A pattern is not in the dictionary.
     #[error("pattern {} does not exist in this dictionary of {patterns}; use the one it was observed with", .pattern.0)]
     UnknownPattern {
-        /// The pattern.
+        /// Id of the pattern.
         pattern: PatternId,
         /// Number of patterns in the dictionary.
         patterns: u32,
@@ -97,7 +97,7 @@ pub enum DictionaryError {
     /// Two half-turned patterns do not name each other.
     #[error("the half turn of pattern {} is {}, whose half turn is another pattern; make the two point to each other", .pattern.0, .half_turned.0)]
     NotInvolutive {
-        /// The pattern.
+        /// Id of the pattern.
         pattern: PatternId,
         /// The pattern stated as its half-turned partner.
         half_turned: PatternId,

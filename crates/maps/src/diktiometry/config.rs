@@ -390,7 +390,7 @@ pub struct Opportunities {
     pub reach: u32,
 }
 
-/// Length of the journal.
+/// Moves that the journal keeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum JournalLength {
@@ -651,9 +651,9 @@ pub enum DiktiometryConfigError {
     /// A number is out of its range or not finite.
     #[error("`{field}` is {value}; give a finite number{}{}", above(.least), below(.most))]
     OutOfRange {
-        /// The field.
+        /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
         /// Lower bound of the field.
         least: Bound<f64>,
@@ -669,7 +669,7 @@ pub enum DiktiometryConfigError {
     /// A count is 0.
     #[error("`{field}` is 0; give at least 1")]
     Zero {
-        /// The field.
+        /// Name of the field.
         field: &'static str,
     },
 }

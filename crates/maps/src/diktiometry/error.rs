@@ -38,7 +38,7 @@ pub enum ObservedMoveError {
     PerceptSize {
         /// Number of rows of the percept.
         rows: usize,
-        /// Its columns.
+        /// Number of columns of the percept.
         columns: usize,
         /// Number of rows in the configuration, 0 without percepts.
         expected_rows: usize,

@@ -16,7 +16,7 @@ use super::{
 pub struct Journal {
     /// The first place.
     pub start: FirstPlace,
-    /// The moves.
+    /// Moves, in order.
     pub moves: Vec<ObservedMove>,
     /// Pairs of places that are known to be different.
     pub distinctions: Vec<Distinction>,

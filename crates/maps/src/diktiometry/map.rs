@@ -23,7 +23,7 @@ pub struct Diktiometry {
 /// Position at which a place is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawnPlace {
-    /// The place.
+    /// Id of the place.
     pub place: PlaceId,
     /// Bounds of its position, m; it is drawn in the middle.
     pub bounds: PointBox,

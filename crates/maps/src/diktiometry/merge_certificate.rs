@@ -98,7 +98,7 @@ pub struct LookEvidence {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LookPair {
-    /// The visits.
+    /// Numbers of the two visits.
     pub visits: [usize; 2],
     /// Number of the earlier pair from whose places one action leads to these, with the action.
     /// `None` for the first pair.

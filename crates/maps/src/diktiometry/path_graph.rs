@@ -133,7 +133,7 @@ pub enum Ground {
 pub struct Link {
     /// Place where the link begins.
     pub from: PlaceId,
-    /// The action.
+    /// Action that leads along the link.
     pub action: Action,
     /// Place to which the link leads.
     pub to: PlaceId,

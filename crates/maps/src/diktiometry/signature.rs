@@ -56,11 +56,11 @@ pub enum SignatureError {
     /// A value is NaN or infinite.
     #[error("column {column}, row {row} is {value}; give a finite number")]
     NotFinite {
-        /// The column.
+        /// Number of the column, from 0.
         column: usize,
         /// Row of the value.
         row: usize,
-        /// The value.
+        /// Value that is not finite.
         value: f64,
     },
 }

@@ -59,7 +59,7 @@ pub enum GraphError {
         "node {node}: its {action} edge leads to node {head}, which does not exist, as there are {count} nodes: learn the map again"
     )]
     NoSuchNode {
-        /// The node.
+        /// Number of the node, from 0.
         node: u32,
         /// The edge's action.
         action: Direction,
@@ -74,7 +74,7 @@ pub enum GraphError {
         action.opposite()
     )]
     OneWay {
-        /// The node.
+        /// Number of the node, from 0.
         node: u32,
         /// The edge's action.
         action: Direction,
@@ -86,7 +86,7 @@ pub enum GraphError {
         "node {node}: two {action} edges lead to the same, a node of one state or the dummy node; remove one"
     )]
     Ambiguous {
-        /// The node.
+        /// Number of the node, from 0.
         node: u32,
         /// The edges' action.
         action: Direction,

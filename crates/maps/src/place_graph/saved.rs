@@ -55,7 +55,7 @@ pub enum SavedPlaceGraphError {
     Config {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
     },
     /// A place has an invalid number.

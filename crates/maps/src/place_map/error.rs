@@ -16,7 +16,7 @@ pub enum FeatureError {
     /// A group stands twice in the choice.
     #[error("the {group} is chosen twice: name each group once, and give it more weight instead")]
     ChosenTwice {
-        /// The group.
+        /// Name of the group.
         group: &'static str,
     },
     /// A record has no picture.
@@ -58,7 +58,7 @@ pub enum FeatureError {
     NotFinite {
         /// Number of the record, from 0.
         record: usize,
-        /// The group.
+        /// Name of the group.
         group: &'static str,
     },
 }
@@ -114,9 +114,9 @@ pub enum PlaceMapError {
     /// A saved scale is not above zero.
     #[error("the saved scale of the {group} is {scale}: it has to be finite and above 0")]
     BadScale {
-        /// The group.
+        /// Name of the group.
         group: &'static str,
-        /// The scale.
+        /// Saved scale.
         scale: f32,
     },
 }

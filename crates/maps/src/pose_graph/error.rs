@@ -19,7 +19,7 @@ pub enum PoseGraphError {
     /// The edge joins a pose with itself.
     #[error("an edge joins pose {pose} with itself: leave it out")]
     Loop {
-        /// The pose.
+        /// Id of the pose.
         pose: u32,
     },
     /// A number of the measurement or of the information is not finite.

@@ -115,7 +115,7 @@ impl Branches {
         &self.knots
     }
 
-    /// Returns the branches.
+    /// Returns the branches between knots.
     pub(super) fn branches(&self) -> &[Branch] {
         &self.branches
     }

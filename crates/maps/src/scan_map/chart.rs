@@ -221,7 +221,7 @@ impl ScanChart {
         }
     }
 
-    /// Returns the ground.
+    /// Returns the ground: walls, floor and unknown cells.
     #[must_use]
     pub const fn ground(&self) -> &GroundPlan {
         &self.ground

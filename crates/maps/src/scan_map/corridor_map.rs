@@ -107,7 +107,7 @@ impl CorridorMap {
         &self.places
     }
 
-    /// Returns the ways.
+    /// Returns the ways between places.
     #[must_use]
     pub fn ways(&self) -> &[CorridorWay] {
         &self.ways

@@ -19,7 +19,7 @@ pub struct ScanStep {
     /// Odometry since the scan before, as the present pose relative to that one. Ignored for the
     /// first scan.
     pub moved: Pose,
-    /// The scan.
+    /// Scan at the end of the step.
     pub scan: Scan,
     /// Pose of the laser on the robot.
     pub robot_from_laser: Pose,

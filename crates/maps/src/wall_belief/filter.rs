@@ -52,7 +52,7 @@ impl PoseFilterConfig {
 pub struct FilterError {
     /// The name of the field.
     pub field: &'static str,
-    /// Its value.
+    /// Value that was given.
     pub value: f64,
     /// Values that the field may have.
     pub range: &'static str,

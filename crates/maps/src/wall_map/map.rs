@@ -98,7 +98,7 @@ pub enum ObserveError {
         if *known == Knowledge::Wall { "a wall" } else { "open" }
     )]
     Contradiction {
-        /// The cell.
+        /// Cell whose wall is contradicted.
         cell: Cell,
         /// The side of it.
         direction: Direction,

@@ -140,7 +140,7 @@ pub enum MazeFault {
     /// A cell listed twice.
     #[error("cell {cell} was already given on line {first_line}: keep one of the two lines")]
     Duplicate {
-        /// The cell.
+        /// Cell that is given twice.
         cell: Cell,
         /// Line of its first mention.
         first_line: usize,
@@ -178,7 +178,7 @@ pub enum MazeFault {
     /// A key given twice.
     #[error("`{key}` was already given on line {first_line}: keep one of the two lines")]
     RepeatedKey {
-        /// The key.
+        /// Name of the key.
         key: &'static str,
         /// Line of its first mention.
         first_line: usize,
@@ -186,7 +186,7 @@ pub enum MazeFault {
     /// A value its key cannot have.
     #[error("found `{found}` for `{key}`: expected {expected}")]
     Value {
-        /// The key.
+        /// Name of the key.
         key: &'static str,
         /// Its value.
         found: String,
@@ -300,7 +300,7 @@ pub enum WriteError {
          of text"
     )]
     Name {
-        /// The name.
+        /// Name that was given.
         name: String,
     },
     /// A corridor width outside [`MazeFile::CORRIDOR_WIDTHS`](crate::MazeFile::CORRIDOR_WIDTHS).

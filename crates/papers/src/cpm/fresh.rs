@@ -175,7 +175,7 @@ impl FreshRun {
     }
 }
 
-/// Returns the table.
+/// Returns the table of the fresh worlds.
 pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
     let worlds = options.runs_else(WORLDS, QUICK);
     Table::of::<FreshRun>(FRESH, "Fresh worlds: each run another drawing")

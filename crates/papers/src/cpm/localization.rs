@@ -116,7 +116,7 @@ pub(super) fn maps_of(job: &Job<'_>) -> Option<String> {
     (maze != ALIASED).then(|| format!("maps {}", job.run as usize % MAPS))
 }
 
-/// Returns the table.
+/// Returns the table of robots put down in mid-fragment.
 pub(super) fn table(courses: &[Course], options: &Options) -> Table {
     let title = "Put down in mid-fragment of one of the mazes";
     let runs = options.runs_else(RUNS, QUICK_RUNS);

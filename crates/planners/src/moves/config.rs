@@ -66,7 +66,7 @@ impl MoveExplorerConfig {
 pub struct MoveExplorerConfigError {
     /// The name of the field.
     pub field: &'static str,
-    /// Its value.
+    /// Value that was given.
     pub value: f32,
     /// Values that the field may have.
     pub range: &'static str,

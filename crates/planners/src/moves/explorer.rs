@@ -284,7 +284,7 @@ fn nearest_goal<const N: usize>(chart: &Chart<N>, at: Cell) -> Option<Cell> {
     reached.min_by_key(|goal| here.moves(*goal))
 }
 
-/// Returns a whole power.
+/// Returns `base` to the power `exponent`.
 fn power(base: f32, exponent: u16) -> f32 {
     (0..exponent).fold(1.0, |power, _| power * base)
 }

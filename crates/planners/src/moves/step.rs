@@ -5,7 +5,7 @@ use super::Leap;
 /// A mouse's move in one step: first the turn, then the movement (the paper, section 1.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MouseStep {
-    /// The turn.
+    /// Turn in place before driving.
     pub turn: QuarterTurn,
     /// Number of cells to drive, −3 to 3; negative values drive back without turning round.
     pub cells: i8,

@@ -35,7 +35,7 @@ pub enum SpeedRunCertificateError {
     Impossible {
         /// Number of the move, from 0.
         number: usize,
-        /// The move.
+        /// Move that fails.
         run_move: RunMove,
     },
     /// A move through a wall, or through an unknown one.
@@ -45,7 +45,7 @@ pub enum SpeedRunCertificateError {
     NotOpen {
         /// Number of the move, from 0.
         number: usize,
-        /// The move.
+        /// Move that fails.
         run_move: RunMove,
     },
     /// The run does not end in the middle of a goal.

@@ -105,7 +105,7 @@ pub enum SpeedRunConfigError {
     NotPositive {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
     },
     /// A top speed below the speed in the turns.
@@ -115,7 +115,7 @@ pub enum SpeedRunConfigError {
     TopSpeedTooLow {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
         /// The speed in the turns.
         turn_speed_mm_s: f64,

@@ -8,12 +8,12 @@ use super::{RunState, SlalomTimes};
 pub enum RunMove {
     /// A number of cells straight on.
     Straight {
-        /// 1 or more.
+        /// Number of cells, 1 or more.
         cells: u16,
     },
     /// A number of cells straight on along a diagonal, from edge to edge.
     Diagonal {
-        /// 1 or more.
+        /// Number of cells, 1 or more.
         cells: u16,
     },
     /// A slalom turn.
@@ -53,7 +53,7 @@ pub enum Slalom {
 pub struct RunStep {
     /// State of the mouse before it.
     pub from: RunState,
-    /// The move.
+    /// Straight or turn of this step.
     pub run_move: RunMove,
 }
 

@@ -11,10 +11,10 @@ use crate::world::{BitRows, Lattice};
 /// Walks each ray from grid line to grid line in worlds made from mazes and occupancy grids.
 /// Source: Amanatides and Woo, *A fast voxel traversal algorithm for ray tracing* (1987).
 ///
-/// Short beams, which cross few lines, do not even walk: all crossings are computed at once, in
-/// lanes over beams. In both ways one comparison per pair of crossings decides which line comes
-/// first. That alone says which cell the ray is in. So a ray enters every cell through one of its
-/// edges, and no rounding lets it slip through the corner between two walls.
+/// For short beams, which cross few lines, all crossings are computed at once, in lanes over beams.
+/// Either way, one comparison per pair of crossings decides which line comes first, and thus which
+/// cell the ray is in. So a ray enters every cell through one of its edges, and no rounding lets it
+/// slip through the corner between two walls.
 ///
 /// O(lines crossed) per ray, whatever the size of the world.
 #[derive(Clone, Debug)]

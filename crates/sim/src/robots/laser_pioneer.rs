@@ -382,7 +382,7 @@ pub enum RobotConfigError {
     Field {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
     },
     /// A stuck beam is not in the ring, or its range is not one that the ring can read.

@@ -387,7 +387,7 @@ pub enum Pioneer2dxError {
     Field {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
     },
     /// A time step has length 0.

@@ -42,14 +42,14 @@ pub enum TraceLine<M: Recordable> {
     Step(StepRecord<M>),
     /// A robot was lifted and set down after the steps so far.
     Place {
-        /// The robot.
+        /// Id of the robot.
         robot: RobotId,
         /// Its new pose.
         pose: Pose,
     },
     /// A door was moved after the steps so far.
     Door {
-        /// Its name.
+        /// Name of the door.
         name: String,
         /// Its new state.
         state: DoorState,
@@ -64,9 +64,9 @@ pub struct StepRecord<M: Recordable> {
     pub tick: u64,
     /// Microseconds since the run began.
     pub time_us: u64,
-    /// The robot.
+    /// Id of the robot.
     pub robot: RobotId,
-    /// Its command.
+    /// Command of the robot in this step.
     pub command: M::Command,
     /// Its pose afterwards.
     pub pose: Pose,

@@ -29,7 +29,7 @@ pub enum WorldError {
     Wall {
         /// Number of the wall, from 0.
         index: usize,
-        /// The wall.
+        /// Wall that is invalid.
         wall: WallSegment,
         /// The fault, in words.
         what: &'static str,
@@ -45,7 +45,7 @@ pub enum WorldError {
     /// Two doors have one name.
     #[error("there are two doors named `{name}`; rename one")]
     DoorTwice {
-        /// The name.
+        /// Name that was given.
         name: String,
     },
     /// A door's schedule goes back in time.
@@ -67,7 +67,7 @@ pub enum WorldError {
     /// Two zones have one name.
     #[error("there are two zones named `{name}`; rename one or give one zone both areas")]
     ZoneTwice {
-        /// The name.
+        /// Name that was given.
         name: String,
     },
     /// The size and the cells of an occupancy grid disagree.

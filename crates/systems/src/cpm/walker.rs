@@ -233,7 +233,7 @@ const MOST_TURNS: u32 = 12;
 const ELSEWHERE: f64 = 0.03;
 const LEAST_CHANGED: usize = 2;
 
-/// Distance from the middle that counts as reached, m.
+/// Distance from the middle of a place within which the robot has reached it, m.
 const NEAR: f64 = 0.015;
 
 impl<B: CpmRobot> Walker<B> {

@@ -11,7 +11,7 @@ use crate::places::{OfSites, Site, SiteWay};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct DiktiometryOfSites {
-    /// The mapper.
+    /// Configuration of the mapper.
     pub mapper: Config,
     /// Maximum error of ways, as a share of their length.
     pub share: f64,

@@ -29,7 +29,7 @@ pub struct RoutineConfig {
 pub struct RoutineConfigError {
     /// Name of the field.
     pub field: &'static str,
-    /// Its value.
+    /// Value that was given.
     pub value: f64,
     /// Allowed values, in words.
     pub expected: &'static str,

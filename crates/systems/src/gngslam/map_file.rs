@@ -40,7 +40,7 @@ pub enum MapFileError {
         "a landmark was sensed at place {place}, which does not exist; the number of places is {places}: learn the map again"
     )]
     Sighting {
-        /// The place.
+        /// Number of the place.
         place: u32,
         /// Number of places.
         places: usize,

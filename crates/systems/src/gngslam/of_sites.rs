@@ -10,7 +10,7 @@ use crate::places::{OfSites, Site, SiteStep, SiteWay};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PlaceGraphOfSites {
-    /// The map.
+    /// Parameters of the map.
     pub map: PlaceGraphConfig,
 }
 

@@ -8,7 +8,7 @@ use super::route::Target;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LandmarkSighting {
-    /// The landmark.
+    /// Landmark that was sensed.
     pub landmark: Landmark,
     /// Place nearest to the position where the landmark was sensed.
     pub place: u32,

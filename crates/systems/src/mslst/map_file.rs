@@ -41,9 +41,9 @@ pub enum MapFileError {
         "node {node} has state {state}, but there are only {count} states; learn the map again"
     )]
     NoSuchState {
-        /// The node.
+        /// Number of the node, from 0.
         node: usize,
-        /// Its state.
+        /// State that the node names.
         state: u32,
         /// Number found.
         count: usize,

@@ -176,7 +176,7 @@ impl Former {
         }))
     }
 
-    /// Returns the run.
+    /// Returns the unfinished run.
     pub(super) const fn run(&self) -> &Unfinished {
         &self.run
     }

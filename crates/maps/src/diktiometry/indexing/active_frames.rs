@@ -7,7 +7,7 @@ use crate::diktiometry::{Diktiometry, FrameId, PlaceId, Reached};
 /// A frame whose relation to the robot's position is informative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActiveFrame {
-    /// The frame.
+    /// Id of the frame.
     pub frame: FrameId,
     /// Position of the robot in the frame, m.
     pub robot: PointBox,

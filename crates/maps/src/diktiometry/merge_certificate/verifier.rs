@@ -24,7 +24,7 @@ pub enum MergeCertificateError {
     NoSuchVisit {
         /// Number of the certificate.
         number: usize,
-        /// The visit.
+        /// Number of the visit.
         visit: usize,
         /// Number of visits in the journal.
         visits: usize,
@@ -62,7 +62,7 @@ pub enum MergeCertificateError {
         number: usize,
         /// One visit.
         one: usize,
-        /// The other.
+        /// Number of the second visit.
         other: usize,
     },
     /// A span is invalid: it has no moves, more than five, or a blocked one.
@@ -70,7 +70,7 @@ pub enum MergeCertificateError {
     NoSpan {
         /// Number of the certificate.
         number: usize,
-        /// The span.
+        /// Span without known bounds.
         span: JournalSpan,
     },
     /// The bounds leave room for two places.
@@ -90,7 +90,7 @@ pub enum MergeCertificateError {
         number: usize,
         /// One visit.
         one: usize,
-        /// The other.
+        /// Number of the second visit.
         other: usize,
     },
     /// The probability differs from the one computed again.

@@ -16,9 +16,9 @@ pub enum PlayError {
     /// The simulator's reply is not one that it can give.
     #[error("the simulator replied {reply:?} to `{command}`: {expected} was expected")]
     Reply {
-        /// The command.
+        /// Command that was sent.
         command: String,
-        /// Its reply.
+        /// Reply of the simulator.
         reply: String,
         /// Possible answers.
         expected: &'static str,

@@ -53,7 +53,7 @@ pub enum PoseSource {
 /// Source of a mouse's estimate of its motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionSource {
-    /// The commands.
+    /// The commands, taken as carried out.
     Commands,
     /// The encoders, and the commands while the encoders give nothing.
     Encoders,

@@ -27,7 +27,7 @@ pub enum MazeMouseError {
     Field {
         /// The name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
         /// Values that the field may have.
         range: &'static str,

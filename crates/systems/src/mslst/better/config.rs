@@ -33,9 +33,9 @@ pub struct BetterConfig {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{field} is {value}, expected {least} to {most}")]
 pub struct BetterConfigError {
-    /// The field.
+    /// Name of the field.
     pub field: &'static str,
-    /// Its value.
+    /// Value that was given.
     pub value: f64,
     /// Least value allowed.
     pub least: f64,

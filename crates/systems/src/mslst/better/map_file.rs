@@ -54,7 +54,7 @@ pub enum BetterMapFileError {
     /// A true position is invalid.
     #[error("the true position of place {place}, ({}, {}) m, is invalid: learn the map again", at.x, at.y)]
     Site {
-        /// The place.
+        /// Number of the place.
         place: usize,
         /// The position, m.
         at: Point,
