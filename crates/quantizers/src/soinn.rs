@@ -89,7 +89,7 @@ impl Tally {
         self.error / self.wins
     }
 
-    /// Returns whether it is worse off than it remembers.
+    /// Returns whether its mean error exceeds the remembered radius.
     fn has_grown(&self) -> bool {
         self.radius.is_some_and(|radius| self.mean_error() > radius)
     }
