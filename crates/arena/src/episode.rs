@@ -103,8 +103,9 @@ pub fn run(
 
 /// Runs like [`run()`], with a robot that is lifted on the way, and returns the same.
 ///
-/// # Errors [`EpisodeError`] if the robot cannot be built, or cannot stand at its start or where it
-/// is put down.
+/// # Errors
+/// [`EpisodeError`] if the robot cannot be built, or cannot stand at its start or where it is put
+/// down.
 pub fn run_lifted(
     trial: &Trial<'_>,
     mind: &mut Mind,

@@ -4,18 +4,19 @@
 //! In the order data flows:
 //!
 //! 1. A [`World`] is what stands still: walls with their [`Material`], named [`Zone`]s and
-//!   [`Door`]s. It is built from a grid maze, from free segments or from an occupancy grid, and
-//!   never changes; share one between runs with an [`Arc`](std::sync::Arc). 2. A [`Simulation`]
-//!   puts robots into it and keeps what changes: where they are and which doors are shut. Each
-//!   [`step`](Simulation::step) takes one command per robot, moves the bodies (they stop or slide,
-//!   and never pass through anything) and lets every robot sense again. 3. A robot is a [`Model`]:
-//!   a body, a motor that makes a [`Motion`] of a command, and sensors. A
-//!   [`Sensor`](sensors::Sensor) reads its [`Surroundings`]. [`robots`] holds the models and reads
-//!   like their data sheets. 4. [`noise`] wraps sensors and motors: every fault draws from its own
-//!   channel of [`Chance`], so that adding one never shifts another. 5. [`trace`] writes down what
-//!   happened and replays it to the bit. 6. [`Solo`] is one robot in a world of its own behind
-//!   [`tolman_robot::Robot`], which is all that a brain gets to see. The [`Truth`] is kept beside
-//!   it, for scoring.
+//!    [`Door`]s. It is built from a grid maze, from free segments or from an occupancy grid, and
+//!    never changes; share one between runs with an [`Arc`](std::sync::Arc).
+//! 2. A [`Simulation`] puts robots into it and keeps what changes: where they are and which doors
+//!    are shut. Each [`step`](Simulation::step) takes one command per robot, moves the bodies (they
+//!    stop or slide, and never pass through anything) and lets every robot sense again.
+//! 3. A robot is a [`Model`]: a body, a motor that makes a [`Motion`] of a command, and sensors. A
+//!    [`Sensor`](sensors::Sensor) reads its [`Surroundings`]. [`robots`] holds the models and reads
+//!    like their data sheets.
+//! 4. [`noise`] wraps sensors and motors: every fault draws from its own channel of [`Chance`], so
+//!    that adding one never shifts another.
+//! 5. [`trace`] writes down what happened and replays it to the bit.
+//! 6. [`Solo`] is one robot in a world of its own behind [`tolman_robot::Robot`], which is all that
+//!    a brain gets to see. The [`Truth`] is kept beside it, for scoring.
 //!
 //! Mappers of places have a world of their own, without bodies and time: [`abstract_world`].
 //!

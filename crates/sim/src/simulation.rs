@@ -96,7 +96,8 @@ impl<M: Model> Simulation<M> {
 
     /// Adds a robot at `pose` and lets it sense.
     ///
-    /// # Errors If the robot cannot stand there, or its time step differs from that of the others.
+    /// # Errors
+    /// If the robot cannot stand there, or its time step differs from that of the others.
     pub fn add(&mut self, model: M, pose: Pose) -> Result<RobotId, PlaceError> {
         body::check(model.body())?;
         let step_us = model.step_us();
@@ -136,8 +137,8 @@ impl<M: Model> Simulation<M> {
 
     /// Takes one command per robot, in the order of adding, and lets one time step pass.
     ///
-    /// # Errors If there is not one command per robot, or a command is not a number. Nothing has
-    /// moved then.
+    /// # Errors
+    /// If there is not one command per robot, or a command is not a number. Nothing has moved then.
     pub fn step(&mut self, commands: &[M::Command]) -> Result<(), StepError> {
         if commands.len() != self.robots.len() {
             let (commands, robots) = (commands.len(), self.robots.len());
@@ -217,7 +218,8 @@ impl<M: Model> Simulation<M> {
     /// Lifts a robot and puts it down at `pose`: a kidnapping. The robot notices at its next step
     /// at the earliest.
     ///
-    /// # Errors If there is no such robot, or it cannot stand there; it then keeps its pose.
+    /// # Errors
+    /// If there is no such robot, or it cannot stand there; it then keeps its pose.
     pub fn place(&mut self, robot: RobotId, pose: Pose) -> Result<(), PlaceError> {
         let index = robot.0 as usize;
         let body = match self.robots.get(index) {

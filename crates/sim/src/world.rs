@@ -192,7 +192,8 @@ impl World {
 
     /// Returns this world with a further zone.
     ///
-    /// # Errors If there is already a zone of that name, or one of its numbers is not finite.
+    /// # Errors
+    /// If there is already a zone of that name, or one of its numbers is not finite.
     pub fn with_zone(self, zone: Zone) -> Result<Self, WorldError> {
         self.with_zones([zone])
     }

@@ -103,7 +103,8 @@ impl<B: Brain> Actor<B> {
     /// Makes the next action as [`System::act`] does. `see` is shown the brain and every time step
     /// once it is made, before the brain observes it.
     ///
-    /// # Errors If the robot fails, or the brain cannot use its readings.
+    /// # Errors
+    /// If the robot fails, or the brain cannot use its readings.
     pub fn act_seen<R>(
         &mut self,
         robot: &mut R,

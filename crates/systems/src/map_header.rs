@@ -176,7 +176,8 @@ pub fn origin_of(text: &str) -> Result<(String, Origin), FileError> {
 impl MapFiles {
     /// Returns the text of a file with a line end: the header, then the fields of `body`.
     ///
-    /// # Errors [`FileError::Unwritable`] if `body` cannot be written as JSON.
+    /// # Errors
+    /// [`FileError::Unwritable`] if `body` cannot be written as JSON.
     pub fn write(self, origin: &Origin, body: &impl Serialize) -> Result<String, FileError> {
         let system = self.system;
         let file = File {

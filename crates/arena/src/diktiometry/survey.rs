@@ -202,7 +202,8 @@ pub enum RunError {
 impl Survey {
     /// Returns a robot at a random place of an office, with a map of that place alone.
     ///
-    /// # Errors [`RunError`] if robot or observer cannot be made.
+    /// # Errors
+    /// [`RunError`] if robot or observer cannot be made.
     pub fn new(office: &Arc<Office>, config: SurveyConfig, seed: u64) -> Result<Self, RunError> {
         let truth = office.places(&[]);
         let first = stream(seed, 0).random_range(0..truth.len().max(1) as u32) as usize;

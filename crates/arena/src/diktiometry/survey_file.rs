@@ -117,7 +117,8 @@ impl SurveyFile {
 
     /// Reads the text of a file.
     ///
-    /// # Errors [`SurveyFileError`] with the place and the repair.
+    /// # Errors
+    /// [`SurveyFileError`] with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, SurveyFileError> {
         let (origin, body): (_, Body) = FILES.read(text)?;
         if !(0.0..=1.0).contains(&body.heed) {
@@ -163,7 +164,8 @@ impl SurveyFile {
 
     /// Returns the survey, ready to continue. `seed` seeds all random numbers from now on.
     ///
-    /// # Errors [`RunError`] if the robot cannot stand at the file's position.
+    /// # Errors
+    /// [`RunError`] if the robot cannot stand at the file's position.
     pub fn survey(&self, seed: u64) -> Result<Survey, RunError> {
         let past = self.past.clone();
         let observer = self.observer.clone();

@@ -29,7 +29,8 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// Call it in a process of its own, whose parent is `parent`: it leaves its session and inherits
 /// the program's orphans.
 ///
-/// # Errors If the system refuses a session, a signal or a descriptor. Nothing was started then.
+/// # Errors
+/// If the system refuses a session, a signal or a descriptor. Nothing was started then.
 pub fn keep(parent: u32, words: &[String]) -> io::Result<u8> {
     // A session of its own: no Ctrl-C reaches it, and no group of it is anybody else's.
     process::setsid()?;

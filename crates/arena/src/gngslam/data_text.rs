@@ -137,7 +137,8 @@ pub enum DataTextError {
 impl DataSet {
     /// Returns the text of a file. All records must come from the same sensors.
     ///
-    /// # Errors [`DataTextError::Record`] if they do not.
+    /// # Errors
+    /// [`DataTextError::Record`] if they do not.
     pub fn to_text(&self) -> Result<String, DataTextError> {
         let header = self.header();
         let mut text = json(1, &header)?;
@@ -165,7 +166,8 @@ impl DataSet {
 
     /// Reads the text of a file.
     ///
-    /// # Errors [`DataTextError`] with the line and the repair.
+    /// # Errors
+    /// [`DataTextError`] with the line and the repair.
     pub fn from_text(text: &str) -> Result<Self, DataTextError> {
         let mut lines = text.lines();
         let header = Header::read(lines.next().ok_or(DataTextError::Empty)?)?;

@@ -4,14 +4,16 @@
 //! using Growing Neural Gas", 2006. In the order data flows:
 //!
 //! 1. A [`Pitch`] is an arena with two goals: the paper's (section 3.1), two others, and any number
-//!   by seed. It knows the truth: where the goals are, and in which of 8 × 8
-//!   [cells](Pitch::cell_of) a point lies. 2. [`gather`] lets a robot wander in one (section 3.2),
-//!   and writes the truth beside each record: a [`DataSet`]. 3. [`DataSet::to_text`] and
-//!   [`DataSet::from_text`] keep it in a file. 4. A [`PlaceScorer`] turns and stretches a map onto
-//!   the cells ([`FieldFromMap`]) and asks it about some of the records (section 3.4, *Score*).
-//!   Each answer has a [`PointScore`]. 5. [`drive_place_map`] drives by a map that was learned of
-//!   such a data set. 6. [`learn_online`] and [`localize_online`] run the system that corrects its
-//!   pose while it learns.
+//!    by seed. It knows the truth: where the goals are, and in which of 8 × 8
+//!    [cells](Pitch::cell_of) a point lies.
+//! 2. [`gather`] lets a robot wander in one (section 3.2), and writes the truth beside each record:
+//!    a [`DataSet`].
+//! 3. [`DataSet::to_text`] and [`DataSet::from_text`] keep it in a file.
+//! 4. A [`PlaceScorer`] turns and stretches a map onto the cells ([`FieldFromMap`]) and asks it
+//!    about some of the records (section 3.4, *Score*). Each answer has a [`PointScore`].
+//! 5. [`drive_place_map`] drives by a map that was learned of such a data set.
+//! 6. [`learn_online`] and [`localize_online`] run the system that corrects its pose while it
+//!    learns.
 
 mod cells;
 mod data_set;

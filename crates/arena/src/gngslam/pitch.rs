@@ -192,7 +192,8 @@ pub const PIONEER_2DX: &str = "Pioneer 2-DX";
 /// Returns the paper's robot. Each wheel counts wrongly by its own constant share within ±
 /// `calibration`, drawn from `seed`; with 0 the wheels only slip.
 ///
-/// # Errors [`PitchError::Calibration`] if `calibration` is not from 0 to 0.5.
+/// # Errors
+/// [`PitchError::Calibration`] if `calibration` is not from 0 to 0.5.
 pub fn paper_robot(seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, PitchError> {
     if !(0.0..=0.5).contains(&calibration) {
         return Err(PitchError::Calibration { calibration });

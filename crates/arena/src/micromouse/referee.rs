@@ -153,7 +153,8 @@ impl<'a> Referee<'a> {
 
     /// Carries out one order.
     ///
-    /// # Errors If the test program would have broken off; the order has no effect then.
+    /// # Errors
+    /// If the test program would have broken off; the order has no effect then.
     pub fn take(&mut self, order: Order) -> Result<Ruling, OrderError> {
         if let (Rotation::Degrees(degrees), Movement::Reset(_)) = (order.rotation, order.movement) {
             return Err(OrderError::HalfReset { degrees });

@@ -35,7 +35,8 @@ impl SigmaScale {
     /// Estimates the scale from cycles of two closures that begin and end within 10 poses; `None`
     /// if there are fewer than 20.
     ///
-    /// # Errors [`AuditError`] as [`audit`](super::audit()).
+    /// # Errors
+    /// [`AuditError`] as [`audit`](super::audit()).
     ///
     /// # Complexity
     /// O(closures · m · log) where m closures begin within 10 poses.

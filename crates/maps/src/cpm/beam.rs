@@ -117,7 +117,8 @@ impl Beam {
     /// If the beam has to be wider, it goes through all walks since the beginning again with each
     /// width that it tries. The sum of these widths is less than twice the greatest.
     ///
-    /// # Errors If the robot's place has no such turn; nothing is changed then.
+    /// # Errors
+    /// If the robot's place has no such turn; nothing is changed then.
     pub(super) fn walked(
         &mut self,
         turn: Turn,
@@ -190,7 +191,8 @@ impl Beam {
     /// Notes that the robot has turned round in an unknown fragment after `observations`
     /// observations.
     ///
-    /// # Errors If the robot's place has no such turn; nothing is changed then.
+    /// # Errors
+    /// If the robot's place has no such turn; nothing is changed then.
     pub(super) fn turned_back(&mut self, turn: Turn, observations: u32) -> Result<(), NoSuchTurn> {
         self.best().exit(turn)?;
         turn_back(&mut self.hypotheses, turn, observations);

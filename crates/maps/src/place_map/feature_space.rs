@@ -83,7 +83,8 @@ impl FeatureSpace {
 
     /// Returns the features of a record outside the table.
     ///
-    /// # Errors [`FeatureError`] if the record lacks a chosen feature; the error names it record 0.
+    /// # Errors
+    /// [`FeatureError`] if the record lacks a chosen feature; the error names it record 0.
     pub fn features(&self, of: &PlaceRecord) -> Result<Vec<f32>, FeatureError> {
         let mut features = Vec::with_capacity(self.dimension());
         for part in &self.parts {

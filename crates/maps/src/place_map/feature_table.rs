@@ -54,7 +54,8 @@ impl FeatureTable {
     ///
     /// O(records × values); of images in [`ImageForm::Span`] O(records² × values) once.
     ///
-    /// # Errors If there are no records, or one lacks a chosen feature.
+    /// # Errors
+    /// If there are no records, or one lacks a chosen feature.
     pub fn of(
         records: &[PlaceRecord],
         choice: &FeatureChoice,

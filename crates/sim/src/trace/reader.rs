@@ -54,7 +54,8 @@ pub struct Reader<M: Recordable, R> {
 impl<M: Recordable, R: BufRead> Reader<M, R> {
     /// Reads the first line.
     ///
-    /// # Errors If it is not the first line of a trace of such robots.
+    /// # Errors
+    /// If it is not the first line of a trace of such robots.
     pub fn open(trace: R) -> Result<Self, ReplayError> {
         let mut lines = trace.lines();
         let first = lines.next().ok_or(ReplayError::Empty)??;

@@ -78,8 +78,9 @@ impl<M: Recordable, W: Write> Recording<M, W> {
 
     /// Lets one time step pass, as [`Simulation::step`] does, and writes it down.
     ///
-    /// # Errors If the step is not made, or cannot be written. In the latter case the run can
-    /// continue, but the trace cannot.
+    /// # Errors
+    /// If the step is not made, or cannot be written. In the latter case the run can continue, but
+    /// the trace cannot.
     pub fn step(&mut self, commands: &[M::Command]) -> Result<(), RecordError> {
         self.simulation.step(commands)?;
         for (robot, command) in self.simulation.robots().zip(commands) {

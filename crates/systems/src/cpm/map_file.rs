@@ -65,7 +65,8 @@ impl MapFile {
 
     /// Reads the text of a file.
     ///
-    /// # Errors [`MapFileError`], with the place and the repair.
+    /// # Errors
+    /// [`MapFileError`], with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
         let (origin, body): (_, Body) = FILES.read(text)?;
         let dictionary = body.map.dictionary()?;

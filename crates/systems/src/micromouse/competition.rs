@@ -145,7 +145,8 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
     /// no wall closes, in the order of [`Direction::ALL`]. O(n) for n cells, and a search if the
     /// run hoped for is closed.
     ///
-    /// # Errors If the walls contradict earlier observations, or no way leads to a goal.
+    /// # Errors
+    /// If the walls contradict earlier observations, or no way leads to a goal.
     pub fn next(&mut self, open: [bool; 4]) -> Result<CompetitionNext, ExploreError> {
         self.walls.observe(self.at, &rays(open))?;
         loop {

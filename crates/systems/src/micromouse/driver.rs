@@ -11,7 +11,8 @@ use super::{Brief, Certificate, MouseError, Order, RunTwo, SIDE, Sight};
 pub trait Search {
     /// Returns the next action in the first run.
     ///
-    /// # Errors If the maze is larger than the search can hold.
+    /// # Errors
+    /// If the maze is larger than the search can hold.
     fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge>;
 }
 
@@ -123,7 +124,8 @@ impl<S: Search> Driver<S> {
 
     /// Returns the next order, given the present reading of the sensors. Called once per step.
     ///
-    /// # Errors If the mouse cannot decide.
+    /// # Errors
+    /// If the mouse cannot decide.
     pub fn next(&mut self, sight: Sight) -> Result<Order, MouseError> {
         if let Some(plan) = &mut self.plan {
             let leap = plan.pop().ok_or(MouseError::Stuck)?;

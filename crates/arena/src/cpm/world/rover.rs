@@ -164,7 +164,8 @@ impl<'a> PlaneWalker<'a> {
     /// Walks as `explorer` decides until there is nothing more to do for `aim`. Calls `see` with
     /// every fragment that was walked to its end.
     ///
-    /// # Errors [`CpmError`] if the explorer decides on a turn that does not exist, or refuses an
+    /// # Errors
+    /// [`CpmError`] if the explorer decides on a turn that does not exist, or refuses an
     /// observation.
     pub fn pursue<G: Rng>(
         &mut self,

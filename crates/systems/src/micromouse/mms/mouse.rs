@@ -39,8 +39,9 @@ const DOUBTFUL: usize = 2;
 /// nearest first. After a press of the reset button it continues from the start. After a crash,
 /// too, it continues from the start, and forgets its last observations.
 ///
-/// # Errors If the simulator ends or gives an invalid reply, the maze has more than 32 columns or
-/// rows, or no way leads to its goal.
+/// # Errors
+/// If the simulator ends or gives an invalid reply, the maze has more than 32 columns or rows, or
+/// no way leads to its goal.
 pub fn play(
     input: impl BufRead,
     output: impl Write,

@@ -85,7 +85,8 @@ impl BetterMapFile {
 
     /// Reads the text of a file.
     ///
-    /// # Errors [`BetterMapFileError`] with the place and the repair.
+    /// # Errors
+    /// [`BetterMapFileError`] with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, BetterMapFileError> {
         let (origin, body): (_, Body) = FILES.read(text)?;
         body.config.check()?;
